@@ -1,0 +1,46 @@
+#include "base/error.h"
+
+#include <stdio.h>
+
+static void fill(struct kd_error *error, enum kd_status status, const char *pointer,
+                 const char *format, va_list args)
+{
+    if (!error)
+        return;
+    error->status = status;
+    snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
+    vsnprintf(error->message, sizeof error->message, format, args);
+}
+
+enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fill(error, status, "", format, args);
+    va_end(args);
+    return status;
+}
+
+enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fill(error, KD_EINVAL, pointer, format, args);
+    va_end(args);
+    return KD_EINVAL;
+}
+
+const char *kd_status_name(enum kd_status status)
+{
+    switch (status) {
+    case KD_OK: return "ok";
+    case KD_EINVAL: return "invalid input";
+    case KD_ETOOBIG: return "too large";
+    case KD_ENOMEM: return "out of memory";
+    case KD_EIO: return "input or output failed";
+    case KD_EDEVICE: return "device failed";
+    case KD_EBUSY: return "busy";
+    case KD_ECANCELLED: return "cancelled";
+    }
+    return "unknown status";
+}

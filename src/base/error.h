@@ -1,0 +1,39 @@
+/* Status codes and the one sentence that explains them.
+ *
+ * A function that can fail returns enum kd_status and fills the caller's
+ * struct kd_error (which may be NULL). Only the server maps a status to an
+ * HTTP code and only main maps it to an exit code. No thread-local state. */
+#ifndef KD_BASE_ERROR_H
+#define KD_BASE_ERROR_H
+
+#include <stdarg.h>
+
+enum kd_status {
+    KD_OK = 0,
+    KD_EINVAL,     /* bad input: the caller's fault, names field, value and range  */
+    KD_ETOOBIG,    /* well-formed, but larger than this device or this server holds */
+    KD_ENOMEM,     /* allocation failed, host or device                             */
+    KD_EIO,        /* a file or socket                                              */
+    KD_EDEVICE,    /* no usable device, or the device failed or missed its deadline */
+    KD_EBUSY,      /* the queue is full                                             */
+    KD_ECANCELLED, /* the caller's progress callback asked to stop                  */
+};
+
+struct kd_error {
+    enum kd_status status;
+    char pointer[160]; /* RFC 6901 JSON pointer to the offending field, "" if none */
+    char message[480]; /* one sentence, no trailing newline or full stop needed    */
+};
+
+/* Fill *error (if not NULL) and return status, so that callers can `return kd_error_set(...)`. */
+enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The same for one field of an input document: status KD_EINVAL, with its JSON pointer. */
+enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* A word for a status ("invalid input", "out of memory", ...). Never NULL. */
+const char *kd_status_name(enum kd_status status);
+
+#endif

@@ -1,0 +1,37 @@
+/* PNG files through libpng: 8- or 16-bit RGB, sRGB, with text chunks. Any thread.
+ *
+ * Pixels are rows from the top, three channels, no padding; 16-bit samples are uint16_t of this machine. */
+#ifndef KD_IMAGE_PNG_H
+#define KD_IMAGE_PNG_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt where tEXt cannot hold it */
+
+struct kd_png_params {
+    uint32_t width, height;
+    int bit_depth;   /* 8 or 16 */
+    int compression; /* zlib level 0..8; 1 with the Sub filter is what a live view wants */
+    const void *pixels;
+    const struct kd_png_text *text;
+    size_t n_text;
+};
+enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error);
+
+/* A decoded picture; RGB whatever the file held. Free with kd_png_finish. Limits: 32768 pixels a side, 1 MiB of text. */
+struct kd_png {
+    uint32_t width, height;
+    int bit_depth; /* 8 or 16 */
+    void *pixels;
+    struct kd_png_text *text;
+    size_t n_text;
+};
+enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error);
+const char *kd_png_text_find(const struct kd_png *png, const char *key); /* NULL if there is none */
+void kd_png_finish(struct kd_png *png);
+
+#endif

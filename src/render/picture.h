@@ -1,0 +1,19 @@
+/* A frame as a PNG file that can be rendered again from itself, and back. Any thread.
+ *
+ * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations"
+ * (one a line), "kerrd:device", "Software". */
+#ifndef KD_RENDER_PICTURE_H
+#define KD_RENDER_PICTURE_H
+
+#include "base/buffer.h"
+#include "render/render.h"
+
+/* compression: as kd_png_params. */
+enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_scene *scene,
+                                 const struct kd_plan *plan, const char *device, int compression,
+                                 struct kd_buffer *png, struct kd_error *error);
+
+/* The scene inside a picture made by kd_picture_encode; KD_EINVAL if there is none. */
+enum kd_status kd_picture_scene(const void *png, size_t size, struct kd_scene *out, struct kd_error *error);
+
+#endif

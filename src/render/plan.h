@@ -1,0 +1,57 @@
+/* What a scene requires and nothing more: passes, specialisation constants, rays, bytes, estimated
+ * time, approximations. Rendering executes the plan; admission control reads it. Any thread. */
+#ifndef KD_RENDER_PLAN_H
+#define KD_RENDER_PLAN_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_PLAN_MAX_PASSES 8
+#define KD_PLAN_MAX_APPROXIMATIONS 16
+
+/* What the device allows and how fast it has been measured to be. */
+struct kd_capacity {
+    uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything */
+    double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post;
+    bool measured; /* false: the figures are a default guess for this type of device */
+};
+
+struct kd_plan_pass {
+    const char *name;   /* "trace", "transfer", "expose", "post", "readback" */
+    const char *kernel; /* file under shaders/comp, "" for a copy             */
+    uint64_t invocations;
+    double estimate_ms;
+};
+
+struct kd_plan {
+    uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
+    uint64_t rays;
+    bool radius_only;               /* nothing in the scene needs more than the crossing radii */
+    bool phi, sky;                  /* the lens map holds azimuths; sky directions and fates */
+    uint32_t orders, steps;         /* crossings a ray; integrator steps between crossings (0: closed form) */
+    uint32_t planes;                /* 4-byte values a ray in the lens map */
+    uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */
+    bool cacheable;                 /* the whole lens map fits in memory and can be kept */
+    uint64_t lens_bytes, device_bytes, host_bytes;
+    struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
+    size_t n_passes;
+    double estimate_ms;
+    bool measured;
+    const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
+    size_t n_approximations;
+    char lens_key[65]; /* hash of what the lens map depends on */
+};
+
+/* scene must be valid (kd_scene_validate). KD_ETOOBIG, saying how much, when it does not fit. */
+enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
+                            struct kd_plan *out, struct kd_error *error);
+
+/* The plan as the JSON of POST /v1/plan. */
+enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);
+
+#endif

@@ -1,0 +1,56 @@
+/* Scenes to pictures on one device. One thread (the render thread) owns a struct kd_renderer; the only
+ * call allowed from others is kd_renderer_capacity. */
+#ifndef KD_RENDER_RENDER_H
+#define KD_RENDER_RENDER_H
+
+#include "base/error.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct kd_renderer;
+
+struct kd_renderer_params {
+    const char *device;     /* as kd_vk_params */
+    const char *cache_dir;  /* as kd_vk_params */
+    bool validate;
+    uint64_t memory_bytes;  /* most device memory to use; 0: three quarters of the heap */
+};
+enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
+                                  struct kd_error *error);
+void kd_renderer_destroy(struct kd_renderer *renderer);
+
+/* A copy of the present capacity, for kd_plan_make. Any thread. */
+void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
+/* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
+enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
+/* One line: "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
+const char *kd_renderer_device_name(const struct kd_renderer *renderer);
+uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
+
+struct kd_timing { char name[24]; double ms; };
+#define KD_FRAME_MAX_TIMINGS 12
+
+struct kd_frame {
+    uint32_t width, height;
+    int bit_depth;            /* 8 or 16 */
+    void *pixels;             /* rows from the top, RGB, no padding; malloc'd */
+    double exposure;          /* stops that were applied */
+    bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "transfer", "expose", "post", "readback" (those that ran), "total" */
+    size_t n_timings;
+};
+void kd_frame_finish(struct kd_frame *frame);
+
+/* Called between slices with the fraction done; return false to stop: KD_ECANCELLED. */
+typedef bool (*kd_progress_fn)(void *user, double fraction);
+
+/* Render a valid scene by its plan (made with this renderer's capacity). */
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
+                         const struct kd_plan *plan, kd_progress_fn progress, void *user,
+                         struct kd_frame *out, struct kd_error *error);
+
+#endif

@@ -1,0 +1,101 @@
+/* The scene document, version 1: one row a field.
+ *
+ * Each row expands to the struct member, the default, the JSON parser, --set, the query
+ * parameter, the JSON Schema and docs/scene.md. Add a field here and nowhere else.
+ *
+ *   REAL(section, name, default, minimum, maximum, unit, help)
+ *   WORD(section, name, default, minimum, maximum, unit, help, word)   a real, or the word (stored as INFINITY)
+ *   INT (section, name, default, minimum, maximum, unit, help)
+ *   BOOL(section, name, default, help)
+ *   ENUM(section, name, default, help, words)                          words "a|b|c": the value is the index
+ *
+ * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" is a pure number.
+ * Order here is the order of the canonical form and of the reference. */
+#ifndef KD_SCENE_FIELDS_H
+#define KD_SCENE_FIELDS_H
+
+#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                      \
+    REAL(spacetime, spin, 0.9, -0.999999999999, 0.999999999999, "M",                                          \
+         "spin parameter a; a < 0 is a disk retrograde to its hole")                                          \
+    REAL(spacetime, mass_msun, 1e8, 1e-3, 1e12, "solar masses",                                               \
+         "mass of the hole; sets the temperature when disk.colour is \"accretion\"")
+
+#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                         \
+    WORD(camera, r, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")            \
+    REAL(camera, inclination_deg, 80.0, 0.0, 180.0, "degrees",                                                \
+         "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")              \
+    REAL(camera, azimuth_deg, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer")       \
+    ENUM(camera, observer, KD_OBSERVER_STATIC,                                                                \
+         "state of motion at a finite radius: at rest with respect to infinity, or with zero angular momentum", \
+         "static|zamo")                                                                                       \
+    ENUM(camera, projection, KD_PROJECTION_AUTO,                                                              \
+         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "       \
+         "auto: whichever fits camera.r",                                                                     \
+         "auto|plane|pinhole")                                                                                \
+    REAL(camera, field_m, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)")                \
+    REAL(camera, fov_deg, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)")      \
+    REAL(camera, centre_alpha, 0.0, -1e7, 1e7, "M", "image-plane alpha at the middle of the picture (plane)") \
+    REAL(camera, centre_beta, 0.0, -1e7, 1e7, "M", "image-plane beta at the middle of the picture (plane)")   \
+    REAL(camera, yaw_deg, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (pinhole)")           \
+    REAL(camera, pitch_deg, 0.0, -90.0, 90.0, "degrees", "look above the hole (pinhole)")                     \
+    REAL(camera, roll_deg, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis")
+
+#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                           \
+    ENUM(disk, model, KD_DISK_NOVIKOV_THORNE,                                                                 \
+         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO",     \
+         "none|novikov-thorne|shakura-sunyaev")                                                               \
+    WORD(disk, inner, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco")                   \
+    REAL(disk, outer, 20.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                           \
+    REAL(disk, taper, 0.25, 0.0, 1.0, "1",                                                                    \
+         "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                 \
+    REAL(disk, opacity, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")                  \
+    ENUM(disk, colour, KD_COLOUR_PEAK,                                                                        \
+         "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",       \
+         "peak|accretion")                                                                                    \
+    REAL(disk, peak_temperature_k, 7000.0, 300.0, 1e9, "K",                                                   \
+         "largest effective temperature of the disk, in its own frame (colour: peak)")                        \
+    REAL(disk, mdot_edd, 0.1, 1e-12, 1e3, "Eddington rates",                                                  \
+         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin")        \
+    REAL(disk, hardening, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature")                \
+    ENUM(disk, band, KD_BAND_BOLOMETRIC,                                                                      \
+         "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it", \
+         "bolometric|visible")                                                                                \
+    BOOL(disk, doppler, true, "the Doppler shift and beaming of the orbiting gas")                            \
+    BOOL(disk, redshift, true, "gravitational redshift and time dilation of the orbiting gas")
+
+#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
+    ENUM(sky, model, KD_SKY_NONE,                                                                             \
+         "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")           \
+    REAL(sky, brightness, 0.2, 0.0, 100.0, "1", "brightness of the sky against a white of 1 after exposure")  \
+    REAL(sky, grid_deg, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
+
+#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \
+    INT(image, width, 1280, 1, 32768, "pixels", "width of the picture")                                       \
+    INT(image, height, 720, 1, 32768, "pixels", "height of the picture")                                      \
+    INT(image, samples, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")        \
+    INT(image, bit_depth, 8, 8, 16, "bits", "bits a channel: 8 or 16")
+
+#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \
+    WORD(style, exposure, INFINITY, -40.0, 40.0, "stops",                                                     \
+         "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")        \
+    ENUM(style, tone_map, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")                \
+    BOOL(style, dither, true, "half a step of ordered noise before rounding, against banding")
+
+#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                       \
+    ENUM(accuracy, profile, KD_PROFILE_BALANCED, "steps of the integrator, coarse to fine",                   \
+         "draft|interactive|balanced|high")                                                                   \
+    INT(accuracy, orders, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
+
+#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
+    REAL(top, time, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
+
+enum kd_observer { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO };
+enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE };
+enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV };
+enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
+enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
+enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };
+enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB };
+enum kd_profile { KD_PROFILE_DRAFT, KD_PROFILE_INTERACTIVE, KD_PROFILE_BALANCED, KD_PROFILE_HIGH };
+
+#endif

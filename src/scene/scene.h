@@ -1,0 +1,70 @@
+/* What to render. A scene is a plain value: copy it, compare it by its hash, share it between threads
+ * as const. Fields, defaults, ranges and units are in scene/fields.h. */
+#ifndef KD_SCENE_SCENE_H
+#define KD_SCENE_SCENE_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+#include "scene/fields.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_SCENE_VERSION 1
+
+#define KD_M_REAL(s, name, ...) double name;
+#define KD_M_INT(s, name, ...) int32_t name;
+#define KD_M_BOOL(s, name, ...) bool name;
+#define KD_M_ENUM(s, name, ...) int32_t name;
+#define KD_M(LIST) LIST(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM)
+
+struct kd_scene {
+    struct kd_spacetime { KD_M(KD_SPACETIME_FIELDS) } spacetime;
+    struct kd_camera { KD_M(KD_CAMERA_FIELDS) } camera;
+    struct kd_disk { KD_M(KD_DISK_FIELDS) } disk;
+    struct kd_sky { KD_M(KD_SKY_FIELDS) } sky;
+    struct kd_image { KD_M(KD_IMAGE_FIELDS) } image;
+    struct kd_style { KD_M(KD_STYLE_FIELDS) } style;
+    struct kd_accuracy { KD_M(KD_ACCURACY_FIELDS) } accuracy;
+    struct { KD_M(KD_TOP_FIELDS) } top; /* members of the document itself, without a section */
+};
+
+/* Every field at its default: the picture of an empty document. */
+void kd_scene_defaults(struct kd_scene *scene);
+
+/* A preset by name; KD_EINVAL naming the known ones otherwise. */
+enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error);
+size_t kd_scene_preset_count(void);
+const char *kd_scene_preset_name(size_t index);
+const char *kd_scene_preset_title(size_t index);
+
+/* Merge a JSON document into *scene. Fields it does not name keep the value they had, so
+ * start from the defaults or a preset. Rejects, with a JSON pointer and what is allowed: text after the document,
+ * duplicate keys, unknown fields, wrong types, NaN and numbers that overflow, depth over 32,
+ * text over KD_SCENE_JSON_MAX bytes, a version other than 1. On error *scene is unchanged.
+ * Does not look across fields: call kd_scene_validate when every source has been merged. */
+#define KD_SCENE_JSON_MAX (1u << 20)
+enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
+                                  struct kd_error *error);
+
+/* Set one scalar field by its dotted path ("camera.inclination_deg") from text. */
+enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value,
+                            struct kd_error *error);
+
+/* Rules that tie fields together: a static observer outside the ergosphere, a pinhole at a finite
+ * radius, disk edges in order and outside the ISCO, bit depth 8 or 16, ... */
+enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
+
+/* The canonical document: every field, in table order, shortest numbers that read back exactly, no spaces. */
+enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out);
+
+/* SHA-256 of the canonical document as 64 hexadecimal digits and a NUL. */
+enum kd_status kd_scene_hash(const struct kd_scene *scene, char hash[65]);
+
+/* From the same table: JSON Schema (draft 2020-12) of the document, and docs/scene.md. */
+enum kd_status kd_scene_schema(struct kd_buffer *out);
+enum kd_status kd_scene_reference(struct kd_buffer *out);
+
+#endif

@@ -1,0 +1,30 @@
+/* The HTTP service: routes, limits, a bounded queue in front of the render thread. Sees no Vulkan type. */
+#ifndef KD_SERVER_SERVER_H
+#define KD_SERVER_SERVER_H
+
+#include "base/error.h"
+#include "render/render.h"
+
+#include <stdint.h>
+
+struct kd_server;
+
+struct kd_server_params {
+    const char *listen;      /* numeric address, default "127.0.0.1" */
+    uint16_t port;           /* 0: any free port */
+    const char *const *hosts;/* further accepted Host names (without port), NULL-terminated; loopback names always are */
+    unsigned queue;          /* renders that may wait, default 16 */
+    unsigned drain_ms;       /* after a stop request, how long /readyz fails before requests are refused; default 1000 */
+    struct kd_renderer_params renderer;
+};
+
+/* Opens the device, starts the render thread and listens. */
+enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out, struct kd_error *error);
+uint16_t kd_server_port(const struct kd_server *server);
+/* Begin to stop: /readyz fails at once, running and queued renders finish. Async-signal-safe. */
+void kd_server_stop(struct kd_server *server);
+/* Block until stopped and drained. KD_EDEVICE when the device was lost. */
+enum kd_status kd_server_wait(struct kd_server *server, struct kd_error *error);
+void kd_server_destroy(struct kd_server *server);
+
+#endif
