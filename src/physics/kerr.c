@@ -1,0 +1,68 @@
+#include "physics/kerr.h"
+
+#include <math.h>
+
+/* (1 - a)(1 + a): 1 - a*a loses all digits as |a| -> 1. */
+static double one_minus_a2(double a) { return (1 - a) * (1 + a); }
+
+double kd_kerr_horizon(double a) { return 1 + sqrt(one_minus_a2(a)); }
+
+/* a^2 / r+, since r+ r- = a^2: no cancellation at small a. */
+double kd_kerr_inner_horizon(double a) { return a * a / kd_kerr_horizon(a); }
+
+double kd_kerr_ergosphere(double a, double cos_theta) { return 1 + sqrt(one_minus_a2(a * cos_theta)); }
+
+double kd_kerr_isco(double a)
+{
+    double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
+    double z2 = sqrt(3 * a * a + z1 * z1);
+    double r = 3 + z2 - copysign(sqrt((3 - z1) * (3 + z1 + 2 * z2)), a);
+
+    /* 3 - Z1 cancels for small a and its root is good to 1e-8 only; Newton on the defining quartic in x = sqrt(r),
+     * x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root and the formula is the better one. */
+    if (fabs(a) < 0.7) {
+        double x = sqrt(r);
+        for (int i = 0; i < 3; i++)
+            x -= (((x * x - 6) * x + 8 * a) * x - 3 * a * a) / ((4 * x * x - 12) * x + 8 * a);
+        r = x * x;
+    }
+    return r;
+}
+
+double kd_kerr_photon_orbit(double a)
+{
+    /* 2(1 + cos(2/3 acos(-a))) = 4 cos^2(acos(-a)/3). */
+    double c = cos(acos(-a) / 3);
+    return 4 * c * c;
+}
+
+double kd_kerr_marginally_bound(double a)
+{
+    double s = 1 + sqrt(1 - a);
+    return s * s;
+}
+
+double kd_kerr_omega(double a, double r) { return 1 / (r * sqrt(r) + a); }
+
+/* 1 - 3/r + 2a/r^(3/2), the common denominator; zero at the photon orbit. */
+static double circular_norm(double a, double r) { return sqrt(1 - 3 / r + 2 * a / (r * sqrt(r))); }
+
+double kd_kerr_energy(double a, double r)
+{
+    return (1 - 2 / r + a / (r * sqrt(r))) / circular_norm(a, r);
+}
+
+double kd_kerr_momentum(double a, double r)
+{
+    return sqrt(r) * (1 - 2 * a / (r * sqrt(r)) + a * a / (r * r)) / circular_norm(a, r);
+}
+
+double kd_kerr_ut(double a, double r) { return (1 + a / (r * sqrt(r))) / circular_norm(a, r); }
+
+double kd_kerr_efficiency(double a) { return 1 - kd_kerr_energy(a, kd_kerr_isco(a)); }
+
+double kd_kerr_dragging(double a, double r, double cos_theta)
+{
+    double delta = r * r - 2 * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta), w = r * r + a * a;
+    return 2 * a * r / (w * w - a * a * delta * s2);
+}
