@@ -1,0 +1,52 @@
+#include "physics/colour.h"
+
+#include <math.h>
+
+/* Planck's law, W m^-3 sr^-1, at a wavelength in m. */
+static double planck(double wavelength, double temperature)
+{
+    const double h = 6.62607015e-34, c = 299792458.0, k = 1.380649e-23; /* SI, exact */
+    double x = h * c / (wavelength * k * temperature);
+    return x > 700 ? 0 : 2 * h * c * c / (pow(wavelength, 5) * expm1(x));
+}
+
+struct kd_colour_xyz kd_colour_blackbody(double temperature)
+{
+    struct kd_colour_xyz sum = { 0, 0, 0 };
+    for (int i = 0; i < KD_CIE1931_COUNT; i++) { /* the functions vanish at both ends: the sum is a trapezoid */
+        double b = planck((KD_CIE1931_FIRST_NM + i * KD_CIE1931_STEP_NM) * 1e-9, temperature) * KD_CIE1931_STEP_NM * 1e-9;
+        sum.x += b * kd_cie1931[i][0];
+        sum.y += b * kd_cie1931[i][1];
+        sum.z += b * kd_cie1931[i][2];
+    }
+    return sum;
+}
+
+struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz c)
+{
+    return (struct kd_colour_rgb){
+        3.2404541621 * c.x - 1.5371385128 * c.y - 0.4985314096 * c.z,
+        -0.9692660305 * c.x + 1.8760108454 * c.y + 0.0415560175 * c.z,
+        0.0556434310 * c.x - 0.2040259135 * c.y + 1.0572251882 * c.z,
+    };
+}
+
+struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
+{
+    struct kd_colour_xyz xyz = kd_colour_blackbody(temperature);
+    if (!(xyz.y > 0)) /* below about 60 K the visible light underflows: the limit is the deepest red of the gamut */
+        return (struct kd_colour_rgb){ 1 / 0.2126729, 0, 0 };
+    struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz){ xyz.x / xyz.y, 1, xyz.z / xyz.y });
+    double low = fmin(c.r, fmin(c.g, c.b));
+    if (low < 0) { /* grey of luminance 1 is (1, 1, 1): c + s (1 - c) with the least s that lifts `low` to 0 */
+        double s = low / (low - 1);
+        c = (struct kd_colour_rgb){ c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };
+    }
+    return c;
+}
+
+double kd_colour_luminous_fraction(double temperature)
+{
+    const double sigma_sb = 5.670374419184e-8;
+    return kd_colour_blackbody(temperature).y / (sigma_sb * pow(temperature, 4) / M_PI);
+}

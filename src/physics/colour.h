@@ -1,0 +1,28 @@
+/* Colour of a black body: Planck's law through the CIE 1931 observer to linear sRGB. No palette.
+ * Double precision, pure, any thread. */
+#ifndef KD_PHYSICS_COLOUR_H
+#define KD_PHYSICS_COLOUR_H
+
+#define KD_CIE1931_COUNT 95
+#define KD_CIE1931_FIRST_NM 360.0
+#define KD_CIE1931_STEP_NM 5.0
+extern const double kd_cie1931[KD_CIE1931_COUNT][3];
+
+struct kd_colour_xyz { double x, y, z; };
+struct kd_colour_rgb { double r, g, b; };
+
+/* CIE XYZ of the spectral radiance B_lambda(T), integrated over wavelength in W m^-2 sr^-1 (without the factor 683 lm/W).
+ * T in K, > 0. */
+struct kd_colour_xyz kd_colour_blackbody(double temperature);
+
+/* Linear sRGB (IEC 61966-2-1 primaries, D65 white), not clipped: components can be negative. */
+struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
+
+/* Colour of a black body as linear sRGB of luminance 1. Outside the sRGB gamut (below about 1900 K) it is moved towards
+ * the grey of the same luminance until no component is negative. */
+struct kd_colour_rgb kd_colour_blackbody_unit(double temperature);
+
+/* Luminance Y over total radiance sigma T^4 / pi: the fraction of a black body's light that the eye weighs. */
+double kd_colour_luminous_fraction(double temperature);
+
+#endif

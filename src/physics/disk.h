@@ -1,0 +1,26 @@
+/* The thin accretion disk: radial flux, temperature, redshift factor. Double precision, pure, any thread.
+ * G = c = M = 1; spin signed as in physics/kerr.h; the gas turns towards +phi. */
+#ifndef KD_PHYSICS_DISK_H
+#define KD_PHYSICS_DISK_H
+
+/* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and
+ * proper time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO.
+ * Relative error below 1e-10 for r - r_isco > 1e-4, |a| <= 0.9999. */
+double kd_disk_flux_page_thorne(double a, double r);
+
+/* Shakura & Sunyaev 1973 (Newtonian) with the inner edge at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */
+double kd_disk_flux_shakura_sunyaev(double a, double r);
+
+/* Radius of the largest flux, by golden section; *flux (may be NULL) is its value. */
+typedef double (*kd_disk_flux_fn)(double a, double r);
+double kd_disk_peak(kd_disk_flux_fn flux_of, double a, double *flux);
+
+/* Redshift factor g = nu_infinity / nu_emitted = 1 / (u^t (1 - Omega lambda)) of gas on a circular orbit at r >= ISCO,
+ * for a photon of lambda = L/E. Cunningham 1975, ApJ 202, 788. */
+double kd_disk_redshift(double a, double r, double lambda);
+
+/* Effective temperature in K of flux F/Mdot (as above) for a mass in solar masses and an accretion rate in units of
+ * L_Edd / (efficiency(a) c^2), with L_Edd = 4 pi G M m_p c / sigma_T. CODATA 2018, IAU 2015 solar mass parameter. */
+double kd_disk_temperature(double flux, double a, double mass_msun, double mdot_edd);
+
+#endif
