@@ -89,6 +89,17 @@
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     REAL(top, time, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
+/* The sections, in order: SECTION(name, rows, help). The rows of "top" are members of the document itself. */
+#define KD_SCENE_SECTIONS(SECTION)                                                                            \
+    SECTION(spacetime, KD_SPACETIME_FIELDS, "the hole")                                                       \
+    SECTION(camera, KD_CAMERA_FIELDS, "where the observer is and what it looks at")                           \
+    SECTION(disk, KD_DISK_FIELDS, "the accretion disk in the equatorial plane, turning towards +phi")         \
+    SECTION(sky, KD_SKY_FIELDS, "what lies at infinity")                                                      \
+    SECTION(image, KD_IMAGE_FIELDS, "the size of the picture")                                                \
+    SECTION(style, KD_STYLE_FIELDS, "from brightness to the colours of the file")                             \
+    SECTION(accuracy, KD_ACCURACY_FIELDS, "how closely the rays are followed")                                \
+    SECTION(top, KD_TOP_FIELDS, "members of the document itself")
+
 enum kd_observer { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO };
 enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV };

@@ -1,0 +1,11 @@
+/* What someone may have meant by a name that does not exist. Any thread. */
+#ifndef KD_SCENE_HINT_H
+#define KD_SCENE_HINT_H
+
+#include "base/error.h"
+
+/* KD_EINVAL for a field that does not exist: its pointer and the nearest name, "did you mean camera.r?", or
+ * the names that section knows when none is near. section: "" for the document itself; need not exist. */
+enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, const char *name);
+
+#endif

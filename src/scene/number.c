@@ -1,0 +1,68 @@
+#include "scene/number.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct kd_number_locale kd_number_locale_enter(void)
+{
+    /* libc keeps this one ready: nothing is allocated. */
+    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    return (struct kd_number_locale) { c, uselocale(c) };
+}
+
+void kd_number_locale_leave(struct kd_number_locale state)
+{
+    uselocale(state.previous);
+    if (state.c)
+        freelocale(state.c);
+}
+
+static size_t digits(const char *text, size_t i, size_t length)
+{
+    while (i < length && text[i] >= '0' && text[i] <= '9')
+        i++;
+    return i;
+}
+
+size_t kd_number_span(const char *text, size_t length)
+{
+    size_t i = length && text[0] == '-', start = i;
+    i = digits(text, i, length);
+    if (i == start || (text[start] == '0' && i > start + 1))
+        return 0;
+    if (i < length && text[i] == '.') {
+        start = ++i;
+        i = digits(text, i, length);
+        if (i == start)
+            return 0;
+    }
+    if (i < length && (text[i] == 'e' || text[i] == 'E')) {
+        i++;
+        if (i < length && (text[i] == '+' || text[i] == '-'))
+            i++;
+        start = i;
+        i = digits(text, i, length);
+        if (i == start)
+            return 0;
+    }
+    return i;
+}
+
+double kd_number_parse(const char *text)
+{
+    struct kd_number_locale locale = kd_number_locale_enter();
+    double value = strtod(text, NULL);
+    kd_number_locale_leave(locale);
+    return value;
+}
+
+void kd_number_format(char out[KD_NUMBER_SIZE], double value)
+{
+    struct kd_number_locale locale = kd_number_locale_enter();
+    for (int digits_kept = 15; digits_kept <= 17; digits_kept++) {
+        snprintf(out, KD_NUMBER_SIZE, "%.*g", digits_kept, value);
+        if (strtod(out, NULL) == value)
+            break;
+    }
+    kd_number_locale_leave(locale);
+}

@@ -1,0 +1,80 @@
+#include "scene/presets.h"
+
+#include "scene/scene.h"
+#include "scene/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* clang-format off */
+const struct kd_preset kd_presets[] = {
+    { "schwarzschild", "A hole that does not spin, its disk seen from 10 degrees above",
+      "{\"spacetime\":{\"spin\":0},"
+      "\"camera\":{\"inclination_deg\":80}}" },
+    { "gargantua", "A hole near the largest spin from 74 M, just above its disk; with the Doppler shift and the redshift "
+                   "that the film left out",
+      "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
+      "\"camera\":{\"r\":74.1,\"inclination_deg\":86.6,\"fov_deg\":40},"
+      "\"disk\":{\"outer\":18.7,\"peak_temperature_k\":4500,\"band\":\"visible\"}}" },
+    { "m87", "The hole of M87 with its spin pointing away from us; a thin disk stands in for the hot flow",
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9},"
+      "\"camera\":{\"inclination_deg\":163,\"field_m\":30},"
+      "\"disk\":{\"outer\":15}}" },
+    { "sgra", "The hole in the middle of our Galaxy; a thin disk stands in for the hot flow",
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.3e6},"
+      "\"camera\":{\"inclination_deg\":30,\"field_m\":30},"
+      "\"disk\":{\"outer\":15}}" },
+    { "luminet1979", "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness",
+      "{\"spacetime\":{\"spin\":0},"
+      "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":80,\"field_m\":46},"
+      "\"disk\":{\"model\":\"novikov-thorne\",\"outer\":20,\"taper\":0,\"peak_temperature_k\":6500,"
+      "\"band\":\"bolometric\",\"doppler\":true,\"redshift\":true},"
+      "\"style\":{\"tone_map\":\"srgb\"}}" },
+    { "edge-on", "The disk seen along its plane: what is visible of it is bent light",
+      "{\"camera\":{\"inclination_deg\":90}}" },
+    { "face-on", "The disk seen from its pole",
+      "{\"camera\":{\"inclination_deg\":0}}" },
+};
+/* clang-format on */
+const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
+
+static enum kd_status unknown(const char *name, struct kd_error *error)
+{
+    char known[240] = "", shown[48];
+    kd_text_clip(shown, sizeof shown, name);
+    for (size_t i = 0, used = 0; i < kd_preset_count && used < sizeof known; i++)
+        used +=
+            (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_presets[i].name);
+    return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; known are %s", shown, known);
+}
+
+enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error)
+{
+    for (size_t i = 0; i < kd_preset_count; i++) {
+        if (strcmp(kd_presets[i].name, name))
+            continue;
+        struct kd_scene preset;
+        kd_scene_defaults(&preset);
+        const char *json = kd_presets[i].json;
+        enum kd_status status = kd_scene_from_json(&preset, json, strlen(json), error);
+        if (!status)
+            *scene = preset;
+        return status;
+    }
+    return unknown(name, error);
+}
+
+size_t kd_scene_preset_count(void)
+{
+    return kd_preset_count;
+}
+
+const char *kd_scene_preset_name(size_t index)
+{
+    return index < kd_preset_count ? kd_presets[index].name : NULL;
+}
+
+const char *kd_scene_preset_title(size_t index)
+{
+    return index < kd_preset_count ? kd_presets[index].title : NULL;
+}

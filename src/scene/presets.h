@@ -1,0 +1,14 @@
+/* The table behind kd_scene_preset. Internal to src/scene. */
+#ifndef KD_SCENE_PRESETS_H
+#define KD_SCENE_PRESETS_H
+
+#include <stddef.h>
+
+struct kd_preset {
+    const char *name, *title; /* title: one sentence without a full stop */
+    const char *json;         /* merged over the defaults */
+};
+extern const struct kd_preset kd_presets[];
+extern const size_t kd_preset_count;
+
+#endif

@@ -1,0 +1,84 @@
+/* docs/scene.md, from the table. */
+#include "scene/presets.h"
+#include "scene/rules.h"
+#include "scene/value.h"
+#include "scene/writer.h"
+
+#include <string.h>
+
+static const char introduction[] = "# The scene document\n"
+                                   "\n"
+                                   "What to render, as JSON. Every field may be left out: `{}` is the "
+                                   "default picture. This page is generated from\n"
+                                   "`src/scene/fields.h`; do not edit it.\n"
+                                   "\n"
+                                   "    {\"version\": 1, \"spacetime\": {\"spin\": 0.9}, \"camera\": "
+                                   "{\"inclination_deg\": 70}, \"image\": {\"width\": 640}}\n"
+                                   "\n"
+                                   "A field is also named by its path, on the command line (`--set "
+                                   "camera.inclination_deg=70`) and in a link\n"
+                                   "(`/v1/render?camera.inclination_deg=70`). Lengths and times are in M = "
+                                   "GM/c^2. Ranges include both ends.\n"
+                                   "\n"
+                                   "An unknown field, a field given twice, a wrong type, `null` and a value "
+                                   "outside its range are errors that point\n"
+                                   "at the field. So are NaN, numbers that overflow, text after the "
+                                   "document, nesting deeper than 32 levels and more\n"
+                                   "than 1 MiB.\n";
+
+static void write_escaped(struct kd_writer *w, const char *text)
+{
+    for (const char *c = text; *c; c++)
+        kd_write(w, *c == '|' ? "\\%c" : "%c", *c);
+}
+
+static void write_field(struct kd_writer *w, const struct kd_field *field)
+{
+    static const char *const types[] = { "number", "number or word", "whole number", "true or false",
+                                         "word" };
+    char path[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
+    kd_field_path(field, path);
+    kd_value_allowed(field, allowed);
+    kd_write(w, "| `%s` | %s | `", path, types[field->kind]);
+    kd_write_value(w, field, field->initial);
+    kd_write(w, "` | ");
+    const char *whole = "whole numbers from "; /* the type column says so */
+    write_escaped(w, strncmp(allowed, whole, strlen(whole)) ? allowed : allowed + strlen(whole));
+    kd_write(w, " | ");
+    write_escaped(w, field->help);
+    kd_write(w, " |\n");
+}
+
+static void write_section(struct kd_writer *w, const struct kd_section *section)
+{
+    const char *name = *section->name ? section->name : "the document itself";
+    kd_write(w, "\n## %s\n\n", name);
+    if (*section->name)
+        kd_write(w, "%c%s.\n\n", section->help[0] - 'a' + 'A', section->help + 1);
+    kd_write(w, "| field | type | default | allowed | meaning |\n|---|---|---|---|---|\n");
+    if (!*section->name)
+        kd_write(w, "| `version` | whole number | `%d` | %d | version of this document format |\n",
+                 KD_SCENE_VERSION, KD_SCENE_VERSION);
+    for (size_t i = 0; i < section->count; i++)
+        write_field(w, &kd_fields[section->first + i]);
+}
+
+enum kd_status kd_scene_reference(struct kd_buffer *out)
+{
+    struct kd_writer writer = { .out = out }, *w = &writer;
+    kd_write(w, "%s", introduction);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+        write_section(w, &kd_sections[i]);
+    kd_write(w, "\n## Rules across fields\n\n");
+    for (size_t i = 0; i < kd_rule_count; i++)
+        kd_write(w, "- %s\n", kd_rules[i].text);
+    kd_write(w, "\n## Presets\n\n");
+    for (size_t i = 0; i < kd_preset_count; i++)
+        kd_write(w, "- `%s`: %s.\n  `%s`\n", kd_presets[i].name, kd_presets[i].title, kd_presets[i].json);
+    kd_write(
+        w,
+        "\n## Canonical form\n\n"
+        "Every field in the order of this page, `version` first, without spaces, each number in the fewest\n"
+        "digits that read back as the same double. Its SHA-256 is the hash of the scene.\n");
+    return writer.status;
+}

@@ -1,0 +1,157 @@
+#include "scene/rules.h"
+
+#include "physics/kerr.h"
+#include "scene/number.h"
+#include "scene/value.h"
+
+struct shown {
+    char text[KD_NUMBER_SIZE];
+};
+
+static struct shown show(double value)
+{
+    struct shown s;
+    kd_number_format(s.text, value);
+    return s;
+}
+
+static bool is_pinhole(const struct kd_camera *camera)
+{
+    return camera->projection == KD_PROJECTION_PINHOLE ||
+           (camera->projection == KD_PROJECTION_AUTO && isfinite(camera->r));
+}
+
+static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (scene->image.bit_depth == 8 || scene->image.bit_depth == 16)
+        return KD_OK;
+    return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d, allowed are 8 and 16 bits",
+                          scene->image.bit_depth);
+}
+
+static enum kd_status projection(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *camera = &scene->camera;
+    if (camera->projection == KD_PROJECTION_PINHOLE && !isfinite(camera->r))
+        return kd_error_field(
+            error, "/camera/projection",
+            "camera.projection is \"pinhole\" with camera.r \"infinity\"; a pinhole needs a finite "
+            "camera.r, at infinity use \"plane\"");
+    if (camera->projection == KD_PROJECTION_PLANE && isfinite(camera->r))
+        return kd_error_field(
+            error, "/camera/projection",
+            "camera.projection is \"plane\" with camera.r %s M; parallel rays need camera.r "
+            "\"infinity\", at a finite radius use \"pinhole\"",
+            show(camera->r).text);
+    return KD_OK;
+}
+
+/* Silence here would leave the user turning a knob that does nothing. */
+static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *camera = &scene->camera;
+    const bool pinhole = is_pinhole(camera);
+    const struct {
+        const char *pointer;
+        double value;
+        bool idle;
+    } knobs[] = {
+        { "/camera/centre_alpha", camera->centre_alpha, pinhole },
+        { "/camera/centre_beta", camera->centre_beta, pinhole },
+        { "/camera/yaw_deg", camera->yaw_deg, !pinhole },
+        { "/camera/pitch_deg", camera->pitch_deg, !pinhole },
+    };
+    for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
+        if (knobs[i].idle && knobs[i].value != 0)
+            return kd_error_field(
+                error, knobs[i].pointer,
+                "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
+                knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text, pinhole ? "pinhole" : "plane",
+                pinhole ? "camera.yaw_deg and camera.pitch_deg"
+                        : "camera.centre_alpha and camera.centre_beta");
+    return KD_OK;
+}
+
+static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *error)
+{
+    double r = scene->camera.r, least = kd_kerr_horizon(scene->spacetime.spin);
+    if (r > least)
+        return KD_OK;
+    return kd_error_field(error, "/camera/r",
+                          "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s",
+                          show(r).text, show(least).text, show(scene->spacetime.spin).text);
+}
+
+static enum kd_status ergosphere(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *camera = &scene->camera;
+    double radians = camera->inclination_deg * (M_PI / 180);
+    double least = kd_kerr_ergosphere(scene->spacetime.spin, cos(radians));
+    if (camera->observer != KD_OBSERVER_STATIC || camera->r > least)
+        return KD_OK;
+    return kd_error_field(
+        error, "/camera/r",
+        "camera.r is %s M, allowed for a static observer at this inclination is more than %s M, the "
+        "ergosphere; camera.observer \"zamo\" can be inside",
+        show(camera->r).text, show(least).text);
+}
+
+static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
+{
+    double least = kd_kerr_isco(scene->spacetime.spin);
+    if (scene->disk.model == KD_DISK_NONE || scene->disk.inner >= least)
+        return KD_OK;
+    return kd_error_field(
+        error, "/disk/inner",
+        "disk.inner is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
+        show(scene->disk.inner).text, show(least).text, show(scene->spacetime.spin).text);
+}
+
+static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *error)
+{
+    bool isco = isinf(scene->disk.inner);
+    double least = isco ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+    if (scene->disk.model == KD_DISK_NONE || scene->disk.outer > least)
+        return KD_OK;
+    return kd_error_field(error, "/disk/outer",
+                          "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
+                          show(scene->disk.outer).text, show(least).text, isco ? ", which is the ISCO" : "");
+}
+
+const struct kd_rule kd_rules[] = {
+    { "`image.bit_depth` is 8 or 16.", bit_depth },
+    { "`camera.projection` \"pinhole\" needs a finite `camera.r`, \"plane\" needs `camera.r` \"infinity\".",
+      projection },
+    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection and are 0 with a pinhole; "
+      "`camera.yaw_deg` and `camera.pitch_deg` aim the pinhole and are 0 with a plane.",
+      aim },
+    { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2).", horizon },
+    { "A static observer is outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i).", ergosphere },
+    { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
+    { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
+};
+const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;
+
+/* A scene that was filled in by hand has passed no parser. */
+static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field,
+                            struct kd_error *error)
+{
+    double value = kd_field_get(scene, field);
+    if (kd_field_holds(field, value))
+        return KD_OK;
+    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
+    kd_field_path(field, path);
+    kd_field_pointer(field, pointer);
+    kd_value_allowed(field, allowed);
+    return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, show(value).text, allowed);
+}
+
+enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < KD_FIELD_COUNT && !status; i++)
+        status = range(scene, &kd_fields[i], error);
+    for (size_t i = 0; i < kd_rule_count && !status; i++)
+        status = kd_rules[i].check(scene, error);
+    return status;
+}

@@ -1,0 +1,14 @@
+/* What ties fields together: a sentence for the reference and the check that enforces it. Any thread. */
+#ifndef KD_SCENE_RULES_H
+#define KD_SCENE_RULES_H
+
+#include "scene/scene.h"
+
+struct kd_rule {
+    const char *text;
+    enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
+};
+extern const struct kd_rule kd_rules[];
+extern const size_t kd_rule_count;
+
+#endif

@@ -1,0 +1,136 @@
+#include "scene/scan.h"
+
+#include "scene/number.h"
+#include "scene/text.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    DEPTH_MAX = 32,
+    NUMBER_MAX = 60,   /* cJSON stops reading a number after 63 bytes */
+    VALUES_MAX = 4096, /* far more than there are fields: such a document is wrong, and cheap to refuse now */
+};
+
+struct scan {
+    const char *text;
+    size_t length, at, values;
+    int depth;
+    struct kd_error *error;
+};
+
+static enum kd_status fail(struct scan *s, size_t at, const char *what)
+{
+    return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu", what, at);
+}
+
+/* The escape after a backslash at s->at. */
+static enum kd_status escape(struct scan *s)
+{
+    char c = s->at + 1 < s->length ? s->text[s->at + 1] : 0;
+    if (c != 'u') {
+        if (!c || !strchr("\"\\/bfnrt", c))
+            return fail(s, s->at, "unknown escape");
+        s->at += 2;
+        return KD_OK;
+    }
+    if (s->length - s->at < 6)
+        return fail(s, s->at, "escape cut short");
+    if (!memcmp(s->text + s->at + 2, "0000", 4))
+        return fail(s, s->at, "NUL in a string");
+    s->at += 6; /* cJSON checks the digits and the pairs of surrogates */
+    return KD_OK;
+}
+
+static enum kd_status string(struct scan *s)
+{
+    size_t start = s->at++;
+    while (s->at < s->length) {
+        char c = s->text[s->at];
+        enum kd_status status = KD_OK;
+        if (c == '"') {
+            s->at++;
+            return KD_OK;
+        }
+        if (c == '\\') {
+            status = escape(s);
+        } else if ((unsigned char)c < 0x20) {
+            status = fail(s, s->at, "control character in a string");
+        } else {
+            size_t n = kd_text_sequence(s->text + s->at, s->length - s->at);
+            if (!n)
+                return fail(s, s->at, "invalid UTF-8");
+            s->at += n;
+        }
+        if (status)
+            return status;
+    }
+    return fail(s, start, "string without an end");
+}
+
+static enum kd_status number(struct scan *s)
+{
+    size_t n = kd_number_span(s->text + s->at, s->length - s->at);
+    char next = s->at + n < s->length ? s->text[s->at + n] : 0;
+    if (!n || (next && strchr("0123456789.+-eE", next)))
+        return fail(s, s->at, "malformed number");
+    if (n > NUMBER_MAX)
+        return fail(s, s->at, "number of more than 60 characters");
+    s->at += n;
+    return KD_OK;
+}
+
+static enum kd_status word(struct scan *s)
+{
+    static const char *const words[] = { "true", "false", "null" };
+    size_t n = 0;
+    while (s->at + n < s->length && (s->text[s->at + n] | 32) >= 'a' && (s->text[s->at + n] | 32) <= 'z')
+        n++;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if (n == strlen(words[i]) && !memcmp(s->text + s->at, words[i], n)) {
+            s->at += n;
+            return KD_OK;
+        }
+    }
+    char what[48];
+    snprintf(what, sizeof what, "unknown word %.*s", (int)(n < 24 ? n : 24), s->text + s->at);
+    return fail(s, s->at, what);
+}
+
+static enum kd_status mark(struct scan *s, char c)
+{
+    if (c == '{' || c == '[') {
+        if (++s->depth > DEPTH_MAX)
+            return fail(s, s->at, "nested deeper than 32 levels");
+    } else if (c == '}' || c == ']') {
+        s->depth--; /* cJSON finds those that do not match */
+    } else if (c == ',') {
+        if (++s->values >= VALUES_MAX)
+            return fail(s, s->at, "more than 4096 values");
+    } else if (c && !strchr(": \t\n\r", c)) {
+        return fail(s, s->at,
+                    (c & 0x80) && !kd_text_sequence(s->text + s->at, s->length - s->at)
+                        ? "invalid UTF-8"
+                        : "unexpected character");
+    } else if (!c) {
+        return fail(s, s->at, "NUL");
+    }
+    s->at++;
+    return KD_OK;
+}
+
+enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error)
+{
+    struct scan s = { .text = text, .length = length, .error = error };
+    enum kd_status status = KD_OK;
+    while (!status && s.at < length) {
+        char c = text[s.at];
+        bool letter = (c | 32) >= 'a' && (c | 32) <= 'z';
+        status = c == '"'                             ? string(&s)
+                 : c == '-' || (c >= '0' && c <= '9') ? number(&s)
+                 : letter                             ? word(&s)
+                                                      : mark(&s, c);
+    }
+    return status;
+}

@@ -1,0 +1,14 @@
+/* What cJSON lets pass and a scene document may not hold, found in one look at the bytes. Any thread.
+ *
+ * cJSON skips any byte below 33 as a blank, reads 01 and 1. and strings with raw control characters, cuts a
+ * key at an escaped NUL, looks at 63 bytes of a number, recurses 1000 deep, and does not check UTF-8. */
+#ifndef KD_SCENE_SCAN_H
+#define KD_SCENE_SCAN_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error);
+
+#endif

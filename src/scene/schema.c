@@ -1,0 +1,91 @@
+/* JSON Schema of the scene document, from the table. */
+#include "scene/writer.h"
+
+#include <string.h>
+
+static void write_range(struct kd_writer *w, const char *type, const struct kd_field *field)
+{
+    kd_write(w, "\"type\":\"%s\",\"minimum\":", type);
+    kd_write_number(w, field->minimum);
+    kd_write(w, ",\"maximum\":");
+    kd_write_number(w, field->maximum);
+}
+
+static void write_words(struct kd_writer *w, const struct kd_field *field)
+{
+    kd_write(w, "\"type\":\"string\",\"enum\":[");
+    for (int i = 0; i < kd_field_word_count(field); i++) {
+        kd_write(w, "%s", i ? "," : "");
+        kd_write_value(w, field, i);
+    }
+    kd_write(w, "]");
+}
+
+static void write_type(struct kd_writer *w, const struct kd_field *field)
+{
+    switch (field->kind) {
+    case KD_FIELD_REAL: write_range(w, "number", field); return;
+    case KD_FIELD_INT: write_range(w, "integer", field); return;
+    case KD_FIELD_BOOL: kd_write(w, "\"type\":\"boolean\""); return;
+    case KD_FIELD_ENUM: write_words(w, field); return;
+    case KD_FIELD_WORD:
+        kd_write(w, "\"anyOf\":[{");
+        write_range(w, "number", field);
+        kd_write(w, "},{\"const\":");
+        kd_write_string(w, field->words);
+        kd_write(w, "}]");
+        return;
+    }
+}
+
+static void write_field(struct kd_writer *w, const struct kd_field *field)
+{
+    kd_write(w, "\"%s\":{", field->name);
+    write_type(w, field);
+    kd_write(w, ",\"default\":");
+    kd_write_value(w, field, field->initial);
+    kd_write(w, ",\"description\":");
+    kd_write_string(w, field->help);
+    if (*field->unit && strcmp(field->unit, "1")) {
+        kd_write(w, ",\"x-unit\":");
+        kd_write_string(w, field->unit);
+    }
+    kd_write(w, "}");
+}
+
+static void write_fields(struct kd_writer *w, const struct kd_section *section)
+{
+    for (size_t i = 0; i < section->count; i++) {
+        kd_write(w, "%s", i ? "," : "");
+        write_field(w, &kd_fields[section->first + i]);
+    }
+}
+
+static void write_section(struct kd_writer *w, const struct kd_section *section)
+{
+    kd_write(w, "\"%s\":{\"type\":\"object\",\"additionalProperties\":false,\"description\":", section->name);
+    kd_write_string(w, section->help);
+    kd_write(w, ",\"properties\":{");
+    write_fields(w, section);
+    kd_write(w, "}}");
+}
+
+enum kd_status kd_scene_schema(struct kd_buffer *out)
+{
+    struct kd_writer writer = { .out = out }, *w = &writer;
+    kd_write(
+        w,
+        "{\"$schema\":\"https://json-schema.org/draft/2020-12/schema\",\"title\":\"kerrd scene, version %d\","
+        "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{"
+        "\"version\":{\"const\":%d,\"description\":\"version of this document format\"}",
+        KD_SCENE_VERSION, KD_SCENE_VERSION);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
+        kd_write(w, ",");
+        if (*kd_sections[i].name)
+            write_section(w, &kd_sections[i]);
+        else
+            write_fields(w, &kd_sections[i]);
+    }
+    kd_write(w, "}}");
+    return writer.status;
+}

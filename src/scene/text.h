@@ -1,0 +1,19 @@
+/* Text from outside: is it UTF-8, and how to quote it in a message. Any thread. */
+#ifndef KD_SCENE_TEXT_H
+#define KD_SCENE_TEXT_H
+
+#include <stddef.h>
+
+/* Bytes (1 to 4) of the well-formed UTF-8 sequence at text (RFC 3629: shortest form, no surrogates), 0 if
+ * none. */
+size_t kd_text_sequence(const char *text, size_t length);
+
+/* Copy for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...".
+ * size is at least 8. */
+void kd_text_clip(char *out, size_t size, const char *text);
+
+/* Append "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so
+ * that the pointer still names its parent. */
+void kd_text_pointer(char *pointer, size_t size, const char *token);
+
+#endif

@@ -1,0 +1,100 @@
+#include "scene/value.h"
+
+#include "scene/number.h"
+#include "scene/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE])
+{
+    char number[KD_NUMBER_SIZE], text[KD_VALUE_SIZE - 2];
+    switch (value->kind) {
+    case KD_VALUE_NUMBER:
+        kd_number_format(number, value->number);
+        snprintf(out, KD_VALUE_SIZE, "%s", isfinite(value->number) ? number : "a number beyond 1e308");
+        return;
+    case KD_VALUE_STRING:
+        kd_text_clip(text, sizeof text, value->text);
+        snprintf(out, KD_VALUE_SIZE, "\"%s\"", text);
+        return;
+    case KD_VALUE_BOOL: snprintf(out, KD_VALUE_SIZE, "%s", value->number != 0 ? "true" : "false"); return;
+    case KD_VALUE_NULL: snprintf(out, KD_VALUE_SIZE, "null"); return;
+    case KD_VALUE_ARRAY: snprintf(out, KD_VALUE_SIZE, "an array"); return;
+    case KD_VALUE_OBJECT: snprintf(out, KD_VALUE_SIZE, "an object"); return;
+    }
+}
+
+static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
+{
+    int count = kd_field_word_count(field);
+    size_t used = 0;
+    for (int i = 0; i < count && used < KD_ALLOWED_SIZE; i++) {
+        struct kd_word word = kd_field_word(field, i);
+        const char *separator = i == 0 ? "" : i + 1 < count ? ", " : " and ";
+        used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%.*s\"", separator, word.length,
+                                 word.text);
+    }
+}
+
+void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
+{
+    char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
+    bool pure = !strcmp(field->unit, "1");
+    const char *space = pure ? "" : " ", *unit = pure ? "" : field->unit;
+    kd_number_format(low, field->minimum);
+    kd_number_format(high, field->maximum);
+    switch (field->kind) {
+    case KD_FIELD_REAL: snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s", low, high, space, unit); return;
+    case KD_FIELD_WORD:
+        snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s, and \"%s\"", low, high, space, unit, field->words);
+        return;
+    case KD_FIELD_INT:
+        snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s%s%s", low, high, space, unit);
+        return;
+    case KD_FIELD_BOOL: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
+    case KD_FIELD_ENUM: list_words(field, out); return;
+    }
+}
+
+/* The value as a double of that field, NAN if it is of another type or not one of the words. */
+static double convert(const struct kd_field *field, const struct kd_value *value)
+{
+    bool string = value->kind == KD_VALUE_STRING, number = value->kind == KD_VALUE_NUMBER;
+    switch (field->kind) {
+    case KD_FIELD_WORD:
+        if (string && !strcmp(value->text, field->words))
+            return INFINITY;
+        /* fall through */
+    case KD_FIELD_REAL:
+    case KD_FIELD_INT: return number && isfinite(value->number) ? value->number : NAN;
+    case KD_FIELD_BOOL: return value->kind == KD_VALUE_BOOL ? value->number : NAN;
+    case KD_FIELD_ENUM: return string ? kd_field_word_index(field, value->text) : NAN;
+    }
+    return NAN;
+}
+
+enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field,
+                              const struct kd_value *value, struct kd_error *error)
+{
+    double number = convert(field, value);
+    if (kd_field_holds(field, number)) {
+        kd_field_put(scene, field, number);
+        return KD_OK;
+    }
+    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
+    kd_field_path(field, path);
+    kd_field_pointer(field, pointer);
+    kd_value_describe(value, given);
+    kd_value_allowed(field, allowed);
+    return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, given, allowed);
+}
+
+enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *error)
+{
+    if (value->kind == KD_VALUE_NUMBER && value->number == KD_SCENE_VERSION)
+        return KD_OK;
+    char given[KD_VALUE_SIZE];
+    kd_value_describe(value, given);
+    return kd_error_field(error, "/version", "version is %s, allowed is %d", given, KD_SCENE_VERSION);
+}

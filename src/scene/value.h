@@ -1,0 +1,36 @@
+/* A value from a document or a command line, checked against its field's row and stored. Any thread. */
+#ifndef KD_SCENE_VALUE_H
+#define KD_SCENE_VALUE_H
+
+#include "scene/table.h"
+
+enum kd_value_kind {
+    KD_VALUE_NUMBER,
+    KD_VALUE_STRING,
+    KD_VALUE_BOOL,
+    KD_VALUE_NULL,
+    KD_VALUE_ARRAY,
+    KD_VALUE_OBJECT
+};
+
+struct kd_value {
+    enum kd_value_kind kind;
+    double number;    /* NUMBER; 0 or 1 for BOOL */
+    const char *text; /* STRING */
+};
+
+/* Store it, or KD_EINVAL with the pointer of the field, the value and what is allowed; *scene is then
+ * unchanged. */
+enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field,
+                              const struct kd_value *value, struct kd_error *error);
+
+/* The member "version": 1 and nothing else. */
+enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *error);
+
+/* How a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false".
+ */
+enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 160 };
+void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
+void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE]);
+
+#endif

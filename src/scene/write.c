@@ -1,0 +1,97 @@
+/* Scene documents: canonical JSON out, and its hash. */
+#include "scene/number.h"
+#include "scene/writer.h"
+
+#include <nettle/sha2.h>
+#include <stdio.h>
+
+void kd_write_string(struct kd_writer *writer, const char *text)
+{
+    kd_write(writer, "\"");
+    for (const char *c = text; *c; c++) {
+        if (*c == '"' || *c == '\\')
+            kd_write(writer, "\\%c", *c);
+        else if ((unsigned char)*c < 0x20)
+            kd_write(writer, "\\u%04x", (unsigned)*c);
+        else
+            kd_write(writer, "%c", *c);
+    }
+    kd_write(writer, "\"");
+}
+
+void kd_write_number(struct kd_writer *writer, double value)
+{
+    char number[KD_NUMBER_SIZE];
+    kd_number_format(number, value == 0 ? 0 : value);
+    kd_write(writer, "%s", number);
+}
+
+void kd_write_value(struct kd_writer *writer, const struct kd_field *field, double value)
+{
+    struct kd_word word;
+    if (!kd_field_holds(field, value)) {
+        writer->status = writer->status ? writer->status : KD_EINVAL;
+        return;
+    }
+    switch (field->kind) {
+    case KD_FIELD_WORD:
+        if (isinf(value)) {
+            kd_write_string(writer, field->words);
+            return;
+        }
+        /* fall through */
+    case KD_FIELD_REAL:
+    case KD_FIELD_INT: kd_write_number(writer, value); return;
+    case KD_FIELD_BOOL: kd_write(writer, "%s", value != 0 ? "true" : "false"); return;
+    case KD_FIELD_ENUM:
+        word = kd_field_word(field, (int)value);
+        kd_write(writer, "\"%.*s\"", word.length, word.text);
+        return;
+    }
+}
+
+static void write_fields(struct kd_writer *writer, const struct kd_section *section,
+                         const struct kd_scene *scene)
+{
+    for (size_t i = 0; i < section->count; i++) {
+        const struct kd_field *field = &kd_fields[section->first + i];
+        kd_write(writer, "%s\"%s\":", i ? "," : "", field->name);
+        kd_write_value(writer, field, kd_field_get(scene, field));
+    }
+}
+
+enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out)
+{
+    struct kd_writer writer = { .out = out };
+    kd_write(&writer, "{\"version\":%d", KD_SCENE_VERSION);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
+        const struct kd_section *section = &kd_sections[i];
+        if (*section->name)
+            kd_write(&writer, ",\"%s\":{", section->name);
+        else
+            kd_write(&writer, ",");
+        write_fields(&writer, section, scene);
+        if (*section->name)
+            kd_write(&writer, "}");
+    }
+    kd_write(&writer, "}");
+    return writer.status;
+}
+
+enum kd_status kd_scene_hash(const struct kd_scene *scene, char hash[65])
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_scene_to_json(scene, &text);
+    hash[0] = 0;
+    if (!status) {
+        uint8_t digest[SHA256_DIGEST_SIZE];
+        struct sha256_ctx context;
+        sha256_init(&context);
+        sha256_update(&context, text.size, text.data);
+        sha256_digest(&context, sizeof digest, digest);
+        for (size_t i = 0; i < sizeof digest; i++)
+            snprintf(hash + 2 * i, 3, "%02x", digest[i]);
+    }
+    kd_buffer_finish(&text);
+    return status;
+}
