@@ -17,7 +17,9 @@ struct kd_vk;
 struct kd_vk_buffer;
 struct kd_vk_pipeline;
 
+/* In ascending order of preference. */
 enum kd_vk_type { KD_VK_OTHER, KD_VK_CPU, KD_VK_VIRTUAL, KD_VK_INTEGRATED, KD_VK_DISCRETE };
+const char *kd_vk_type_name(enum kd_vk_type type); /* "discrete GPU", "CPU", ... never NULL */
 
 struct kd_vk_info {
     uint32_t index; /* the N of --device N */

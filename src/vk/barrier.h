@@ -1,0 +1,15 @@
+/* The one place that records barriers. */
+#ifndef KD_VK_BARRIER_H
+#define KD_VK_BARRIER_H
+
+#include "vk/hazard.h"
+
+struct kd_vk;
+
+/* Before a command with these accesses is recorded. */
+void kd_vk_barrier_before(struct kd_vk *vk, VkCommandBuffer commands, const struct kd_vk_access *accesses,
+                          size_t n);
+/* Before a command buffer ends. */
+void kd_vk_barrier_to_host(struct kd_vk *vk, VkCommandBuffer commands);
+
+#endif

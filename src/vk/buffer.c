@@ -1,0 +1,85 @@
+#include "vk/buffer.h"
+
+#include "vk/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void buffer_free(struct kd_vk *vk, struct kd_vk_retired *object)
+{
+    struct kd_vk_buffer *buffer = (struct kd_vk_buffer *)object;
+    vk->fn.DestroyBuffer(vk->device, buffer->handle, NULL);
+    if (buffer->slice.block)
+        kd_vk_heap_give(vk, &buffer->slice);
+    vk->n_buffers--;
+    free(buffer);
+}
+
+static enum kd_status buffer_init(struct kd_vk *vk, struct kd_vk_buffer *buffer, enum kd_vk_memory memory,
+                                  struct kd_error *error)
+{
+    enum kd_status status;
+    VkMemoryRequirements needs;
+    const VkBufferCreateInfo info = { .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                      .size = buffer->size,
+                                      .usage = KD_VK_BUFFER_USAGE };
+    KD_VK_TRY(&vk->fn, CreateBuffer, vk->device, &info, NULL, &buffer->handle);
+    vk->fn.GetBufferMemoryRequirements(vk->device, buffer->handle, &needs);
+    status = kd_vk_heap_take(vk, memory, needs.size, needs.alignment, &buffer->slice, error);
+    if (status)
+        return status;
+    KD_VK_TRY(&vk->fn, BindBufferMemory, vk->device, buffer->handle, buffer->slice.block->memory,
+              buffer->slice.offset);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_BUFFER, KD_VK_HANDLE(buffer->handle), "%s", buffer->name);
+    return KD_OK;
+fail:
+    return status;
+}
+
+enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
+                                   struct kd_vk_buffer **out, struct kd_error *error)
+{
+    *out = NULL;
+    enum kd_status status = kd_vk_alive(vk, error);
+    if (status)
+        return status;
+    if (!name)
+        name = "unnamed";
+    if (!size)
+        return kd_error_set(error, KD_EINVAL, "buffer '%s' has no bytes", name);
+    /* Before vkCreateBuffer, which need not cope with any size. */
+    if (size > vk->physical.info.max_allocation_bytes)
+        return kd_error_set(error, KD_ENOMEM, "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once",
+                            name, (double)size / 0x1p20,
+                            (double)vk->physical.info.max_allocation_bytes / 0x1p20);
+    struct kd_vk_buffer *buffer = calloc(1, sizeof *buffer);
+    if (!buffer)
+        return kd_error_set(error, KD_ENOMEM, "buffer '%s': out of host memory", name);
+    buffer->retired.free = buffer_free;
+    buffer->id = ++vk->next_buffer_id;
+    buffer->size = size;
+    snprintf(buffer->name, sizeof buffer->name, "%s", name);
+    vk->n_buffers++;
+    struct kd_error why = { 0 };
+    status = buffer_init(vk, buffer, memory, &why);
+    if (status) {
+        buffer_free(vk, &buffer->retired);
+        return kd_error_set(error, status, "buffer '%s': %s", name, why.message);
+    }
+    *out = buffer;
+    return KD_OK;
+}
+
+void kd_vk_buffer_destroy(struct kd_vk *vk, struct kd_vk_buffer *buffer)
+{
+    if (buffer)
+        kd_vk_retire(vk, &buffer->retired);
+}
+
+void *kd_vk_buffer_map(struct kd_vk_buffer *buffer)
+{
+    uint8_t *map = buffer->slice.block->map;
+    return map ? map + buffer->slice.offset : NULL;
+}
+
+uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer) { return buffer->size; }

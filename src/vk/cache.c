@@ -1,0 +1,194 @@
+#include "vk/cache.h"
+
+#include "base/buffer.h"
+#include "base/log.h"
+#include "vk/device.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Before the driver's data: drivers trust what they are given more than they should, so damage is found here. */
+struct envelope {
+    char magic[8];
+    uint64_t bytes, hash;
+};
+static const char magic[8] = "kdpipe1";
+
+/* FNV-1a, 64 bits: against damage, not against malice; the directory is the user's own. */
+static uint64_t hash_of(const uint8_t *data, size_t size)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ data[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
+/* Is this the data of this very device and driver? The layout is Vulkan's VkPipelineCacheHeaderVersionOne. */
+static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size)
+{
+    const VkPhysicalDeviceProperties *device = &vk->physical.properties;
+    uint32_t words[4];
+    if (size < sizeof words + VK_UUID_SIZE)
+        return false;
+    memcpy(words, data, sizeof words);
+    return words[0] >= sizeof words + VK_UUID_SIZE && words[0] <= size &&
+           words[1] == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && words[2] == device->vendorID &&
+           words[3] == device->deviceID &&
+           !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
+}
+
+static bool make_directories(char *path)
+{
+    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        int failed = mkdir(path, 0700) && errno != EEXIST;
+        *slash = '/';
+        if (failed)
+            return false;
+    }
+    return true;
+}
+
+/* NULL when there is to be none, or nowhere to put it. */
+static char *path_of(const struct kd_vk *vk, const char *dir)
+{
+    const VkPhysicalDeviceProperties *device = &vk->physical.properties;
+    const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char base[2048], uuid[2 * VK_UUID_SIZE + 1], *path = NULL;
+    int n;
+    if (dir)
+        n = snprintf(base, sizeof base, "%s", dir);
+    else if (xdg && xdg[0] == '/') /* the specification wants relative ones ignored */
+        n = snprintf(base, sizeof base, "%s/kerrd", xdg);
+    else if (home && home[0])
+        n = snprintf(base, sizeof base, "%s/.cache/kerrd", home);
+    else
+        return NULL;
+    if (!n || (size_t)n >= sizeof base)
+        return NULL;
+    for (unsigned i = 0; i < VK_UUID_SIZE; i++)
+        snprintf(uuid + 2 * i, 3, "%02x", device->pipelineCacheUUID[i]);
+    if (asprintf(&path, "%s/%04x-%04x-%08x-%s.pipelines", base, device->vendorID, device->deviceID,
+                 device->driverVersion, uuid) < 0)
+        return NULL;
+    return path;
+}
+
+static bool read_all(const char *path, struct kd_buffer *out)
+{
+    uint8_t chunk[65536];
+    size_t n;
+    FILE *file = fopen(path, "rbe");
+    if (!file)
+        return false;
+    bool good = true;
+    while (good && (n = fread(chunk, 1, sizeof chunk, file)) > 0)
+        good = !kd_buffer_append(out, chunk, n);
+    good = good && !ferror(file);
+    fclose(file);
+    return good;
+}
+
+/* The driver's data within the file, or NULL. */
+static const uint8_t *open_envelope(const struct kd_vk *vk, const struct kd_buffer *file, size_t *size)
+{
+    struct envelope envelope;
+    if (file->size < sizeof envelope)
+        return NULL;
+    memcpy(&envelope, file->data, sizeof envelope);
+    const uint8_t *data = file->data + sizeof envelope;
+    *size = file->size - sizeof envelope;
+    if (memcmp(envelope.magic, magic, sizeof magic) || envelope.bytes != *size ||
+        envelope.hash != hash_of(data, *size) || !header_fits(vk, data, *size))
+        return NULL;
+    return data;
+}
+
+enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    struct kd_vk_cache *cache = &vk->cache;
+    struct kd_buffer file = { 0 };
+    VkPipelineCacheCreateInfo info = { .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
+
+    cache->path = path_of(vk, dir);
+    if (cache->path && read_all(cache->path, &file)) {
+        info.pInitialData = open_envelope(vk, &file, &info.initialDataSize);
+        if (info.pInitialData)
+            cache->hash = hash_of(info.pInitialData, info.initialDataSize);
+        else
+            kd_log(KD_LOG_DEBUG, "%s is foreign or damaged: starting afresh", cache->path);
+    }
+    if (!info.pInitialData)
+        info.initialDataSize = 0;
+    KD_VK_TRY(&vk->fn, CreatePipelineCache, vk->device, &info, NULL, &cache->handle);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_CACHE, KD_VK_HANDLE(cache->handle), "pipeline cache");
+fail:
+    kd_buffer_finish(&file);
+    return status;
+}
+
+static bool write_all(int fd, const void *data, size_t size)
+{
+    const uint8_t *at = data;
+    while (size) {
+        ssize_t n = write(fd, at, size);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0)
+            return false;
+        at += n;
+        size -= (size_t)n;
+    }
+    return true;
+}
+
+/* Readers see the old file or the new one, even after a power cut. */
+static bool replace(const char *path, const struct envelope *envelope, const uint8_t *data)
+{
+    char *temporary = NULL, *directories = strdup(path);
+    bool good = directories && make_directories(directories) && asprintf(&temporary, "%s.XXXXXX", path) > 0;
+    free(directories);
+    int fd = good ? mkostemp(temporary, O_CLOEXEC) : -1;
+    if (fd >= 0) {
+        good = write_all(fd, envelope, sizeof *envelope) && write_all(fd, data, envelope->bytes) && !fsync(fd);
+        good = !close(fd) && good && !rename(temporary, path);
+        if (!good)
+            unlink(temporary);
+    }
+    free(temporary);
+    return good && fd >= 0;
+}
+
+static void save(struct kd_vk *vk)
+{
+    struct kd_vk_cache *cache = &vk->cache;
+    size_t size = 0;
+    if (vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, NULL) < 0 || !size)
+        return;
+    uint8_t *data = malloc(size);
+    if (data && vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, data) == VK_SUCCESS) {
+        struct envelope envelope = { .bytes = size, .hash = hash_of(data, size) };
+        memcpy(envelope.magic, magic, sizeof magic);
+        if (envelope.hash != cache->hash && !replace(cache->path, &envelope, data))
+            kd_log(KD_LOG_DEBUG, "cannot write %s: %s", cache->path, strerror(errno));
+    }
+    free(data);
+}
+
+void kd_vk_cache_finish(struct kd_vk *vk)
+{
+    struct kd_vk_cache *cache = &vk->cache;
+    if (cache->handle) {
+        if (cache->path && cache->grown)
+            save(vk);
+        vk->fn.DestroyPipelineCache(vk->device, cache->handle, NULL);
+    }
+    free(cache->path);
+    *cache = (struct kd_vk_cache) { 0 };
+}

@@ -1,0 +1,181 @@
+#include "vk/barrier.h"
+#include "vk/buffer.h"
+#include "vk/device.h"
+#include "vk/pipeline.h"
+#include "vk/submit.h"
+
+#include <inttypes.h>
+
+/* The bytes a binding means. */
+static uint64_t end_of(const struct kd_vk_binding *binding)
+{
+    return binding->size ? binding->offset + binding->size : binding->buffer->size;
+}
+
+static bool inside(const struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size)
+{
+    return offset <= buffer->size && size <= buffer->size - offset;
+}
+
+static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, uint32_t index,
+                                    const struct kd_vk_binding *binding, struct kd_error *error)
+{
+    if (!binding->buffer)
+        return kd_error_set(error, KD_EINVAL, "%s: binding %u has no buffer", pass, index);
+    if (binding->offset % KD_VK_ALIGNMENT || binding->offset >= binding->buffer->size ||
+        !inside(binding->buffer, binding->offset, binding->size))
+        return kd_error_set(error, KD_EINVAL,
+                            "%s: binding %u, bytes %" PRIu64 "+%" PRIu64 " of '%s' (%" PRIu64
+                            " bytes), must lie inside it and begin at a multiple of %u",
+                            pass, index, binding->offset, binding->size, binding->buffer->name,
+                            binding->buffer->size, KD_VK_ALIGNMENT);
+    if (end_of(binding) - binding->offset > vk->physical.info.max_binding_bytes)
+        return kd_error_set(error, KD_ETOOBIG,
+                            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64,
+                            pass, index, end_of(binding) - binding->offset, binding->buffer->name,
+                            vk->physical.info.max_binding_bytes);
+    return KD_OK;
+}
+
+static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_dispatch *dispatch,
+                                     const char *pass, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    if (!dispatch->pipeline)
+        return kd_error_set(error, KD_EINVAL, "%s: a dispatch without a pipeline", pass);
+    for (int i = 0; i < 3; i++)
+        if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
+            return kd_error_set(error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
+                                dispatch->groups[i], i,
+                                vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
+    if (dispatch->pipeline->push_bytes && !dispatch->push)
+        return kd_error_set(error, KD_EINVAL, "%s: no push constants were given", pass);
+    for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
+        status = check_binding(vk, pass, i, &dispatch->bindings[i], error);
+    return status;
+}
+
+static struct kd_vk_access access_of(const struct kd_vk_buffer *buffer, uint64_t begin, uint64_t end,
+                                     VkPipelineStageFlags stage, bool write)
+{
+    return (struct kd_vk_access) { .buffer = buffer->id, .begin = begin, .end = end, .stage = stage, .write = write,
+                                   .host = buffer->slice.block->map != NULL };
+}
+
+static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
+                                   const struct kd_vk_dispatch *dispatch, struct kd_error *error)
+{
+    VkDescriptorSet set;
+    VkDescriptorBufferInfo buffers[KD_VK_MAX_BINDINGS];
+    const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
+    if (!pipeline->n_buffers)
+        return KD_OK;
+    enum kd_status status = kd_vk_descriptors_take(vk, &slot->descriptors, pipeline->set_layout, &set, error);
+    if (status)
+        return status;
+    for (uint32_t i = 0; i < pipeline->n_buffers; i++) {
+        const struct kd_vk_binding *b = &dispatch->bindings[i];
+        buffers[i] = (VkDescriptorBufferInfo) { b->buffer->handle, b->offset, end_of(b) - b->offset };
+    }
+    /* Successive bindings of one kind are one write. */
+    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                         .dstSet = set,
+                                         .descriptorCount = pipeline->n_buffers,
+                                         .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                         .pBufferInfo = buffers };
+    vk->fn.UpdateDescriptorSets(vk->device, 1, &write, 0, NULL);
+    vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set, 0,
+                                 NULL);
+    return KD_OK;
+}
+
+static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const struct kd_vk_dispatch *dispatch)
+{
+    struct kd_vk_access accesses[KD_VK_MAX_BINDINGS];
+    uint32_t n = dispatch->pipeline->n_buffers;
+    for (uint32_t i = 0; i < n; i++) {
+        const struct kd_vk_binding *b = &dispatch->bindings[i];
+        accesses[i] =
+            access_of(b->buffer, b->offset, end_of(b), VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, b->write);
+        b->buffer->retired.ticket = kd_vk_current(vk);
+    }
+    kd_vk_barrier_before(vk, slot->commands, accesses, n);
+}
+
+enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error)
+{
+    struct kd_vk_slot *slot;
+    const char *pass = dispatch->pass ? dispatch->pass : dispatch->pipeline ? dispatch->pipeline->name : "unnamed";
+    enum kd_status status = check_dispatch(vk, dispatch, pass, error);
+    if (!status)
+        status = kd_vk_submit_slot(vk, &slot, error);
+    if (!status)
+        status = bind_buffers(vk, slot, dispatch, error);
+    if (status)
+        return status;
+    const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
+    const uint32_t *groups = dispatch->groups;
+    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
+    order_dispatch(vk, slot, dispatch);
+    vk->fn.CmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->handle);
+    if (pipeline->push_bytes)
+        vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                pipeline->push_bytes, dispatch->push);
+    vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
+    ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk); /* ours to write, not the caller's */
+    return KD_OK;
+}
+
+enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,
+                          struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size,
+                          struct kd_error *error)
+{
+    struct kd_vk_slot *slot;
+    if (!pass)
+        pass = "copy";
+    if (!inside(to, to_offset, size) || !inside(from, from_offset, size))
+        return kd_error_set(error, KD_EINVAL,
+                            "%s: %" PRIu64 " bytes from %" PRIu64 " of '%s' (%" PRIu64 ") to %" PRIu64
+                            " of '%s' (%" PRIu64 ") reach outside",
+                            pass, size, from_offset, from->name, from->size, to_offset, to->name, to->size);
+    if (to == from && to_offset < from_offset + size && from_offset < to_offset + size)
+        return kd_error_set(error, KD_EINVAL, "%s: the two ranges of '%s' overlap", pass, to->name);
+    if (!size)
+        return kd_vk_alive(vk, error);
+    enum kd_status status = kd_vk_submit_slot(vk, &slot, error);
+    if (status)
+        return status;
+    const struct kd_vk_access accesses[] = {
+        access_of(from, from_offset, from_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, false),
+        access_of(to, to_offset, to_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true),
+    };
+    const VkBufferCopy region = { from_offset, to_offset, size };
+    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
+    kd_vk_barrier_before(vk, slot->commands, accesses, 2);
+    vk->fn.CmdCopyBuffer(slot->commands, from->handle, to->handle, 1, &region);
+    to->retired.ticket = from->retired.ticket = kd_vk_current(vk);
+    return KD_OK;
+}
+
+enum kd_status kd_vk_fill(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
+                          uint32_t value, struct kd_error *error)
+{
+    struct kd_vk_slot *slot;
+    if (!inside(buffer, offset, size) || offset % 4 || size % 4)
+        return kd_error_set(error, KD_EINVAL,
+                            "fill: bytes %" PRIu64 "+%" PRIu64 " of '%s' (%" PRIu64
+                            " bytes) must lie inside it, in multiples of 4",
+                            offset, size, buffer->name, buffer->size);
+    if (!size)
+        return kd_vk_alive(vk, error);
+    enum kd_status status = kd_vk_submit_slot(vk, &slot, error);
+    if (status)
+        return status;
+    const struct kd_vk_access access =
+        access_of(buffer, offset, offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true);
+    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, "fill");
+    kd_vk_barrier_before(vk, slot->commands, &access, 1);
+    vk->fn.CmdFillBuffer(slot->commands, buffer->handle, offset, size, value);
+    buffer->retired.ticket = kd_vk_current(vk);
+    return KD_OK;
+}

@@ -1,0 +1,28 @@
+/* The validation layer's messages, counted and logged, and names for objects. */
+#ifndef KD_VK_DEBUG_H
+#define KD_VK_DEBUG_H
+
+#include "vk/functions.h"
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+struct kd_vk;
+
+struct kd_vk_debug {
+    VkDebugUtilsMessengerEXT messenger;
+    atomic_uint messages; /* warnings and errors: a layer may report from any thread */
+};
+
+VkDebugUtilsMessengerCreateInfoEXT kd_vk_debug_messenger(struct kd_vk_debug *debug);
+/* KD_EDEVICE when VK_EXT_debug_utils is absent: then nothing would be heard. */
+enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_functions *fn,
+                                  VkInstance instance, struct kd_error *error);
+void kd_vk_debug_finish(struct kd_vk_debug *debug, const struct kd_vk_functions *fn, VkInstance instance);
+
+/* Name an object for messages and captures; without debug utils nothing happens. */
+void kd_vk_debug_name(struct kd_vk *vk, VkObjectType type, uint64_t handle, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+#define KD_VK_HANDLE(handle) ((uint64_t)(handle))
+
+#endif

@@ -1,0 +1,62 @@
+#include "vk/descriptors.h"
+
+#include "vk/device.h"
+
+#include <stdlib.h>
+
+/* Room for the largest set each time, so that counting sets is enough to know when a pool is full. */
+static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descriptors, struct kd_error *error)
+{
+    enum kd_status status;
+    VkDescriptorPool pool;
+    VkDescriptorPool *pools = realloc(descriptors->pools, (descriptors->n_pools + 1) * sizeof *pools);
+    if (!pools)
+        return kd_error_set(error, KD_ENOMEM, "no memory for descriptor pools");
+    descriptors->pools = pools;
+    const VkDescriptorPoolSize size = { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                        KD_VK_SETS_PER_POOL * KD_VK_MAX_BINDINGS };
+    const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                              .maxSets = KD_VK_SETS_PER_POOL,
+                                              .poolSizeCount = 1,
+                                              .pPoolSizes = &size };
+    KD_VK_TRY(&vk->fn, CreateDescriptorPool, vk->device, &info, NULL, &pool);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DESCRIPTOR_POOL, KD_VK_HANDLE(pool), "descriptor pool %zu",
+                     descriptors->n_pools);
+    pools[descriptors->n_pools++] = pool;
+    return KD_OK;
+fail:
+    return status;
+}
+
+enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,
+                                      VkDescriptorSetLayout layout, VkDescriptorSet *out, struct kd_error *error)
+{
+    enum kd_status status;
+    size_t pool = descriptors->used / KD_VK_SETS_PER_POOL;
+    if (pool == descriptors->n_pools && (status = grow(vk, descriptors, error)))
+        return status;
+    const VkDescriptorSetAllocateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                               .descriptorPool = descriptors->pools[pool],
+                                               .descriptorSetCount = 1,
+                                               .pSetLayouts = &layout };
+    KD_VK_TRY(&vk->fn, AllocateDescriptorSets, vk->device, &info, out);
+    descriptors->used++;
+    return KD_OK;
+fail:
+    return status;
+}
+
+void kd_vk_descriptors_reset(struct kd_vk *vk, struct kd_vk_descriptors *descriptors)
+{
+    for (size_t i = 0; i * KD_VK_SETS_PER_POOL < descriptors->used; i++)
+        vk->fn.ResetDescriptorPool(vk->device, descriptors->pools[i], 0); /* can only succeed */
+    descriptors->used = 0;
+}
+
+void kd_vk_descriptors_finish(struct kd_vk *vk, struct kd_vk_descriptors *descriptors)
+{
+    for (size_t i = 0; i < descriptors->n_pools; i++)
+        vk->fn.DestroyDescriptorPool(vk->device, descriptors->pools[i], NULL);
+    free(descriptors->pools);
+    *descriptors = (struct kd_vk_descriptors) { 0 };
+}

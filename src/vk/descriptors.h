@@ -1,0 +1,23 @@
+/* Descriptor sets of one submission: taken one by one, all given back at once when the slot is reused. */
+#ifndef KD_VK_DESCRIPTORS_H
+#define KD_VK_DESCRIPTORS_H
+
+#include "vk/functions.h"
+
+#include <stddef.h>
+
+struct kd_vk;
+
+#define KD_VK_SETS_PER_POOL 64
+
+struct kd_vk_descriptors {
+    VkDescriptorPool *pools; /* kept at the most that one submission has needed */
+    size_t n_pools, used;    /* used: sets, over all pools */
+};
+
+enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors *descriptors,
+                                      VkDescriptorSetLayout layout, VkDescriptorSet *out, struct kd_error *error);
+void kd_vk_descriptors_reset(struct kd_vk *vk, struct kd_vk_descriptors *descriptors);
+void kd_vk_descriptors_finish(struct kd_vk *vk, struct kd_vk_descriptors *descriptors);
+
+#endif

@@ -1,0 +1,162 @@
+#include "vk/device.h"
+
+#include "base/log.h"
+#include "vk/choose.h"
+#include "vk/submit.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Devices that were lost and then destroyed. They are kept, because a driver whose device hangs or has vanished may
+ * crash when it is torn down (lavapipe does); the list keeps them reachable for leak checkers. */
+static struct kd_vk *graveyard;
+
+enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error)
+{
+    return vk->lost[0] ? kd_error_set(error, KD_EDEVICE, "the device is lost: %s", vk->lost) : KD_OK;
+}
+
+enum kd_status kd_vk_lose(struct kd_vk *vk, struct kd_error *error, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(vk->lost, sizeof vk->lost, format, args);
+    va_end(args);
+    kd_log(KD_LOG_ERROR, "device lost: %s", vk->lost);
+    return kd_vk_alive(vk, error);
+}
+
+static enum kd_status choose(struct kd_vk *vk, const char *wish, struct kd_error *error)
+{
+    struct kd_vk_physical *list = NULL;
+    size_t n = 0, index = 0;
+    enum kd_status status = kd_vk_physical_list(&vk->instance.fn, vk->instance.handle, &list, &n, error);
+    struct kd_vk_info *infos = status ? NULL : calloc(n, sizeof *infos);
+    if (!status && !infos)
+        status = kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n);
+    for (size_t i = 0; infos && i < n; i++)
+        infos[i] = list[i].info;
+    if (!status)
+        status = kd_vk_choose(infos, n, wish, &index, vk->choice, sizeof vk->choice, error);
+    if (!status)
+        vk->physical = list[index];
+    free(infos);
+    free(list);
+    return status;
+}
+
+/* The required feature and whatever optional ones there are: kernels ask kd_vk_info before using them. */
+static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
+{
+    enum kd_status status;
+    const float priority = 1;
+    const char *portability = "VK_KHR_portability_subset";
+    const VkDeviceQueueCreateInfo queue = { .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                            .queueFamilyIndex = vk->physical.family,
+                                            .queueCount = 1,
+                                            .pQueuePriorities = &priority };
+    VkPhysicalDeviceVulkan12Features f12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+        .timelineSemaphore = VK_TRUE,
+        .hostQueryReset = vk->physical.host_query_reset,
+        .shaderSubgroupExtendedTypes = vk->physical.subgroup_extended_types,
+    };
+    const VkPhysicalDeviceFeatures2 features = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+        .pNext = &f12,
+        .features = { .shaderFloat64 = vk->physical.info.float64, .shaderInt64 = vk->physical.int64 },
+    };
+    const VkDeviceCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                      .pNext = &features,
+                                      .queueCreateInfoCount = 1,
+                                      .pQueueCreateInfos = &queue,
+                                      .enabledExtensionCount = vk->physical.portability_subset,
+                                      .ppEnabledExtensionNames = &portability };
+    KD_VK_TRY(&vk->fn, CreateDevice, vk->physical.handle, &info, NULL, &vk->device);
+    status = kd_vk_functions_device(&vk->fn, vk->device, error);
+    if (status)
+        goto fail;
+    vk->fn.GetDeviceQueue(vk->device, vk->physical.family, 0, &vk->queue);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_QUEUE, KD_VK_HANDLE(vk->queue), "queue");
+    return KD_OK;
+fail:
+    if (vk->device && vk->fn.DestroyDevice)
+        vk->fn.DestroyDevice(vk->device, NULL);
+    vk->device = VK_NULL_HANDLE; /* what follows may rely on: a device has all its functions */
+    return status;
+}
+
+static bool validation_wanted(const struct kd_vk_params *params)
+{
+    const char *value = getenv("KERRD_VALIDATE");
+    return params->validate || (value && value[0] && strcmp(value, "0"));
+}
+
+enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error)
+{
+    *out = NULL;
+    struct kd_vk *vk = calloc(1, sizeof *vk);
+    if (!vk)
+        return kd_error_set(error, KD_ENOMEM, "no memory for a device");
+    vk->deadline_ns = (params->deadline_ms ? params->deadline_ms : 60000) * UINT64_C(1000000);
+    enum kd_status status = kd_vk_instance_init(&vk->instance, validation_wanted(params), error);
+    if (!status)
+        status = choose(vk, params->device, error);
+    vk->fn = vk->instance.fn;
+    if (!status)
+        status = open_device(vk, error);
+    if (!status)
+        status = kd_vk_heap_init(vk, error);
+    if (!status)
+        status = kd_vk_cache_init(vk, params->cache_dir, error);
+    if (!status)
+        status = kd_vk_submit_init(vk, error);
+    if (status) {
+        kd_vk_destroy(vk);
+        return status;
+    }
+    *out = vk;
+    return KD_OK;
+}
+
+static void close_device(struct kd_vk *vk)
+{
+    vk->fn.DeviceWaitIdle(vk->device);
+    vk->done = vk->submitted;
+    kd_vk_retire_all(vk);
+    if (vk->n_buffers || vk->n_pipelines)
+        kd_log(KD_LOG_WARN, "closing a device with %u buffers and %u pipelines alive", vk->n_buffers,
+               vk->n_pipelines);
+    kd_vk_submit_finish(vk);
+    kd_vk_cache_finish(vk);
+    kd_vk_heap_finish(vk);
+    vk->fn.DestroyDevice(vk->device, NULL);
+}
+
+void kd_vk_destroy(struct kd_vk *vk)
+{
+    if (!vk)
+        return;
+    if (vk->device) {
+        enum kd_status status = kd_vk_wait(vk, 0, NULL); /* its deadline, so that closing cannot hang */
+        if (status != KD_EDEVICE)
+            close_device(vk);
+    }
+    if (vk->lost[0]) {
+        vk->next_lost = graveyard;
+        graveyard = vk;
+        return;
+    }
+    kd_vk_instance_finish(&vk->instance);
+    free(vk);
+}
+
+const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk) { return &vk->physical.info; }
+const char *kd_vk_choice(const struct kd_vk *vk) { return vk->choice; }
+
+uint32_t kd_vk_validation_messages(const struct kd_vk *vk)
+{
+    return atomic_load(&((struct kd_vk *)vk)->instance.debug.messages); /* C11 atomics take no const */
+}

@@ -1,0 +1,119 @@
+#include "vk/instance.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
+
+static bool has_layer(const struct kd_vk_functions *fn, const char *name)
+{
+    uint32_t n = 0;
+    bool found = false;
+    if (fn->EnumerateInstanceLayerProperties(&n, NULL) < 0 || !n)
+        return false;
+    VkLayerProperties *list = calloc(n, sizeof *list);
+    if (list && fn->EnumerateInstanceLayerProperties(&n, list) >= 0)
+        for (uint32_t i = 0; i < n && !found; i++)
+            found = !strcmp(list[i].layerName, name);
+    free(list);
+    return found;
+}
+
+/* layer NULL: of the loader and the drivers. */
+static bool has_extension(const struct kd_vk_functions *fn, const char *layer, const char *name)
+{
+    uint32_t n = 0;
+    bool found = false;
+    if (fn->EnumerateInstanceExtensionProperties(layer, &n, NULL) < 0 || !n)
+        return false;
+    VkExtensionProperties *list = calloc(n, sizeof *list);
+    if (list && fn->EnumerateInstanceExtensionProperties(layer, &n, list) >= 0)
+        for (uint32_t i = 0; i < n && !found; i++)
+            found = !strcmp(list[i].extensionName, name);
+    free(list);
+    return found;
+}
+
+static enum kd_status check_validation(const struct kd_vk_functions *fn, struct kd_error *error)
+{
+    if (!has_layer(fn, VALIDATION_LAYER))
+        return kd_error_set(error, KD_EDEVICE, "validation was asked for, but %s is not installed",
+                            VALIDATION_LAYER);
+    if (!has_extension(fn, VALIDATION_LAYER, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME))
+        return kd_error_set(error, KD_EDEVICE,
+                            "validation was asked for, but this %s cannot validate synchronisation",
+                            VALIDATION_LAYER);
+    return KD_OK;
+}
+
+static enum kd_status create(struct kd_vk_instance *instance, const VkInstanceCreateInfo *info,
+                             struct kd_error *error)
+{
+    VkResult result = instance->fn.CreateInstance(info, NULL, &instance->handle);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+        return kd_error_set(error, KD_EDEVICE, "no Vulkan device: no driver is installed, or none works here");
+    if (result < 0)
+        return kd_vk_result_error(error, result, "vkCreateInstance");
+    return kd_vk_functions_instance(&instance->fn, instance->handle, error);
+}
+
+enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error)
+{
+    struct kd_vk_functions *fn = &instance->fn;
+    *instance = (struct kd_vk_instance) { 0 };
+    enum kd_status status = kd_vk_functions_load(fn, error);
+    if (!status && validate)
+        status = check_validation(fn, error);
+    if (status)
+        return status;
+
+    const char *extensions[3];
+    uint32_t n = 0;
+    bool debug_utils = has_extension(fn, NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+                       (validate && has_extension(fn, VALIDATION_LAYER, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    bool portability = has_extension(fn, NULL, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    if (debug_utils)
+        extensions[n++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    if (portability)
+        extensions[n++] = VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME;
+    if (validate)
+        extensions[n++] = VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME;
+
+    const char *layer = VALIDATION_LAYER;
+    const VkApplicationInfo application = { .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                            .pApplicationName = "kerrd",
+                                            .apiVersion = VK_API_VERSION_1_2 };
+    /* Chained, the messenger also hears what happens inside vkCreateInstance and vkDestroyInstance. */
+    VkDebugUtilsMessengerCreateInfoEXT messenger = kd_vk_debug_messenger(&instance->debug);
+    const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeaturesEXT features = { .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                               .pNext = debug_utils ? &messenger : NULL,
+                                               .enabledValidationFeatureCount = 1,
+                                               .pEnabledValidationFeatures = &enable };
+    const VkInstanceCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+        .pNext = validate ? &features : NULL,
+        .flags = portability ? VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR : 0,
+        .pApplicationInfo = &application,
+        .enabledLayerCount = validate,
+        .ppEnabledLayerNames = &layer,
+        .enabledExtensionCount = n,
+        .ppEnabledExtensionNames = extensions,
+    };
+    status = create(instance, &info, error);
+    if (!status && validate)
+        status = kd_vk_debug_listen(&instance->debug, fn, instance->handle, error);
+    if (status)
+        kd_vk_instance_finish(instance);
+    return status;
+}
+
+void kd_vk_instance_finish(struct kd_vk_instance *instance)
+{
+    if (!instance->handle)
+        return;
+    kd_vk_debug_finish(&instance->debug, &instance->fn, instance->handle);
+    if (instance->fn.DestroyInstance)
+        instance->fn.DestroyInstance(instance->handle, NULL);
+    instance->handle = NULL;
+}

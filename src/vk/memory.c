@@ -1,0 +1,219 @@
+#include "vk/memory.h"
+
+#include "vk/device.h"
+#include "vk/submit.h"
+
+#include <stdlib.h>
+
+#define LOCAL VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+#define VISIBLE VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT
+#define COHERENT VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+#define CACHED VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+
+/* Types that need a feature of their own (AMD's uncached ones, protected, lazily allocated) never do. */
+static bool plain(VkMemoryPropertyFlags flags) { return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED)); }
+
+/* Points for a type, -1 where it will not do. Host memory is sought outside the device's: on a discrete
+ * card the part of its memory that the host can map may be as small as 256 MiB. */
+static int points(VkMemoryPropertyFlags flags, enum kd_vk_memory memory, bool host_near)
+{
+    bool mappable = (flags & VISIBLE) && (flags & COHERENT);
+    if (!plain(flags))
+        return -1;
+    switch (memory) {
+    case KD_VK_DEVICE: return flags & LOCAL ? 1 + (mappable == host_near) : -1;
+    case KD_VK_UPLOAD: return mappable ? 1 + 2 * !(flags & LOCAL) + !(flags & CACHED) : -1;
+    case KD_VK_READBACK: return mappable ? 1 + 2 * !!(flags & CACHED) + !(flags & LOCAL) : -1;
+    }
+    return -1;
+}
+
+int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed,
+                      enum kd_vk_memory memory, bool host_near)
+{
+    int best = -1, best_points = 0;
+    for (uint32_t i = 0; i < properties->memoryTypeCount; i++) {
+        int p = allowed >> i & 1 ? points(properties->memoryTypes[i].propertyFlags, memory, host_near) : -1;
+        if (p > best_points) {
+            best = (int)i;
+            best_points = p;
+        }
+    }
+    return best;
+}
+
+/* Every buffer has the same usage, hence the same allowed types: ask once, of a small one. */
+static enum kd_status allowed_types(struct kd_vk *vk, uint32_t *allowed, struct kd_error *error)
+{
+    enum kd_status status;
+    VkBuffer probe;
+    VkMemoryRequirements requirements;
+    const VkBufferCreateInfo info = { .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                      .size = KD_VK_ALIGNMENT,
+                                      .usage = KD_VK_BUFFER_USAGE };
+    KD_VK_TRY(&vk->fn, CreateBuffer, vk->device, &info, NULL, &probe);
+    vk->fn.GetBufferMemoryRequirements(vk->device, probe, &requirements);
+    vk->fn.DestroyBuffer(vk->device, probe, NULL);
+    *allowed = requirements.memoryTypeBits;
+    return KD_OK;
+fail:
+    return status;
+}
+
+enum kd_status kd_vk_heap_init(struct kd_vk *vk, struct kd_error *error)
+{
+    struct kd_vk_heap *heap = &vk->heap;
+    enum kd_vk_type device = vk->physical.info.type;
+    uint32_t allowed = 0;
+    enum kd_status status = allowed_types(vk, &allowed, error);
+    if (status)
+        return status;
+    vk->fn.GetPhysicalDeviceMemoryProperties(vk->physical.handle, &heap->properties);
+    for (int m = KD_VK_DEVICE; m <= KD_VK_READBACK; m++) {
+        int type = kd_vk_memory_type(&heap->properties, allowed, (enum kd_vk_memory)m,
+                                     device == KD_VK_CPU || device == KD_VK_INTEGRATED);
+        if (type < 0)
+            return kd_error_set(error, KD_EDEVICE, "%s has no %s memory for buffers", vk->physical.info.name,
+                                m == KD_VK_DEVICE ? "device-local" : "host-visible");
+        heap->types[m] = (uint32_t)type;
+    }
+    return KD_OK;
+}
+
+static void block_free(struct kd_vk *vk, struct kd_vk_block *block)
+{
+    struct kd_vk_heap *heap = &vk->heap;
+    heap->used[heap->properties.memoryTypes[block->type].heapIndex] -= block->arena.size;
+    vk->fn.FreeMemory(vk->device, block->memory, NULL); /* unmaps as well */
+    kd_vk_arena_finish(&block->arena);
+    free(block);
+}
+
+void kd_vk_heap_finish(struct kd_vk *vk)
+{
+    while (vk->heap.blocks) {
+        struct kd_vk_block *block = vk->heap.blocks;
+        vk->heap.blocks = block->next;
+        block_free(vk, block);
+    }
+}
+
+static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, uint64_t size,
+                                 struct kd_error *error)
+{
+    enum kd_status status;
+    VkMemoryPropertyFlags flags = vk->heap.properties.memoryTypes[block->type].propertyFlags;
+    const VkMemoryAllocateInfo info = { .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                        .allocationSize = size,
+                                        .memoryTypeIndex = block->type };
+    void *map = NULL;
+    KD_VK_TRY(&vk->fn, AllocateMemory, vk->device, &info, NULL, &block->memory);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DEVICE_MEMORY, KD_VK_HANDLE(block->memory), "block of type %u",
+                     block->type);
+    if ((flags & VISIBLE) && (flags & COHERENT))
+        KD_VK_TRY(&vk->fn, MapMemory, vk->device, block->memory, 0, VK_WHOLE_SIZE, 0, &map);
+    block->map = map;
+    return KD_OK;
+fail:
+    return status;
+}
+
+/* A new block, entered into the list. */
+static enum kd_status block_create(struct kd_vk *vk, uint32_t type, uint64_t size, struct kd_error *error)
+{
+    struct kd_vk_heap *heap = &vk->heap;
+    uint32_t index = heap->properties.memoryTypes[type].heapIndex;
+    uint64_t limit = heap->properties.memoryHeaps[index].size;
+    if (size > vk->physical.info.max_allocation_bytes || size > limit || heap->used[index] > limit - size)
+        return kd_error_set(error, KD_ENOMEM, "beyond the device's limits");
+    struct kd_vk_block *block = calloc(1, sizeof *block);
+    if (!block || !kd_vk_arena_init(&block->arena, size)) {
+        free(block);
+        return kd_error_set(error, KD_ENOMEM, "out of host memory");
+    }
+    block->type = type;
+    heap->used[index] += size;
+    enum kd_status status = block_fill(vk, block, size, error);
+    if (status) {
+        block_free(vk, block);
+        return status;
+    }
+    block->next = heap->blocks;
+    heap->blocks = block;
+    return KD_OK;
+}
+
+static bool take(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment, struct kd_vk_slice *out)
+{
+    for (struct kd_vk_block *block = vk->heap.blocks; block; block = block->next)
+        if (block->type == type && kd_vk_arena_take(&block->arena, size, alignment, &out->offset)) {
+            out->block = block;
+            out->size = size;
+            return true;
+        }
+    return false;
+}
+
+/* From a block that has room, else from a new one, of the usual size or only just large enough. */
+static enum kd_status take_or_grow(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment,
+                                   struct kd_vk_slice *out, struct kd_error *error)
+{
+    struct kd_vk_heap *heap = &vk->heap;
+    uint64_t usual = heap->properties.memoryHeaps[heap->properties.memoryTypes[type].heapIndex].size / 8;
+    if (usual > KD_VK_BLOCK_BYTES)
+        usual = KD_VK_BLOCK_BYTES;
+    if (take(vk, type, size, alignment, out))
+        return KD_OK;
+    enum kd_status status = block_create(vk, type, size > usual ? size : usual, error);
+    if (status == KD_ENOMEM && size < usual)
+        status = block_create(vk, type, size, error);
+    if (!status && !take(vk, type, size, alignment, out))
+        status = kd_error_set(error, KD_ENOMEM, "out of host memory");
+    return status;
+}
+
+enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint64_t size, uint64_t alignment,
+                               struct kd_vk_slice *out, struct kd_error *error)
+{
+    uint32_t type = vk->heap.types[memory];
+    struct kd_error why = { 0 };
+    if (alignment < KD_VK_ALIGNMENT)
+        alignment = KD_VK_ALIGNMENT;
+    size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
+    enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
+    if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
+        status = take_or_grow(vk, type, size, alignment, out, &why); /* with what was waiting to be freed */
+    if (!status)
+        return KD_OK;
+    return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
+                        (double)size / 0x1p20,
+                        memory == KD_VK_DEVICE   ? "device"
+                        : memory == KD_VK_UPLOAD ? "upload"
+                                                 : "readback",
+                        why.message, (double)kd_vk_allocated(vk) / 0x1p20,
+                        (double)vk->heap.properties
+                                .memoryHeaps[vk->heap.properties.memoryTypes[type].heapIndex]
+                                .size /
+                            0x1p20);
+}
+
+void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice)
+{
+    kd_vk_arena_give(&slice->block->arena, slice->offset, slice->size);
+    if (slice->block->arena.live)
+        return;
+    for (struct kd_vk_block **link = &vk->heap.blocks; *link; link = &(*link)->next)
+        if (*link == slice->block) {
+            *link = slice->block->next;
+            block_free(vk, slice->block);
+            return;
+        }
+}
+
+uint64_t kd_vk_allocated(const struct kd_vk *vk)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < VK_MAX_MEMORY_HEAPS; i++)
+        sum += vk->heap.used[i];
+    return sum;
+}

@@ -1,0 +1,197 @@
+#include "vk/physical.h"
+
+#include "vk/instance.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *kd_vk_type_name(enum kd_vk_type type)
+{
+    switch (type) {
+    case KD_VK_OTHER: break;
+    case KD_VK_CPU: return "CPU";
+    case KD_VK_VIRTUAL: return "virtual GPU";
+    case KD_VK_INTEGRATED: return "integrated GPU";
+    case KD_VK_DISCRETE: return "discrete GPU";
+    }
+    return "other device";
+}
+
+static enum kd_vk_type type_of(VkPhysicalDeviceType type)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return KD_VK_CPU;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return KD_VK_VIRTUAL;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return KD_VK_INTEGRATED;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return KD_VK_DISCRETE;
+    default: return KD_VK_OTHER;
+    }
+}
+
+static void lacks(struct kd_vk_info *info, const char *what)
+{
+    size_t used = strlen(info->missing);
+    snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
+}
+
+/* A compute family with timestamps if there is one; of those the first, which on every driver known is the
+ * one that also draws and so the least surprising. */
+static void choose_family(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
+{
+    VkQueueFamilyProperties families[32];
+    uint32_t n = 32;
+    bool found = false;
+    fn->GetPhysicalDeviceQueueFamilyProperties(device->handle, &n, families);
+    for (uint32_t i = 0; i < n; i++) {
+        if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) || !families[i].queueCount)
+            continue;
+        if (found && (device->timestamp_bits || !families[i].timestampValidBits))
+            continue;
+        device->family = i;
+        device->timestamp_bits = families[i].timestampValidBits;
+        found = true;
+    }
+    if (!found)
+        lacks(&device->info, "a compute queue");
+    if (device->properties.limits.timestampPeriod <= 0)
+        device->timestamp_bits = 0;
+    device->info.timestamps = device->timestamp_bits > 0;
+}
+
+static void read_limits(struct kd_vk_physical *device)
+{
+    const VkPhysicalDeviceLimits *limits = &device->properties.limits;
+    struct kd_vk_info *info = &device->info;
+    snprintf(info->name, sizeof info->name, "%s", device->properties.deviceName);
+    info->type = type_of(device->properties.deviceType);
+    info->api_version = device->properties.apiVersion;
+    info->max_binding_bytes = limits->maxStorageBufferRange;
+    info->max_push_bytes = limits->maxPushConstantsSize;
+    info->max_groups_x = limits->maxComputeWorkGroupCount[0];
+    info->max_workgroup = limits->maxComputeWorkGroupInvocations;
+    if (limits->maxPerStageDescriptorStorageBuffers < KD_VK_MAX_BINDINGS)
+        lacks(info, "8 storage buffers a shader");
+}
+
+static void read_heaps(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
+{
+    VkPhysicalDeviceMemoryProperties memory;
+    fn->GetPhysicalDeviceMemoryProperties(device->handle, &memory);
+    for (uint32_t i = 0; i < memory.memoryHeapCount; i++)
+        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) &&
+            memory.memoryHeaps[i].size > device->info.heap_bytes)
+            device->info.heap_bytes = memory.memoryHeaps[i].size;
+}
+
+/* Only a 1.2 device knows the structures asked for here. */
+static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
+{
+    struct kd_vk_info *info = &device->info;
+    VkPhysicalDeviceVulkan12Properties p12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES
+    };
+    VkPhysicalDeviceVulkan11Properties p11 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES, .pNext = &p12
+    };
+    VkPhysicalDeviceProperties2 p = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &p11 };
+    VkPhysicalDeviceVulkan12Features f12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES
+    };
+    VkPhysicalDeviceFeatures2 f = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12 };
+    fn->GetPhysicalDeviceProperties2(device->handle, &p);
+    fn->GetPhysicalDeviceFeatures2(device->handle, &f);
+    snprintf(info->driver, sizeof info->driver, "%s", p12.driverName);
+    snprintf(info->driver_info, sizeof info->driver_info, "%s", p12.driverInfo);
+    info->max_allocation_bytes = p11.maxMemoryAllocationSize;
+    info->subgroup_size = p11.subgroupSize;
+    info->float64 = f.features.shaderFloat64;
+    device->int64 = f.features.shaderInt64;
+    device->host_query_reset = f12.hostQueryReset;
+    device->subgroup_extended_types = f12.shaderSubgroupExtendedTypes;
+    if (!f12.timelineSemaphore)
+        lacks(info, "timeline semaphores");
+}
+
+/* Layered drivers (Vulkan over Metal) demand that this extension be enabled where it is listed. */
+static bool lists_portability_subset(const struct kd_vk_functions *fn, VkPhysicalDevice device)
+{
+    uint32_t n = 0;
+    bool found = false;
+    if (fn->EnumerateDeviceExtensionProperties(device, NULL, &n, NULL) < 0 || !n)
+        return false;
+    VkExtensionProperties *list = calloc(n, sizeof *list);
+    if (list && fn->EnumerateDeviceExtensionProperties(device, NULL, &n, list) >= 0)
+        for (uint32_t i = 0; i < n && !found; i++)
+            found = !strcmp(list[i].extensionName, "VK_KHR_portability_subset");
+    free(list);
+    return found;
+}
+
+static void inspect(const struct kd_vk_functions *fn, uint32_t index, struct kd_vk_physical *device)
+{
+    char text[64];
+    device->info.index = index;
+    fn->GetPhysicalDeviceProperties(device->handle, &device->properties);
+    uint32_t version = device->properties.apiVersion;
+    if (version < VK_API_VERSION_1_2) {
+        snprintf(text, sizeof text, "Vulkan 1.2 (it has %u.%u)", VK_API_VERSION_MAJOR(version),
+                 VK_API_VERSION_MINOR(version));
+        lacks(&device->info, text);
+    }
+    read_limits(device);
+    read_heaps(fn, device);
+    choose_family(fn, device);
+    if (version >= VK_API_VERSION_1_2)
+        read_1_2(fn, device);
+    device->portability_subset = lists_portability_subset(fn, device->handle);
+}
+
+enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance,
+                                   struct kd_vk_physical **out, size_t *count, struct kd_error *error)
+{
+    enum kd_status status;
+    VkPhysicalDevice handles[64];
+    uint32_t n = 64; /* more is VK_INCOMPLETE, a success */
+    struct kd_vk_physical *list;
+
+    KD_VK_TRY(fn, EnumeratePhysicalDevices, instance, &n, handles);
+    if (!n)
+        return kd_error_set(error, KD_EDEVICE, "no Vulkan device: the loader found no driver that works");
+    list = calloc(n, sizeof *list);
+    if (!list)
+        return kd_error_set(error, KD_ENOMEM, "no memory for a list of %u devices", n);
+    for (uint32_t i = 0; i < n; i++) {
+        list[i].handle = handles[i];
+        inspect(fn, i, &list[i]);
+    }
+    *out = list;
+    *count = n;
+    return KD_OK;
+fail:
+    return status;
+}
+
+enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_error *error)
+{
+    struct kd_vk_instance instance = { 0 };
+    struct kd_vk_physical *list = NULL;
+    size_t n = 0;
+    *out = NULL;
+    *count = 0;
+    enum kd_status status = kd_vk_instance_init(&instance, false, error);
+    if (!status)
+        status = kd_vk_physical_list(&instance.fn, instance.handle, &list, &n, error);
+    struct kd_vk_info *infos = status ? NULL : calloc(n, sizeof *infos);
+    if (!status && !infos)
+        status = kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n);
+    for (size_t i = 0; infos && i < n; i++)
+        infos[i] = list[i].info;
+    if (!status) {
+        *out = infos;
+        *count = n;
+    }
+    free(list);
+    kd_vk_instance_finish(&instance);
+    return status;
+}

@@ -1,0 +1,22 @@
+/* What a physical device is and whether kerrd can use it. */
+#ifndef KD_VK_PHYSICAL_H
+#define KD_VK_PHYSICAL_H
+
+#include "vk/functions.h"
+#include "vk/vk.h"
+
+struct kd_vk_physical {
+    VkPhysicalDevice handle;
+    struct kd_vk_info info;
+    VkPhysicalDeviceProperties properties;
+    uint32_t family;          /* the queue family we submit to */
+    uint32_t timestamp_bits;  /* valid ones; 0: no timestamps */
+    bool int64, host_query_reset, subgroup_extended_types, portability_subset;
+};
+
+/* Every physical device of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
+enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance,
+                                   struct kd_vk_physical **out, size_t *count, struct kd_error *error);
+
+
+#endif

@@ -1,0 +1,148 @@
+#include "vk/pipeline.h"
+
+#include "vk/device.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define SPIRV_MAGIC 0x07230203u
+#define MAX_SPEC 32
+
+static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_params *params,
+                            struct kd_error *error)
+{
+    const char *name = params->name ? params->name : "unnamed";
+    uint32_t max_push = vk->physical.info.max_push_bytes;
+    if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 || params->spirv[0] != SPIRV_MAGIC)
+        return kd_error_set(error, KD_EINVAL, "pipeline '%s': this is not SPIR-V", name);
+    if (params->n_buffers > KD_VK_MAX_BINDINGS)
+        return kd_error_set(error, KD_EINVAL, "pipeline '%s': %u buffers, at most %u", name, params->n_buffers,
+                            KD_VK_MAX_BINDINGS);
+    if (params->push_bytes > max_push || params->push_bytes % 4)
+        return kd_error_set(error, KD_EINVAL,
+                            "pipeline '%s': %u bytes of push constants, at most %u and a multiple of 4", name,
+                            params->push_bytes, max_push);
+    if (params->n_spec > MAX_SPEC)
+        return kd_error_set(error, KD_EINVAL, "pipeline '%s': %zu specialisation constants, at most %u", name,
+                            params->n_spec, MAX_SPEC);
+    return KD_OK;
+}
+
+static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipeline, struct kd_error *error)
+{
+    enum kd_status status;
+    VkDescriptorSetLayoutBinding bindings[KD_VK_MAX_BINDINGS];
+    for (uint32_t i = 0; i < pipeline->n_buffers; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding) { .binding = i,
+                                                       .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                       .descriptorCount = 1,
+                                                       .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT };
+    const VkDescriptorSetLayoutCreateInfo set = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                                  .bindingCount = pipeline->n_buffers,
+                                                  .pBindings = bindings };
+    KD_VK_TRY(&vk->fn, CreateDescriptorSetLayout, vk->device, &set, NULL, &pipeline->set_layout);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, KD_VK_HANDLE(pipeline->set_layout), "%s",
+                     pipeline->name);
+    const VkPushConstantRange push = { VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline->push_bytes };
+    const VkPipelineLayoutCreateInfo layout = { .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                                .setLayoutCount = 1,
+                                                .pSetLayouts = &pipeline->set_layout,
+                                                .pushConstantRangeCount = pipeline->push_bytes > 0,
+                                                .pPushConstantRanges = &push };
+    KD_VK_TRY(&vk->fn, CreatePipelineLayout, vk->device, &layout, NULL, &pipeline->layout);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s", pipeline->name);
+    return KD_OK;
+fail:
+    return status;
+}
+
+static enum kd_status make_pipeline(struct kd_vk *vk, struct kd_vk_pipeline *pipeline, VkShaderModule module,
+                                    const struct kd_vk_pipeline_params *params, struct kd_error *error)
+{
+    enum kd_status status;
+    VkSpecializationMapEntry entries[MAX_SPEC];
+    uint32_t values[MAX_SPEC];
+    for (uint32_t i = 0; i < params->n_spec; i++) {
+        entries[i] = (VkSpecializationMapEntry) { params->spec[i].id, i * 4, 4 };
+        values[i] = params->spec[i].value;
+    }
+    const VkSpecializationInfo spec = { (uint32_t)params->n_spec, entries, params->n_spec * 4, values };
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = { .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                   .module = module,
+                   .pName = "main",
+                   .pSpecializationInfo = params->n_spec ? &spec : NULL },
+        .layout = pipeline->layout,
+    };
+    KD_VK_TRY(&vk->fn, CreateComputePipelines, vk->device, vk->cache.handle, 1, &info, NULL, &pipeline->handle);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE, KD_VK_HANDLE(pipeline->handle), "%s", pipeline->name);
+    vk->cache.grown = true;
+    return KD_OK;
+fail:
+    return status;
+}
+
+static enum kd_status pipeline_init(struct kd_vk *vk, struct kd_vk_pipeline *pipeline,
+                                    const struct kd_vk_pipeline_params *params, struct kd_error *error)
+{
+    VkShaderModule module = VK_NULL_HANDLE;
+    const VkShaderModuleCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                            .codeSize = params->spirv_bytes,
+                                            .pCode = params->spirv };
+    enum kd_status status = make_layout(vk, pipeline, error);
+    if (status)
+        return status;
+    KD_VK_TRY(&vk->fn, CreateShaderModule, vk->device, &info, NULL, &module);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_SHADER_MODULE, KD_VK_HANDLE(module), "%s", pipeline->name);
+    status = make_pipeline(vk, pipeline, module, params, error);
+fail:
+    if (module)
+        vk->fn.DestroyShaderModule(vk->device, module, NULL);
+    return status;
+}
+
+static void pipeline_free(struct kd_vk *vk, struct kd_vk_retired *object)
+{
+    struct kd_vk_pipeline *pipeline = (struct kd_vk_pipeline *)object;
+    vk->fn.DestroyPipeline(vk->device, pipeline->handle, NULL);
+    vk->fn.DestroyPipelineLayout(vk->device, pipeline->layout, NULL);
+    vk->fn.DestroyDescriptorSetLayout(vk->device, pipeline->set_layout, NULL);
+    vk->n_pipelines--;
+    free(pipeline);
+}
+
+enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeline_params *params,
+                                     struct kd_vk_pipeline **out, struct kd_error *error)
+{
+    *out = NULL;
+    enum kd_status status = kd_vk_alive(vk, error);
+    if (!status)
+        status = check(vk, params, error);
+    if (status)
+        return status;
+    struct kd_vk_pipeline *pipeline = calloc(1, sizeof *pipeline);
+    if (!pipeline)
+        return kd_error_set(error, KD_ENOMEM, "no memory for a pipeline");
+    pipeline->retired.free = pipeline_free;
+    pipeline->n_buffers = params->n_buffers;
+    pipeline->push_bytes = params->push_bytes;
+    snprintf(pipeline->name, sizeof pipeline->name, "%s", params->name ? params->name : "unnamed");
+    vk->n_pipelines++;
+    struct kd_error why = { 0 };
+    status = pipeline_init(vk, pipeline, params, &why);
+    if (status) {
+        pipeline_free(vk, &pipeline->retired);
+        return kd_error_set(error, status, "pipeline '%s': %.400s", params->name ? params->name : "unnamed",
+                            why.message);
+    }
+    *out = pipeline;
+    return KD_OK;
+}
+
+void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline)
+{
+    if (pipeline)
+        kd_vk_retire(vk, &pipeline->retired);
+}

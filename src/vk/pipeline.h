@@ -1,0 +1,18 @@
+/* The inside of a compute pipeline. */
+#ifndef KD_VK_PIPELINE_H
+#define KD_VK_PIPELINE_H
+
+#include "vk/functions.h"
+#include "vk/retire.h"
+#include "vk/vk.h"
+
+struct kd_vk_pipeline {
+    struct kd_vk_retired retired; /* first: retire.c knows only this part */
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    VkPipeline handle;
+    uint32_t n_buffers, push_bytes;
+    char name[64];
+};
+
+#endif

@@ -1,0 +1,205 @@
+#include "vk/submit.h"
+
+#include "vk/barrier.h"
+#include "vk/device.h"
+
+#include <inttypes.h>
+#include <time.h>
+
+static uint64_t now_ns(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+static struct kd_vk_slot *slot_of(struct kd_vk *vk, uint64_t value) { return &vk->slots[value % KD_VK_SLOTS]; }
+
+static enum kd_status slot_init(struct kd_vk *vk, uint32_t index, struct kd_error *error)
+{
+    enum kd_status status;
+    struct kd_vk_slot *slot = &vk->slots[index];
+    const VkCommandPoolCreateInfo pool = { .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                           .queueFamilyIndex = vk->physical.family };
+    KD_VK_TRY(&vk->fn, CreateCommandPool, vk->device, &pool, NULL, &slot->pool);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_COMMAND_POOL, KD_VK_HANDLE(slot->pool), "slot %u", index);
+    const VkCommandBufferAllocateInfo buffer = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                 .commandPool = slot->pool,
+                                                 .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                 .commandBufferCount = 1 };
+    KD_VK_TRY(&vk->fn, AllocateCommandBuffers, vk->device, &buffer, &slot->commands);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_COMMAND_BUFFER, KD_VK_HANDLE(slot->commands), "slot %u", index);
+    return KD_OK;
+fail:
+    return status;
+}
+
+enum kd_status kd_vk_submit_init(struct kd_vk *vk, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    const VkSemaphoreTypeCreateInfo type = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                             .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE };
+    const VkSemaphoreCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type };
+    KD_VK_TRY(&vk->fn, CreateSemaphore, vk->device, &info, NULL, &vk->timeline);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_SEMAPHORE, KD_VK_HANDLE(vk->timeline), "timeline");
+    for (uint32_t i = 0; i < KD_VK_SLOTS && !status; i++)
+        status = slot_init(vk, i, error);
+fail:
+    return status;
+}
+
+void kd_vk_submit_finish(struct kd_vk *vk)
+{
+    for (uint32_t i = 0; i < KD_VK_SLOTS; i++) {
+        struct kd_vk_slot *slot = &vk->slots[i];
+        kd_vk_descriptors_finish(vk, &slot->descriptors);
+        kd_vk_timing_finish(vk, &slot->stamps);
+        vk->fn.DestroyCommandPool(vk->device, slot->pool, NULL); /* and its buffer */
+    }
+    vk->fn.DestroySemaphore(vk->device, vk->timeline, NULL);
+}
+
+/* The timeline has reached this value: collect what that finished. */
+static void reached(struct kd_vk *vk, uint64_t value)
+{
+    if (value <= vk->done)
+        return;
+    for (uint64_t v = vk->done + 1; v <= value; v++)
+        kd_vk_timing_collect(vk, &slot_of(vk, v)->stamps);
+    vk->done = value;
+    vk->progress_ns = now_ns();
+    kd_vk_retire_idle(vk);
+}
+
+/* A failed call that says the device is gone makes it so for us. */
+static enum kd_status failed(struct kd_vk *vk, struct kd_error *error, VkResult result, const char *call)
+{
+    enum kd_status status = kd_vk_result_error(error, result, call);
+    return status == KD_EDEVICE ? kd_vk_lose(vk, error, "%s: %s", call, kd_vk_result_name(result)) : status;
+}
+
+static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
+{
+    uint64_t value = 0;
+    VkResult result = vk->fn.GetSemaphoreCounterValue(vk->device, vk->timeline, &value);
+    if (result < 0)
+        return failed(vk, error, result, "vkGetSemaphoreCounterValue");
+    reached(vk, value < vk->submitted ? value : vk->submitted); /* a dying driver may report any value */
+    return KD_OK;
+}
+
+/* The next unfinished submission; its time runs from when it could first start. */
+static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error *error)
+{
+    uint64_t start = slot_of(vk, value)->submitted_ns, now = now_ns();
+    if (start < vk->progress_ns)
+        start = vk->progress_ns;
+    uint64_t timeout = start + vk->deadline_ns > now ? start + vk->deadline_ns - now : 0;
+    const VkSemaphoreWaitInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
+                                       .semaphoreCount = 1,
+                                       .pSemaphores = &vk->timeline,
+                                       .pValues = &value };
+    VkResult result = vk->fn.WaitSemaphores(vk->device, &info, timeout);
+    if (result == VK_TIMEOUT)
+        return kd_vk_lose(vk, error, "submission %" PRIu64 " missed its deadline of %" PRIu64 " ms", value,
+                          vk->deadline_ns / 1000000);
+    if (result < 0)
+        return failed(vk, error, result, "vkWaitSemaphores");
+    reached(vk, value);
+    return KD_OK;
+}
+
+enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *error)
+{
+    enum kd_status status = kd_vk_alive(vk, error);
+    if (status)
+        return status;
+    if (ticket > vk->submitted)
+        return kd_error_set(error, KD_EINVAL, "there is no submission %" PRIu64 ", the last was %" PRIu64, ticket,
+                            vk->submitted);
+    if (!ticket)
+        ticket = vk->submitted;
+    if (vk->done < ticket)
+        status = poll_timeline(vk, error);
+    while (!status && vk->done < ticket)
+        status = wait_one(vk, vk->done + 1, error);
+    return status;
+}
+
+enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, struct kd_error *error)
+{
+    enum kd_status status = kd_vk_alive(vk, error);
+    struct kd_vk_slot *slot = slot_of(vk, kd_vk_current(vk));
+    *out = slot;
+    if (status || vk->recording)
+        return status;
+    /* kd_vk_submit has seen to it that this slot's last submission is finished. */
+    const VkCommandBufferBeginInfo begin = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT };
+    KD_VK_TRY(&vk->fn, ResetCommandPool, vk->device, slot->pool, 0);
+    KD_VK_TRY(&vk->fn, BeginCommandBuffer, slot->commands, &begin);
+    kd_vk_descriptors_reset(vk, &slot->descriptors);
+    kd_vk_timing_begin(vk, &slot->stamps, slot->commands);
+    vk->hazards_before = vk->hazards;
+    vk->recording = true;
+    return KD_OK;
+fail:
+    return status;
+}
+
+static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_t value, struct kd_error *error)
+{
+    enum kd_status status;
+    const VkTimelineSemaphoreSubmitInfo timeline = { .sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
+                                                     .signalSemaphoreValueCount = 1,
+                                                     .pSignalSemaphoreValues = &value };
+    const VkSubmitInfo info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                                .pNext = &timeline,
+                                .commandBufferCount = 1,
+                                .pCommandBuffers = &slot->commands,
+                                .signalSemaphoreCount = 1,
+                                .pSignalSemaphores = &vk->timeline };
+    kd_vk_timing_end(vk, &slot->stamps, slot->commands);
+    kd_vk_barrier_to_host(vk, slot->commands);
+    KD_VK_TRY(&vk->fn, EndCommandBuffer, slot->commands);
+    VkResult result = vk->fn.QueueSubmit(vk->queue, 1, &info, VK_NULL_HANDLE);
+    return result < 0 ? failed(vk, error, result, "vkQueueSubmit") : KD_OK;
+fail:
+    return status;
+}
+
+enum kd_status kd_vk_submit(struct kd_vk *vk, uint64_t *ticket, struct kd_error *error)
+{
+    uint64_t value = kd_vk_current(vk);
+    enum kd_status status = kd_vk_alive(vk, error);
+    if (!status && vk->recording) {
+        if (value > KD_VK_IN_FLIGHT)
+            status = kd_vk_wait(vk, value - KD_VK_IN_FLIGHT, error);
+        if (!status)
+            status = enqueue(vk, slot_of(vk, value), value, error);
+        if (status) {
+            kd_vk_discard(vk);
+            return status;
+        }
+        slot_of(vk, value)->submitted_ns = now_ns();
+        vk->submitted = value;
+        vk->recording = false;
+    }
+    if (ticket)
+        *ticket = vk->submitted;
+    return status;
+}
+
+void kd_vk_discard(struct kd_vk *vk)
+{
+    if (!vk->recording)
+        return;
+    vk->recording = false;
+    vk->hazards = vk->hazards_before; /* its barriers are gone with it */
+    for (struct kd_vk_retired *object = vk->retired; object; object = object->next)
+        if (object->ticket > vk->submitted)
+            object->ticket = vk->submitted;
+    if (!vk->lost[0])
+        kd_vk_retire_idle(vk);
+}

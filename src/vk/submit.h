@@ -1,0 +1,16 @@
+/* Command buffers in turn, and the timeline that counts submissions. */
+#ifndef KD_VK_SUBMIT_H
+#define KD_VK_SUBMIT_H
+
+#include "base/error.h"
+
+struct kd_vk;
+struct kd_vk_slot;
+
+enum kd_status kd_vk_submit_init(struct kd_vk *vk, struct kd_error *error);
+void kd_vk_submit_finish(struct kd_vk *vk); /* the device is idle; accepts half-built */
+
+/* The slot to record into, opened if none is. */
+enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, struct kd_error *error);
+
+#endif
