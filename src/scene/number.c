@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct kd_number_locale kd_number_locale_enter(void)
 {
@@ -56,6 +57,18 @@ double kd_number_parse(const char *text)
     return value;
 }
 
+/* 1e-07 is 1e-7, 1e+20 is 1e20. */
+static void shorten_exponent(char *text)
+{
+    char *e = strchr(text, 'e');
+    if (!e)
+        return;
+    char *to = e + 1 + (e[1] == '-'), *from = e + 2;
+    while (*from == '0')
+        from++;
+    memmove(to, from, strlen(from) + 1);
+}
+
 void kd_number_format(char out[KD_NUMBER_SIZE], double value)
 {
     struct kd_number_locale locale = kd_number_locale_enter();
@@ -65,4 +78,5 @@ void kd_number_format(char out[KD_NUMBER_SIZE], double value)
             break;
     }
     kd_number_locale_leave(locale);
+    shorten_exponent(out);
 }

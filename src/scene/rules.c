@@ -15,6 +15,12 @@ static struct shown show(double value)
     return s;
 }
 
+/* A computed bound, rounded up to what a person would type, so that typing it is accepted. */
+static struct shown show_bound(double value)
+{
+    return show(ceil(value * 1e9) / 1e9);
+}
+
 static bool is_pinhole(const struct kd_camera *camera)
 {
     return camera->projection == KD_PROJECTION_PINHOLE ||
@@ -79,7 +85,7 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
         return KD_OK;
     return kd_error_field(error, "/camera/r",
                           "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s",
-                          show(r).text, show(least).text, show(scene->spacetime.spin).text);
+                          show(r).text, show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
 static enum kd_status ergosphere(const struct kd_scene *scene, struct kd_error *error)
@@ -93,7 +99,7 @@ static enum kd_status ergosphere(const struct kd_scene *scene, struct kd_error *
         error, "/camera/r",
         "camera.r is %s M, allowed for a static observer at this inclination is more than %s M, the "
         "ergosphere; camera.observer \"zamo\" can be inside",
-        show(camera->r).text, show(least).text);
+        show(camera->r).text, show_bound(least).text);
 }
 
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
@@ -104,7 +110,7 @@ static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *
     return kd_error_field(
         error, "/disk/inner",
         "disk.inner is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s, or \"isco\"",
-        show(scene->disk.inner).text, show(least).text, show(scene->spacetime.spin).text);
+        show(scene->disk.inner).text, show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
 static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *error)
@@ -113,9 +119,9 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
     double least = isco ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
     if (scene->disk.model == KD_DISK_NONE || scene->disk.outer > least)
         return KD_OK;
-    return kd_error_field(error, "/disk/outer",
-                          "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
-                          show(scene->disk.outer).text, show(least).text, isco ? ", which is the ISCO" : "");
+    return kd_error_field(
+        error, "/disk/outer", "disk.outer is %s M, allowed is more than the inner edge, %s M%s",
+        show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
 const struct kd_rule kd_rules[] = {

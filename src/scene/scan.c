@@ -3,6 +3,7 @@
 #include "scene/number.h"
 #include "scene/text.h"
 
+#include <ctype.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -37,9 +38,12 @@ static enum kd_status escape(struct scan *s)
     }
     if (s->length - s->at < 6)
         return fail(s, s->at, "escape cut short");
+    for (int i = 2; i < 6; i++)
+        if (!isxdigit((unsigned char)s->text[s->at + i]))
+            return fail(s, s->at, "malformed escape");
     if (!memcmp(s->text + s->at + 2, "0000", 4))
         return fail(s, s->at, "NUL in a string");
-    s->at += 6; /* cJSON checks the digits and the pairs of surrogates */
+    s->at += 6; /* cJSON checks the pairs of surrogates */
     return KD_OK;
 }
 

@@ -1,7 +1,8 @@
 /* What cJSON lets pass and a scene document may not hold, found in one look at the bytes. Any thread.
  *
  * cJSON skips any byte below 33 as a blank, reads 01 and 1. and strings with raw control characters, cuts a
- * key at an escaped NUL, looks at 63 bytes of a number, recurses 1000 deep, and does not check UTF-8. */
+ * key at an escaped NUL and takes \u00zz for one, looks at 63 bytes of a number, recurses 1000 deep, and does
+ * not check UTF-8. */
 #ifndef KD_SCENE_SCAN_H
 #define KD_SCENE_SCAN_H
 

@@ -1,0 +1,291 @@
+/* Documents that must be refused, each with its pointer and its reason; and random damage to good ones. */
+#include "scene_support.h"
+
+struct bad {
+    const char *text, *pointer, *fragment;
+};
+
+static void expect_refused(const char *text, size_t length, const char *pointer, const char *fragment)
+{
+    struct kd_scene scene, before;
+    struct kd_error error = { 0 };
+    memset(&scene, 0x5a, sizeof scene); /* not even looked at */
+    kd_scene_defaults(&scene);
+    scene.camera.r = 12;
+    before = scene;
+    char *exact = malloc(length ? length : 1); /* so that a read past the end is seen */
+    memcpy(exact, text, length);
+    enum kd_status status = kd_scene_from_json(&scene, exact, length, &error);
+    free(exact);
+    if (status != KD_EINVAL || error.status != KD_EINVAL)
+        fail_msg("accepted (%d): %.200s", status, text);
+    if (strcmp(error.pointer, pointer) || !strstr(error.message, fragment))
+        fail_msg("%.200s gave \"%s\" \"%s\", not \"%s\" \"%s\"", text, error.pointer, error.message, pointer,
+                 fragment);
+    assert_memory_equal(&scene, &before, sizeof before);
+}
+
+static const struct bad syntax[] = {
+    { "", "", "ends too early, after 0 bytes" },
+    { "   ", "", "ends too early" },
+    { "{", "", "ends too early" },
+    { "{\"camera\"", "", "not valid JSON" },
+    { "{\"camera\":", "", "not valid JSON" },
+    { "{\"camera\":{\"r\":1", "", "ends too early" },
+    { "{\"camera\":{\"r\":10}", "", "ends too early" },
+    { "{\"camera\":{\"r\":\"infin", "", "string without an end at byte 15" },
+    { "{\"camera\":{},}", "", "not valid JSON" },
+    { "{\"time\":1 \"version\":1}", "", "not valid JSON" },
+    { "{time:1}", "", "unknown word time at byte 1" },
+    { "{'time':1}", "", "unexpected character at byte 1" },
+    { "{\"time\":1}}", "", "text follows the document at byte 10" },
+    { "{} {}", "", "text follows the document at byte 3" },
+    { "{\"time\":1} x", "", "unknown word x at byte 11" },
+    { "{} // comment", "", "unexpected character" },
+    { "{\"time\":NaN}", "", "unknown word NaN at byte 8" },
+    { "{\"time\":Infinity}", "", "unknown word Infinity" },
+    { "{\"time\":-Infinity}", "", "malformed number at byte 8" },
+    { "{\"time\":01}", "", "malformed number" },
+    { "{\"time\":1.}", "", "malformed number" },
+    { "{\"time\":.5}", "", "unexpected character" },
+    { "{\"time\":+5}", "", "unexpected character" },
+    { "{\"time\":1e}", "", "malformed number" },
+    { "{\"time\":0x10}", "", "unknown word x" },
+    { "{\"time\":1.2.3}", "", "malformed number" },
+    { "{\"time\":True}", "", "unknown word True" },
+    { "{\"time\":1.0000000000000000000000000000000000000000000000000000000000001}", "",
+      "more than 60 characters" },
+    { "{\"time\":\v1}", "", "unexpected character" },
+    { "\xef\xbb\xbf{}", "", "unexpected character at byte 0" },
+    { "{\"a\nb\":1}", "", "control character in a string at byte 3" },
+    { "{\"a\\x\":1}", "", "unknown escape" },
+    { "{\"a\\u00", "", "escape cut short" },
+    { "{\"time\\u00zz\":1}", "", "malformed escape at byte 6" },
+    { "{\"a\\uD83D\\u0041\":1}", "", "not valid JSON" },
+    { "{\"a\\ud800\":1}", "", "not valid JSON" },
+    { "{\"time\\u0000x\":1}", "", "NUL in a string at byte 6" },
+    { "{\"\xff\":1}", "", "invalid UTF-8 at byte 2" },
+    { "{\"\xc0\xaf\":1}", "", "invalid UTF-8" },         /* overlong / */
+    { "{\"\xed\xa0\x80\":1}", "", "invalid UTF-8" },     /* a surrogate */
+    { "{\"\xf4\x90\x80\x80\":1}", "", "invalid UTF-8" }, /* beyond U+10FFFF */
+    { "{\"\xe2\x82", "", "invalid UTF-8" },
+    { "{}\xff", "", "invalid UTF-8 at byte 2" },
+};
+
+static const struct bad fields[] = {
+    { "[]", "", "the document is an array" },
+    { "1", "", "the document is 1," },
+    { "null", "", "the document is null" },
+    { "{\"version\":2}", "/version", "version is 2, allowed is 1" },
+    { "{\"version\":\"1\"}", "/version", "version is \"1\"" },
+    { "{\"version\":1.5}", "/version", "version is 1.5" },
+    { "{\"version\":null}", "/version", "version is null" },
+    { "{\"version\":1,\"version\":1}", "/version", "version is given twice" },
+    { "{\"time\":1,\"camera\":{},\"time\":1}", "/time", "time is given twice" },
+    { "{\"camera\":{},\"disk\":{},\"camera\":{}}", "/camera", "camera is given twice" },
+    { "{\"camera\":{\"r\":9,\"r\":9}}", "/camera/r", "camera.r is given twice" },
+    { "{\"camera\":{\"r\":9,\"\\u0072\":9}}", "/camera/r", "camera.r is given twice" },
+    { "{\"camera\":{\"r\":9},\"disk\":{\"outer\":0}}", "/disk/outer",
+      "disk.outer is 0, allowed are 1 to 1000000 M" },
+    { "{\"camera\":5}", "/camera", "camera is 5, allowed is an object" },
+    { "{\"camera\":null}", "/camera", "camera is null" },
+    { "{\"camera\":[]}", "/camera", "camera is an array" },
+    { "{\"camera\":\"r\"}", "/camera", "camera is \"r\"" },
+    { "{\"Camera\":{}}", "/Camera", "did you mean camera?" },
+    { "{\"camera\":{\"R\":5}}", "/camera/R", "did you mean camera.r?" },
+    { "{\"camera\":{\"inclination\":5}}", "/camera/inclination", "did you mean camera.inclination_deg?" },
+    { "{\"spin\":0.5}", "/spin", "did you mean spacetime.spin?" },
+    { "{\"top\":{\"time\":5}}", "/top", "unknown field top" },
+    { "{\"\":{}}", "/", "unknown field" },
+    { "{\"camera\":{\"\":1}}", "/camera/", "known are r, inclination_deg" },
+    { "{\"__proto__\":{}}", "/__proto__", "known are spacetime, camera" },
+    { "{\"a/b~c\":1}", "/a~1b~0c", "unknown field a/b~c" },
+    { "{\"\\u001b[31m\":1}", "/\x1b[31m", "unknown field ?[31m" },
+    { "{\"spacetime\":{\"spin\":1.0000001}}", "/spacetime/spin",
+      "spacetime.spin is 1.0000001, allowed are -0.999999999999 to 0.999999999999 M" },
+    { "{\"spacetime\":{\"spin\":\"0.9\"}}", "/spacetime/spin", "spacetime.spin is \"0.9\"" },
+    { "{\"spacetime\":{\"spin\":true}}", "/spacetime/spin", "spacetime.spin is true" },
+    { "{\"spacetime\":{\"spin\":null}}", "/spacetime/spin", "spacetime.spin is null" },
+    { "{\"spacetime\":{\"mass_msun\":1e999}}", "/spacetime/mass_msun", "is a number beyond 1e308" },
+    { "{\"camera\":{\"r\":1e999}}", "/camera/r",
+      "beyond 1e308, allowed are 1 to 10000000 M, and \"infinity\"" },
+    { "{\"camera\":{\"r\":\"Infinity\"}}", "/camera/r", "camera.r is \"Infinity\"" },
+    { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer", "allowed are \"static\" and \"zamo\"" },
+    { "{\"image\":{\"width\":0}}", "/image/width",
+      "image.width is 0, allowed are whole numbers from 1 to 32768 pixels" },
+    { "{\"image\":{\"width\":1e9}}", "/image/width", "image.width is 1000000000" },
+    { "{\"image\":{\"width\":12.5}}", "/image/width", "image.width is 12.5" },
+    { "{\"style\":{\"dither\":1}}", "/style/dither", "style.dither is 1, allowed are true and false" },
+};
+
+static void syntax_is_strict(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof syntax / sizeof *syntax; i++)
+        expect_refused(syntax[i].text, strlen(syntax[i].text), syntax[i].pointer, syntax[i].fragment);
+    expect_refused("{}\0", 3, "", "NUL at byte 2");
+    expect_refused("{\"a\0b\":1}", 9, "", "control character in a string at byte 3");
+}
+
+static void fields_are_strict(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        expect_refused(fields[i].text, strlen(fields[i].text), fields[i].pointer, fields[i].fragment);
+}
+
+static void every_prefix_is_refused(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    char *text = support_canonical(&scene);
+    for (size_t n = 0; n < strlen(text); n++)
+        expect_refused(text, n, "", "not valid JSON");
+    free(text);
+}
+
+/* Text that costs a careless parser its stack, its memory or its time. */
+static void bombs_are_refused(void **state)
+{
+    (void)state;
+    size_t size = KD_SCENE_JSON_MAX;
+    char *text = malloc(2 * size);
+    memset(text, '[', size);
+    expect_refused(text, size, "", "nested deeper than 32 levels at byte 32");
+    for (size_t i = 0; i + 5 <= size; i += 5)
+        memcpy(text + i, "{\"a\":", 5);
+    expect_refused(text, size - size % 5, "", "nested deeper than 32 levels");
+    for (size_t i = 0; i + 2 <= size; i += 2)
+        memcpy(text + i, i ? "0," : "[ ", 2);
+    expect_refused(text, size, "", "more than 4096 values");
+    memset(text, ' ', 2 * size);
+    memcpy(text, "{}", 2);
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_scene_from_json(&scene, text, size, NULL), KD_OK);
+    expect_refused(text, size + 1, "", "the document has 1048577 bytes, allowed are 1048576");
+    expect_refused(text, 2 * size, "", "allowed are 1048576");
+    free(text);
+}
+
+/* 32 levels pass the scan and then fail as an unknown field; one more does not. */
+static void depth_limit_is_exact(void **state)
+{
+    (void)state;
+    char text[128] = "{\"a\":";
+    memset(text + 5, '[', 31);
+    memset(text + 36, ']', 31);
+    strcpy(text + 67, "}");
+    expect_refused(text, strlen(text), "/a", "unknown field a");
+    memset(text + 5, '[', 32);
+    memset(text + 37, ']', 32);
+    strcpy(text + 69, "}");
+    expect_refused(text, strlen(text), "", "deeper than 32");
+}
+
+/* A key too long for a pointer leaves the pointer at its parent; messages stay whole UTF-8. */
+static void long_names_are_cut(void **state)
+{
+    (void)state;
+    char text[1200] = "{\"camera\":{\"";
+    for (int i = 0; i < 300; i++)
+        strcat(text, "\xe2\x82\xac");
+    strcat(text, "\":1}}");
+    expect_refused(text, strlen(text), "/camera", "\xe2\x82\xac...;");
+    struct kd_scene scene;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    strcpy(text, "{\"camera\":{\"observer\":\"");
+    for (int i = 0; i < 300; i++)
+        strcat(text, "\xe2\x82\xac");
+    strcat(text, "\"}}");
+    assert_int_equal(support_parse(&scene, text, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "\xe2\x82\xac...\", allowed are"));
+}
+
+static size_t mutate(char *text, size_t length, size_t capacity, uint64_t *seed)
+{
+    static const char *const pieces[] = { "{",
+                                          "}",
+                                          "[",
+                                          "]",
+                                          ",",
+                                          ":",
+                                          "\"",
+                                          "\\",
+                                          "\\u0000",
+                                          "null",
+                                          "-",
+                                          "1e999",
+                                          "NaN",
+                                          "\xff",
+                                          "\"camera\":{",
+                                          "\"r\":1",
+                                          "0.5",
+                                          "true",
+                                          "\"infinity\"",
+                                          "\n" };
+    size_t at = length ? support_random(seed) % length : 0, n = 1 + support_random(seed) % 8;
+    const char *piece = pieces[support_random(seed) % (sizeof pieces / sizeof *pieces)];
+    size_t size = strlen(piece);
+    switch (support_random(seed) % 4) {
+    case 0: /* a byte */ text[at] = (char)support_random(seed); return length;
+    case 1: /* leave some out */
+        n = n > length - at ? length - at : n;
+        memmove(text + at, text + at + n, length - at - n);
+        return length - n;
+    case 2: /* put something in */
+        if (length + size > capacity)
+            return length;
+        memmove(text + at + size, text + at, length - at);
+        memcpy(text + at, piece, size);
+        return length + size;
+    default: return at; /* cut it off */
+    }
+}
+
+static void random_damage_is_harmless(void **state)
+{
+    (void)state;
+    uint64_t seed = 1916;
+    size_t accepted = 0, refused = 0;
+    for (int i = 0; i < 8000; i++) {
+        struct kd_scene scene, target, before;
+        support_scene(&scene, &seed);
+        kd_scene_defaults(&target);
+        before = target;
+        char *good = support_canonical(&scene);
+        size_t length = strlen(good), capacity = length + 256;
+        char *text = malloc(capacity);
+        memcpy(text, good, length);
+        for (uint64_t n = 1 + support_random(&seed) % 3; n; n--)
+            length = length ? mutate(text, length, capacity, &seed) : 0;
+        text = realloc(text, length ? length : 1); /* a read past the end is seen */
+        struct kd_error error = { 0 };
+        if (kd_scene_from_json(&target, text, length, &error)) {
+            refused++;
+            assert_int_equal(error.status, KD_EINVAL);
+            assert_true(*error.message);
+            assert_memory_equal(&target, &before, sizeof before);
+        } else {
+            accepted++; /* a changed digit, say: then it is a scene like any other */
+            for (size_t f = 0; f < KD_FIELD_COUNT; f++)
+                assert_true(kd_field_holds(&kd_fields[f], kd_field_get(&target, &kd_fields[f])));
+        }
+        free(text);
+        free(good);
+    }
+    assert_true(accepted > 100 && refused > 1000); /* else this tests one path alone */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(syntax_is_strict),          cmocka_unit_test(fields_are_strict),
+        cmocka_unit_test(every_prefix_is_refused),   cmocka_unit_test(bombs_are_refused),
+        cmocka_unit_test(depth_limit_is_exact),      cmocka_unit_test(long_names_are_cut),
+        cmocka_unit_test(random_damage_is_harmless),
+    };
+    return cmocka_run_group_tests_name("scene refusals", tests, NULL, NULL);
+}

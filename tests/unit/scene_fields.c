@@ -1,0 +1,251 @@
+/* Every field of the scene table: its bounds, its words, kd_scene_set, and the texts generated from it. */
+#include "scene_support.h"
+
+#include "scene/number.h"
+
+#include <cjson/cJSON.h>
+#include <limits.h>
+
+/* value, as JSON text and as text on a command line, is taken by both ways in or by neither. */
+static void expect(const struct kd_field *field, const char *json, const char *text, bool accepted,
+                   double stored)
+{
+    struct kd_scene a, b, before;
+    struct kd_error error = { 0 };
+    char document[256], path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+    kd_scene_defaults(&a);
+    b = before = a;
+    support_document(document, field, json);
+    kd_field_path(field, path);
+    kd_field_pointer(field, pointer);
+    for (int way = 0; way < 2; way++) {
+        struct kd_scene *scene = way ? &b : &a;
+        memset(&error, 0, sizeof error);
+        enum kd_status status =
+            way ? kd_scene_set(scene, path, text, &error) : support_parse(scene, document, &error);
+        if ((status == KD_OK) != accepted)
+            fail_msg("%s = %s by way %d: status %d, %s", path, json, way, status, error.message);
+        if (accepted) {
+            assert_true(kd_field_get(scene, field) == stored);
+        } else {
+            assert_int_equal(status, KD_EINVAL);
+            assert_string_equal(error.pointer, pointer);
+            assert_non_null(strstr(error.message, path));
+            assert_non_null(strstr(error.message, "allowed are"));
+            if (*field->unit && strcmp(field->unit, "1"))
+                assert_non_null(strstr(error.message, field->unit));
+            assert_memory_equal(scene, &before, sizeof before);
+        }
+    }
+}
+
+static void expect_number(const struct kd_field *field, double value, bool accepted)
+{
+    char text[KD_NUMBER_SIZE];
+    kd_number_format(text, value);
+    expect(field, text, text, accepted, value);
+}
+
+static void expect_word(const struct kd_field *field, const char *word, bool accepted, double stored)
+{
+    char json[96];
+    snprintf(json, sizeof json, "\"%s\"", word);
+    expect(field, json, word, accepted, stored);
+}
+
+static void bounds_are_inclusive(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *field = &kd_fields[i];
+        bool whole = field->kind == KD_FIELD_INT;
+        if (field->kind == KD_FIELD_BOOL || field->kind == KD_FIELD_ENUM)
+            continue;
+        expect_number(field, field->minimum, true);
+        expect_number(field, field->maximum, true);
+        expect_number(field, whole ? field->minimum - 1 : nextafter(field->minimum, -INFINITY), false);
+        expect_number(field, whole ? field->maximum + 1 : nextafter(field->maximum, INFINITY), false);
+        expect_number(field, 1e300, false);
+        if (whole) {
+            expect_number(field, field->minimum + 0.5, false);
+            expect_number(field, 4294967296.0 + field->minimum, false); /* wraps to the minimum in 32 bits */
+        }
+    }
+}
+
+static void words_are_exact(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *field = &kd_fields[i];
+        expect_word(field, "no-such-word", false, 0);
+        expect_word(field, "", false, 0);
+        if (field->kind == KD_FIELD_WORD)
+            expect_word(field, field->words, true, INFINITY);
+        if (field->kind != KD_FIELD_ENUM)
+            continue;
+        for (int w = 0; w < kd_field_word_count(field); w++) {
+            char word[64], longer[72];
+            struct kd_word span = kd_field_word(field, w);
+            snprintf(word, sizeof word, "%.*s", span.length, span.text);
+            expect_word(field, word, true, w);
+            snprintf(longer, sizeof longer, "%s ", word);
+            expect_word(field, longer, false, 0);
+            longer[strlen(word) - 1] = 0;
+            expect_word(field, longer, false, 0);
+        }
+        expect_word(field, field->words, false, 0);
+        expect(field, "0", "0", false, 0);
+    }
+}
+
+static void types_are_strict(void **state)
+{
+    (void)state;
+    static const char *const never[] = { "null", "[]", "[1]", "{}", "{\"x\":1}" };
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *field = &kd_fields[i];
+        bool truth = field->kind == KD_FIELD_BOOL;
+        for (size_t n = 0; n < sizeof never / sizeof *never; n++)
+            expect(field, never[n], never[n], false, 0);
+        expect(field, "true", "true", truth, 1);
+        expect(field, "false", "false", truth, 0);
+        expect(field, "\"1\"", "1 ", false, 0);
+        expect(field, "1e999", "1e999", false, 0);
+        expect(field, "-1e999", "-1e999", false, 0);
+        if (truth)
+            expect(field, "1", "1", false, 0);
+    }
+}
+
+/* What strtod takes and JSON does not. */
+static void set_reads_json_numbers(void **state)
+{
+    (void)state;
+    static const char *const bad[] = { "nan", "inf", "-inf", "NAN", "0x10", " 1", "1 ", "+1",
+                                       "1.",  ".5",  "01",   "1,5", "1e",   "-",  "" };
+    struct kd_scene scene;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(kd_scene_set(&scene, "time", bad[i], &error), KD_EINVAL);
+        assert_string_equal(error.pointer, "/time");
+    }
+    assert_int_equal(kd_scene_set(&scene, "time", "-1.25e2", &error), KD_OK);
+    assert_true(scene.top.time == -125);
+    assert_int_equal(kd_scene_set(&scene, "image.width", "6.4e2", &error), KD_OK);
+    assert_int_equal(scene.image.width, 640);
+    assert_int_equal(kd_scene_set(&scene, "time", "-0", &error), KD_OK);
+    assert_false(signbit(scene.top.time));
+    assert_int_equal(kd_scene_set(&scene, "version", "1", &error), KD_OK);
+    assert_int_equal(kd_scene_set(&scene, "version", "2", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/version");
+    assert_int_equal(kd_scene_set(&scene, "time", "nonsense", NULL), KD_EINVAL);
+}
+
+static void set_names_unknown_paths(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *pointer, *fragment;
+    } cases[] = {
+        { "camera.inclination", "/camera/inclination", "did you mean camera.inclination_deg?" },
+        { "camera.spin", "/camera/spin", "did you mean spacetime.spin?" },
+        { "spin", "/spin", "did you mean spacetime.spin?" },
+        { "cammera.r", "/cammera/r", "did you mean camera.r?" },
+        { "disk.color", "/disk/color", "did you mean disk.colour?" },
+        { "TIME", "/TIME", "did you mean time?" },
+        { "camera", "/camera", "is a section" },
+        { "camera.", "/camera/", "known are r," },
+        { "", "/", "known are spacetime," },
+        { ".time", "/.time", "unknown field" },
+        { "top.time", "/top/time", "did you mean time?" },
+        { "camera.r.x", "/camera/r.x", "unknown field camera.r.x" },
+        { "zzzzzzzz", "/zzzzzzzz", "known are spacetime, camera" },
+        { "a/b.c~d", "/a~1b/c~0d", "unknown field" },
+        { "camera.\x1b[31m\xff", "/camera/\x1b[31m\xff", "camera.?[31m?" },
+    };
+    struct kd_scene scene, before;
+    kd_scene_defaults(&scene);
+    before = scene;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_error error;
+        assert_int_equal(kd_scene_set(&scene, cases[i].path, "1", &error), KD_EINVAL);
+        assert_string_equal(error.pointer, cases[i].pointer);
+        if (!strstr(error.message, cases[i].fragment))
+            fail_msg("%s: \"%s\" lacks \"%s\"", cases[i].path, error.message, cases[i].fragment);
+        assert_memory_equal(&scene, &before, sizeof before);
+    }
+}
+
+static void defaults_are_valid(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
+    assert_true(scene.spacetime.spin == 0.9);
+    assert_true(isinf(scene.camera.r));
+    assert_int_equal(scene.disk.model, KD_DISK_NOVIKOV_THORNE);
+    assert_int_equal(scene.image.width, 1280);
+    assert_true(scene.style.dither);
+}
+
+static void schema_names_each_field(void **state)
+{
+    (void)state;
+    struct kd_buffer text = { 0 };
+    assert_int_equal(kd_scene_schema(&text), KD_OK);
+    cJSON *schema = cJSON_Parse((char *)text.data);
+    assert_non_null(schema);
+    const cJSON *root = cJSON_GetObjectItemCaseSensitive(schema, "properties");
+    assert_int_equal(cJSON_GetArraySize(root),
+                     1 + KD_SECTION_COUNT - 1 + kd_sections[KD_SECTION_COUNT - 1].count);
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *field = &kd_fields[i];
+        const cJSON *home = root;
+        if (*field->section) {
+            const cJSON *section = cJSON_GetObjectItemCaseSensitive(root, field->section);
+            assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(section, "additionalProperties")));
+            home = cJSON_GetObjectItemCaseSensitive(section, "properties");
+        }
+        const cJSON *row = cJSON_GetObjectItemCaseSensitive(home, field->name);
+        assert_non_null(row);
+        assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "description")->valuestring, field->help);
+        assert_non_null(cJSON_GetObjectItemCaseSensitive(row, "default"));
+        if (field->kind == KD_FIELD_REAL)
+            assert_true(cJSON_GetObjectItemCaseSensitive(row, "maximum")->valuedouble == field->maximum);
+    }
+    cJSON_Delete(schema);
+    kd_buffer_finish(&text);
+}
+
+static void reference_is_current(void **state)
+{
+    (void)state;
+    struct kd_buffer page = { 0 };
+    assert_int_equal(kd_scene_reference(&page), KD_OK);
+    FILE *file = fopen(KD_REFERENCE, "rb");
+    if (!file)
+        fail_msg("cannot open " KD_REFERENCE);
+    char *text = calloc(1, page.size + 2);
+    size_t size = fread(text, 1, page.size + 1, file);
+    fclose(file);
+    if (size != page.size || memcmp(text, page.data, size))
+        fail_msg("docs/scene.md is not what src/scene/fields.h says; update it with\n"
+                 "    BUILD/src/scene/kd_scene_reference > docs/scene.md");
+    free(text);
+    kd_buffer_finish(&page);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounds_are_inclusive),    cmocka_unit_test(words_are_exact),
+        cmocka_unit_test(types_are_strict),        cmocka_unit_test(set_reads_json_numbers),
+        cmocka_unit_test(set_names_unknown_paths), cmocka_unit_test(defaults_are_valid),
+        cmocka_unit_test(schema_names_each_field), cmocka_unit_test(reference_is_current),
+    };
+    return cmocka_run_group_tests_name("scene fields", tests, NULL, NULL);
+}

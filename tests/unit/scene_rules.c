@@ -1,0 +1,163 @@
+/* What ties fields together, and the presets. */
+#include "scene_support.h"
+
+struct rule {
+    const char *json;
+    const char *pointer; /* NULL: valid */
+    const char *fragment;
+};
+
+/* Radii by hand: r+ = 1 + sqrt(1 - a^2) is 1.8 at a = 0.6; the ergosphere is 2 in the plane; the ISCO is 6 at
+ * a = 0. */
+static const struct rule rules[] = {
+    { "{\"image\":{\"bit_depth\":8}}", NULL, NULL },
+    { "{\"image\":{\"bit_depth\":16}}", NULL, NULL },
+    { "{\"image\":{\"bit_depth\":12}}", "/image/bit_depth",
+      "image.bit_depth is 12, allowed are 8 and 16 bits" },
+    { "{\"camera\":{\"projection\":\"pinhole\"}}", "/camera/projection",
+      "a pinhole needs a finite camera.r" },
+    { "{\"camera\":{\"projection\":\"pinhole\",\"r\":20}}", NULL, NULL },
+    { "{\"camera\":{\"projection\":\"plane\",\"r\":20}}", "/camera/projection", "with camera.r 20 M" },
+    { "{\"camera\":{\"projection\":\"plane\"}}", NULL, NULL },
+    { "{\"camera\":{\"projection\":\"auto\",\"r\":20}}", NULL, NULL },
+    { "{\"camera\":{\"yaw_deg\":5}}", "/camera/yaw_deg",
+      "camera.yaw_deg is 5, allowed is 0 in the plane projection" },
+    { "{\"camera\":{\"pitch_deg\":-5}}", "/camera/pitch_deg", "aimed with camera.centre_alpha" },
+    { "{\"camera\":{\"r\":20,\"yaw_deg\":5,\"pitch_deg\":5}}", NULL, NULL },
+    { "{\"camera\":{\"r\":20,\"centre_alpha\":5}}", "/camera/centre_alpha", "aimed with camera.yaw_deg" },
+    { "{\"camera\":{\"r\":20,\"centre_beta\":5}}", "/camera/centre_beta", "in the pinhole projection" },
+    { "{\"camera\":{\"centre_alpha\":5,\"centre_beta\":-5}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.8,\"observer\":\"zamo\"}}", "/camera/r",
+      "camera.r is 1.8 M, allowed is more than 1.8 M, the horizon of spacetime.spin 0.6" },
+    { "{\"spacetime\":{\"spin\":-0.6},\"camera\":{\"r\":1.7,\"observer\":\"zamo\"}}", "/camera/r",
+      "the horizon" },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.81,\"observer\":\"zamo\"}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.9,\"inclination_deg\":90}}", "/camera/r",
+      "camera.r is 1.9 M, allowed for a static observer at this inclination is more than 2 M" },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.9,\"inclination_deg\":90}}", "/camera/r",
+      "\"zamo\"" },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":2,\"inclination_deg\":90}}", "/camera/r",
+      "ergosphere" },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":2.01,\"inclination_deg\":90}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.81,\"inclination_deg\":0}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.81,\"inclination_deg\":180}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0},\"disk\":{\"inner\":6}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0},\"disk\":{\"inner\":5.999}}", "/disk/inner",
+      "disk.inner is 5.999 M, allowed is at least 6 M, the ISCO of spacetime.spin 0" },
+    { "{\"spacetime\":{\"spin\":0},\"disk\":{\"inner\":5,\"model\":\"none\"}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0.9},\"disk\":{\"inner\":2.4}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":-0.9},\"disk\":{\"inner\":2.4}}", "/disk/inner", "8.71" }, /* retrograde */
+    { "{\"spacetime\":{\"spin\":0},\"disk\":{\"outer\":5.9}}", "/disk/outer",
+      "more than the inner edge, 6 M, which is the ISCO" },
+    { "{\"spacetime\":{\"spin\":0},\"disk\":{\"outer\":6.001}}", NULL, NULL },
+    { "{\"disk\":{\"inner\":15,\"outer\":15}}", "/disk/outer",
+      "disk.outer is 15 M, allowed is more than the inner edge, 15 M" },
+    { "{\"disk\":{\"inner\":15,\"outer\":14,\"model\":\"none\"}}", NULL, NULL },
+    { "{\"disk\":{\"inner\":15,\"outer\":15.5}}", NULL, NULL },
+};
+
+static void fields_fit_each_other(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+        const struct rule *rule = &rules[i];
+        struct kd_scene scene;
+        struct kd_error error = { 0 };
+        kd_scene_defaults(&scene);
+        if (support_parse(&scene, rule->json, &error))
+            fail_msg("%s: %s", rule->json, error.message);
+        enum kd_status status = kd_scene_validate(&scene, &error);
+        if ((status == KD_OK) != !rule->pointer)
+            fail_msg("%s gave %d %s", rule->json, status, error.message);
+        if (rule->pointer && (strcmp(error.pointer, rule->pointer) || !strstr(error.message, rule->fragment)))
+            fail_msg("%s gave \"%s\" \"%s\"", rule->json, error.pointer, error.message);
+        assert_int_equal(kd_scene_validate(&scene, NULL), status);
+    }
+}
+
+/* A scene filled in by hand has passed no parser. */
+static void ranges_are_checked_again(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *field = &kd_fields[i];
+        struct kd_scene scene;
+        struct kd_error error;
+        char pointer[KD_PATH_SIZE];
+        if (field->kind == KD_FIELD_BOOL)
+            continue;
+        kd_scene_defaults(&scene);
+        kd_field_put(&scene, field, field->kind >= KD_FIELD_INT ? -7 : -INFINITY);
+        kd_field_pointer(field, pointer);
+        assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
+        assert_string_equal(error.pointer, pointer);
+    }
+}
+
+static void presets_are_valid(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "schwarzschild", "gargantua", "m87",    "sgra",
+                                         "luminet1979",   "edge-on",   "face-on" };
+    char hashes[16][65];
+    assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) {
+        struct kd_scene scene;
+        struct kd_error error;
+        assert_string_equal(kd_scene_preset_name(i), names[i]);
+        assert_true(strlen(kd_scene_preset_title(i)) > 10);
+        memset(&scene, 0xff, sizeof scene);
+        if (kd_scene_preset(&scene, names[i], &error) || kd_scene_validate(&scene, &error))
+            fail_msg("%s: %s %s", names[i], error.pointer, error.message);
+        assert_int_equal(kd_scene_hash(&scene, hashes[i]), KD_OK);
+        for (size_t j = 0; j < i; j++)
+            assert_string_not_equal(hashes[i], hashes[j]);
+    }
+    assert_null(kd_scene_preset_name(kd_scene_preset_count()));
+    assert_null(kd_scene_preset_title(SIZE_MAX));
+}
+
+static void presets_show_what_they_say(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    assert_int_equal(kd_scene_preset(&scene, "schwarzschild", NULL), KD_OK);
+    assert_true(scene.spacetime.spin == 0);
+    assert_int_equal(kd_scene_preset(&scene, "gargantua", NULL), KD_OK);
+    assert_true(scene.spacetime.spin == 0.999 && scene.disk.doppler && scene.disk.redshift);
+    assert_int_equal(kd_scene_preset(&scene, "m87", NULL), KD_OK);
+    assert_true(scene.camera.inclination_deg == 163 && scene.spacetime.mass_msun == 6.5e9);
+    assert_int_equal(kd_scene_preset(&scene, "edge-on", NULL), KD_OK);
+    assert_true(scene.camera.inclination_deg == 90);
+    assert_int_equal(kd_scene_preset(&scene, "face-on", NULL), KD_OK);
+    assert_true(scene.camera.inclination_deg == 0);
+}
+
+static void unknown_preset_names_the_known(void **state)
+{
+    (void)state;
+    struct kd_scene scene, before;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    before = scene;
+    static const char *const wrong[] = { "", "Gargantua", "gargantua ", "garg", "\x1b[2J" };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(kd_scene_preset(&scene, wrong[i], &error), KD_EINVAL);
+        for (size_t p = 0; p < kd_scene_preset_count(); p++)
+            assert_non_null(strstr(error.message, kd_scene_preset_name(p)));
+        assert_null(strchr(error.message, '\x1b'));
+        assert_memory_equal(&scene, &before, sizeof before);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fields_fit_each_other),
+        cmocka_unit_test(ranges_are_checked_again),
+        cmocka_unit_test(presets_are_valid),
+        cmocka_unit_test(presets_show_what_they_say),
+        cmocka_unit_test(unknown_preset_names_the_known),
+    };
+    return cmocka_run_group_tests_name("scene rules", tests, NULL, NULL);
+}

@@ -1,0 +1,76 @@
+/* What the tests of the scene document share. */
+#ifndef KD_TESTS_SCENE_SUPPORT_H
+#define KD_TESTS_SCENE_SUPPORT_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "scene/table.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* xorshift64*: the same numbers on every machine. */
+static inline uint64_t support_random(uint64_t *state)
+{
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return *state * 0x2545f4914f6cdd1dull;
+}
+
+static inline double support_uniform(uint64_t *state)
+{
+    return (double)(support_random(state) >> 11) * 0x1p-53;
+}
+
+/* {"section":{"name":value}} or {"name":value} */
+static inline void support_document(char out[256], const struct kd_field *field, const char *value)
+{
+    if (*field->section)
+        snprintf(out, 256, "{\"%s\":{\"%s\":%s}}", field->section, field->name, value);
+    else
+        snprintf(out, 256, "{\"%s\":%s}", field->name, value);
+}
+
+static inline enum kd_status support_parse(struct kd_scene *scene, const char *text, struct kd_error *error)
+{
+    return kd_scene_from_json(scene, text, strlen(text), error);
+}
+
+/* The canonical text, malloc'd. */
+static inline char *support_canonical(const struct kd_scene *scene)
+{
+    struct kd_buffer text = { 0 };
+    assert_int_equal(kd_scene_to_json(scene, &text), KD_OK);
+    return (char *)text.data;
+}
+
+/* Every field at a random value: often an end of its range, sometimes tiny, sometimes its word. */
+static inline void support_scene(struct kd_scene *scene, uint64_t *state)
+{
+    kd_scene_defaults(scene);
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *field = &kd_fields[i];
+        bool words = field->kind == KD_FIELD_ENUM;
+        double low = field->minimum, high = words ? kd_field_word_count(field) - 1 : field->maximum;
+        double value = low + (high - low) * support_uniform(state);
+        uint64_t pick = support_random(state) % 8;
+        if (pick == 0)
+            value = support_random(state) % 2 ? low : high;
+        else if (pick == 1 && low < 0)
+            value = 1e-300 * (support_uniform(state) - 0.5);
+        else if (pick == 2 && field->kind == KD_FIELD_WORD)
+            value = INFINITY;
+        if (field->kind >= KD_FIELD_INT)
+            value = floor(value + 0.5);
+        value = value < low ? low : value > high && isfinite(value) ? high : value;
+        kd_field_put(scene, field, value);
+    }
+}
+
+#endif
