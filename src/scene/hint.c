@@ -15,10 +15,10 @@ static int least(int a, int b, int c)
     return m < c ? m : c;
 }
 
-/* Edit distance without regard to case (Levenshtein), FAR for names longer than any of ours. */
-static int distance(const char *a, const char *b)
+/* Edit distance (Levenshtein) to a name of ours, all lower case; FAR for names longer than any of ours. */
+static int distance(const char *given, const char *known)
 {
-    size_t na = strnlen(a, NAME_MAX_BYTES + 1), nb = strnlen(b, NAME_MAX_BYTES + 1);
+    size_t na = strnlen(given, NAME_MAX_BYTES + 1), nb = strnlen(known, NAME_MAX_BYTES + 1);
     int row[NAME_MAX_BYTES + 1];
     if (na > NAME_MAX_BYTES || nb > NAME_MAX_BYTES)
         return FAR;
@@ -28,7 +28,7 @@ static int distance(const char *a, const char *b)
         int diagonal = row[0];
         row[0] = (int)i;
         for (size_t j = 1; j <= nb; j++) {
-            int differs = tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]);
+            int differs = tolower((unsigned char)given[i - 1]) != known[j - 1];
             int here = least(row[j] + 1, row[j - 1] + 1, diagonal + differs);
             diagonal = row[j];
             row[j] = here;

@@ -1,6 +1,8 @@
 /* What ties fields together, and the presets. */
 #include "scene_support.h"
 
+#include "physics/kerr.h"
+
 struct rule {
     const char *json;
     const char *pointer; /* NULL: valid */
@@ -72,6 +74,21 @@ static void fields_fit_each_other(void **state)
         if (rule->pointer && (strcmp(error.pointer, rule->pointer) || !strstr(error.message, rule->fragment)))
             fail_msg("%s gave \"%s\" \"%s\"", rule->json, error.pointer, error.message);
         assert_int_equal(kd_scene_validate(&scene, NULL), status);
+    }
+}
+
+/* At the ISCO itself, to the last bit, and one step inside it. */
+static void inner_edge_may_touch_the_isco(void **state)
+{
+    (void)state;
+    for (double spin = -0.998; spin < 0.999; spin += 0.0625) {
+        struct kd_scene scene;
+        kd_scene_defaults(&scene);
+        scene.spacetime.spin = spin;
+        scene.disk.inner = kd_kerr_isco(spin);
+        assert_int_equal(kd_scene_validate(&scene, NULL), KD_OK);
+        scene.disk.inner = nextafter(scene.disk.inner, 0);
+        assert_int_equal(kd_scene_validate(&scene, NULL), KD_EINVAL);
     }
 }
 
@@ -153,11 +170,9 @@ static void unknown_preset_names_the_known(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_fit_each_other),
-        cmocka_unit_test(ranges_are_checked_again),
-        cmocka_unit_test(presets_are_valid),
-        cmocka_unit_test(presets_show_what_they_say),
-        cmocka_unit_test(unknown_preset_names_the_known),
+        cmocka_unit_test(fields_fit_each_other),      cmocka_unit_test(inner_edge_may_touch_the_isco),
+        cmocka_unit_test(ranges_are_checked_again),   cmocka_unit_test(presets_are_valid),
+        cmocka_unit_test(presets_show_what_they_say), cmocka_unit_test(unknown_preset_names_the_known),
     };
     return cmocka_run_group_tests_name("scene rules", tests, NULL, NULL);
 }
