@@ -1,0 +1,29 @@
+/* Histogram of the picture's log luminance, for auto exposure. Integer counts: the same on every run. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.h"
+
+layout(local_size_x = KD_GROUP_SIZE) in;
+layout(push_constant) uniform Push { uint pixels; } push;
+layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
+layout(set = 0, binding = 1) buffer Histogram { uint histogram[KD_HISTOGRAM_BINS]; };
+shared uint local_bins[KD_HISTOGRAM_BINS];
+
+void main()
+{
+    for (uint i = gl_LocalInvocationID.x; i < KD_HISTOGRAM_BINS; i += KD_GROUP_SIZE)
+        local_bins[i] = 0;
+    barrier();
+    uint step_ = gl_NumWorkGroups.x * KD_GROUP_SIZE;
+    for (uint i = gl_GlobalInvocationID.x; i < push.pixels; i += step_) {
+        float y = 0.2126729 * radiance[3 * i] + 0.7151522 * radiance[3 * i + 1] + 0.0721750 * radiance[3 * i + 2];
+        uint bin = 0;
+        if (y > 0.0)
+            bin = uint(clamp((log2(y) - KD_HISTOGRAM_MIN) * KD_HISTOGRAM_PER_STOP, 1.0, float(KD_HISTOGRAM_BINS - 1)));
+        atomicAdd(local_bins[bin], 1);
+    }
+    barrier();
+    for (uint i = gl_LocalInvocationID.x; i < KD_HISTOGRAM_BINS; i += KD_GROUP_SIZE)
+        if (local_bins[i] != 0)
+            atomicAdd(histogram[i], local_bins[i]);
+}

@@ -1,0 +1,97 @@
+/* The lens map by integration: radii of the crossings, and as the scene requires their azimuths, the direction in which a
+ * ray escapes and its fate; for an observer at any radius.
+ *
+ * When a ray crosses the plane is known in closed form (polar.glsl), so the steps end exactly on the crossings: each half
+ * period is STEPS equal steps of the radial equation, the same for every ray, without a search and without divergence.
+ * From the last crossing before it escapes, a ray goes on with the full vector equation of the angles.
+ *
+ * Planes: w of each order (0: none); with PHI the azimuth of each; with SKY cos(theta) and phi of the escape, and the fate.
+ * Azimuths are source minus observer. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.h"
+#include "subset.glsl"
+#include "kerr_ray.glsl"
+#include "polar.glsl"
+#include "polar_azimuth.glsl"
+#include "radial_step.glsl"
+
+layout(constant_id = 0) const uint ORDERS = 3;
+layout(constant_id = 1) const uint STEPS = 8; /* a half period; a multiple of 4 for the quadrature */
+layout(constant_id = 2) const bool FINITE = false;
+layout(constant_id = 3) const bool PHI = false;
+layout(constant_id = 4) const bool SKY = false;
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+#define F(name) float name;
+#define U(name) uint name;
+layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
+layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
+#include "camera.glsl"
+#include "escape.glsl"
+
+void main()
+{
+    uint x = gl_GlobalInvocationID.x, row = cam.row0 + gl_WorkGroupID.y;
+    if (x >= cam.width)
+        return;
+    kd_ray ray = kd_camera_ray(x, row);
+    kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
+    kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
+    kd_azimuth azimuth;
+    float psi = 0.0, chi = 0.0;
+    if (PHI || SKY) {
+        azimuth = kd_azimuth_of(m, ray, polar, cam.u, cam.s);
+        psi = azimuth.first;
+    }
+
+    uint at = (row - cam.band0) * cam.width + x;
+    kd_state y;
+    y.w = ray.w;
+    y.dw = ray.dw;
+    kd_path last = kd_path_start(ray, cam.u, cam.s);
+    float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
+    bool alive = polar.crosses;
+    float h = polar.first * (1.0 / float(STEPS));
+
+    for (uint n = 0; n < ORDERS; n++) {
+        float low = y.w, high = y.w, sum = 0.0;
+        if (PHI || SKY)
+            sum = 7.0 * kd_drag(m, ray.e, cam.spin, y.w);
+        for (uint i = 0; i < STEPS; i += 4) {
+            /* Boole's rule on each four steps. */
+            for (uint j = 0; j < 4; j++) {
+                y = kd_radial_step(m, y, h);
+                /* Beyond the horizon the numbers mean nothing: keep them finite. */
+                y.w = clamp(y.w, -2.0, 2.0);
+                low = min(low, y.w);
+                high = max(high, y.w);
+                if (PHI || SKY)
+                    sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) * kd_drag(m, ray.e, cam.spin, y.w);
+            }
+        }
+        alive = alive && low >= 0.0 && high < cam.horizon && y.w > 0.0;
+        lens[at] = alive ? y.w : 0.0;
+        if (PHI || SKY)
+            chi += sum * h * (2.0 / 45.0);
+        if (PHI)
+            lens[at + ORDERS * cam.stride] = alive ? -(psi + chi) : 0.0;
+        if (SKY && alive) {
+            above = -above;
+            last = kd_path_crossing(m, y, psi, chi, above);
+        }
+        at += cam.stride;
+        psi += azimuth.half_;
+        h = polar.half_ * (1.0 / float(STEPS));
+        if (!alive)
+            y.w = 0.0;
+    }
+
+    if (SKY) {
+        kd_escape end = kd_path_escape(m, ray, last, cam.spin, cam.horizon);
+        at += (PHI ? ORDERS : 0) * cam.stride;
+        lens[at] = end.u;
+        lens[at + cam.stride] = -end.phi;
+        lens[at + 2 * cam.stride] = end.fate;
+    }
+}

@@ -1,0 +1,42 @@
+/* The lens map where a scene needs the radii of the crossings alone, for an observer at infinity: closed form, no loop
+ * over steps, no divergence. Plane n of the map is w = M/r of the crossing of order n, 0 if there is none. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.h"
+#include "subset.glsl"
+#include "kerr_ray.glsl"
+#include "polar.glsl"
+#include "radial_closed.glsl"
+
+layout(constant_id = 0) const uint ORDERS = 3;
+layout(local_size_x = KD_GROUP_SIZE) in;
+const bool FINITE = false;
+
+#define F(name) float name;
+#define U(name) uint name;
+layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
+layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
+#include "camera.glsl"
+
+void main()
+{
+    uint x = gl_GlobalInvocationID.x, row = cam.row0 + gl_WorkGroupID.y;
+    if (x >= cam.width)
+        return;
+    kd_ray ray = kd_camera_ray(x, row);
+    kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
+    kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
+    kd_radial radial = kd_radial_of(m, cam.horizon);
+
+    uint at = (row - cam.band0) * cam.width + x;
+    bool alive = polar.crosses;
+    float tau = polar.first;
+    for (uint n = 0; n < ORDERS; n++) {
+        /* Series up to |A|^(1/2) z = pi/8; the direct crossing comes within a half period, each further one adds a half. */
+        kd_radius r = kd_radial_at(radial, tau, n == 0 ? 3 : n < 3 ? 4 : 5);
+        alive = alive && r.valid;
+        lens[at] = alive ? r.w : 0.0;
+        at += cam.stride;
+        tau += polar.half_;
+    }
+}

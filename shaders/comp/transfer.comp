@@ -1,0 +1,133 @@
+/* Light: from the lens map to linear sRGB radiance, front to back over the image orders.
+ *
+ * A disk element at radius r shines as a black body of temperature T(r). Liouville: I_nu/nu^3 is constant along the ray,
+ * so that it is seen as a black body of g T, its bolometric intensity g^4 F / pi. With
+ *   g = nu_obs / nu_em = 1 / (u^t (E - Omega L)),   E, L per unit of energy that the observer measures,
+ *   u^t = (1 + a r^-3/2) / sqrt(1 - 3/r + 2a r^-3/2),   Omega = 1/(r^3/2 + a)      (Bardeen, Press & Teukolsky 1972).
+ * Radiance is in units of the brightest surface brightness of the disk at g = 1. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.h"
+#include "subset.glsl"
+#include "kerr_ray.glsl"
+
+layout(constant_id = 0) const uint ORDERS = 3;
+layout(constant_id = 1) const uint SIDE = 1; /* rays along each side of a pixel */
+layout(constant_id = 2) const bool FINITE = false;
+layout(constant_id = 3) const bool DISK = true;
+layout(constant_id = 4) const bool SKY = false;
+layout(constant_id = 5) const uint SKY_PLANE = 3;
+layout(constant_id = 6) const bool DOPPLER = true;
+layout(constant_id = 7) const bool REDSHIFT = true;
+layout(constant_id = 8) const bool VISIBLE = false; /* brightness as the eye weighs it instead of bolometric */
+layout(constant_id = 9) const bool OPAQUE = true;   /* the first crossing that meets the disk ends the ray */
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+#define F(name) float name;
+#define U(name) uint name;
+layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
+layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+layout(set = 0, binding = 1) readonly buffer Transfer {
+    KD_TRANSFER_FIELDS_(F, U)
+    float pad[KD_TRANSFER_HEADER - 10];
+    float disk_table[KD_DISK_TABLE];
+    vec4 colour_table[KD_COLOUR_TABLE];
+} tr;
+layout(set = 0, binding = 2) writeonly buffer Radiance { float radiance[]; };
+#include "camera.glsl"
+
+/* Emitted light of the disk at w = 1/r, seen with the ray's constants; alpha: its opacity here. */
+vec4 disk_light(float w, float energy, float momentum)
+{
+    float r = 1.0 / w;
+    if (r < tr.r_in || r > tr.r_out)
+        return vec4(0.0);
+    float y = sqrt(max(1.0 - tr.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
+    uint i = min(uint(y), KD_DISK_TABLE - 2);
+    float t = mix(tr.disk_table[i], tr.disk_table[i + 1], y - float(i)); /* T r^(3/4) over T_peak */
+    float w34 = sqrt(w * sqrt(w));
+    t *= w34;
+
+    float g = 1.0, aw = cam.spin * w * sqrt(w); /* a r^-3/2 */
+    if (REDSHIFT)
+        g *= sqrt(max(1.0 + 2.0 * aw - 3.0 * w, 0.0)) / (1.0 + aw);
+    if (DOPPLER)
+        g /= energy - momentum / (r * sqrt(r) + cam.spin);
+    else if (FINITE)
+        g /= energy;
+    t *= g;
+
+    float x = (tr.log_t_peak + log2(max(t, 1e-20)) - KD_COLOUR_LOG_MIN) *
+              (float(KD_COLOUR_TABLE - 1) / (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN));
+    x = clamp(x, 0.0, float(KD_COLOUR_TABLE - 1));
+    uint k = min(uint(x), KD_COLOUR_TABLE - 2);
+    vec4 c = mix(tr.colour_table[k], tr.colour_table[k + 1], x - float(k));
+    float t4 = t * t * t * t;
+    /* The fourth component is log2 of the luminous fraction over its value at T_peak. */
+    float brightness = VISIBLE ? t4 * exp2(c.w) : t4;
+
+    /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
+    float f = clamp((tr.r_out - r) / max(tr.r_out - tr.taper_r, 1e-6), 0.0, 1.0);
+    float fade = f * f * (3.0 - 2.0 * f);
+    return vec4(c.rgb * brightness, tr.opacity * fade);
+}
+
+/* A celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a fortieth of
+ * the spacing. */
+vec3 sky_light(uint at)
+{
+    if (lens[at + 2 * cam.stride] != KD_FATE_ESCAPED)
+        return vec3(0.0);
+    float u = lens[at], phi = lens[at + cam.stride] + tr.azimuth;
+    float latitude = atan(u, sqrt(max(1.0 - u * u, 0.0)));
+    float longitude = phi - 2.0 * float(KD_PI) * floor(phi / (2.0 * float(KD_PI)));
+    vec2 q = vec2(longitude, latitude) / tr.sky_grid;
+    vec2 d = abs(q - floor(q + 0.5));
+    d.x *= sqrt(max(1.0 - u * u, 0.0)); /* meridians keep their width towards the pole */
+    float line = min(d.x, d.y) < 0.025 ? 1.0 : 0.0;
+    vec3 base = longitude < float(KD_PI) ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
+                                         : (u > 0.0 ? vec3(0.45, 0.16, 0.30) : vec3(0.48, 0.33, 0.08));
+    return tr.sky_brightness * mix(base, vec3(1.0), line);
+}
+
+void main()
+{
+    uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y;
+    if (px >= tr.pixels_x)
+        return;
+    vec3 sum = vec3(0.0);
+    for (uint j = 0; j < SIDE; j++) {
+        for (uint i = 0; i < SIDE; i++) {
+            uint x = px * SIDE + i, row = py * SIDE + j;
+            uint at = (row - cam.band0) * cam.width + x;
+            float energy = 1.0, momentum = 0.0;
+            if (DISK && (DOPPLER || FINITE)) {
+                kd_ray ray = kd_camera_ray(x, row);
+                energy = ray.e;
+                momentum = ray.l * cam.s;
+            }
+            vec3 light = vec3(0.0);
+            float through = 1.0; /* what the gas in front lets pass */
+            if (DISK) {
+                for (uint n = 0; n < ORDERS; n++) {
+                    float w = lens[at + n * cam.stride];
+                    if (w <= 0.0)
+                        break;
+                    vec4 c = disk_light(w, energy, momentum);
+                    light += through * c.a * c.rgb;
+                    through *= 1.0 - c.a;
+                    if (OPAQUE && through <= 0.0)
+                        break;
+                }
+            }
+            if (SKY)
+                light += through * sky_light(at + SKY_PLANE * cam.stride);
+            sum += light;
+        }
+    }
+    sum *= 1.0 / float(SIDE * SIDE);
+    uint o = 3 * ((py - cam.band0 / SIDE) * tr.pixels_x + px);
+    radiance[o] = sum.r;
+    radiance[o + 1] = sum.g;
+    radiance[o + 2] = sum.b;
+}

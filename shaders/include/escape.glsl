@@ -1,0 +1,105 @@
+/* The end of a ray: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
+ * n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
+ *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
+ * Albrecht's method again, for w and n together. Needs the specialisation constant STEPS. */
+#ifndef KD_ESCAPE_GLSL
+#define KD_ESCAPE_GLSL
+
+struct kd_path {
+    vec4 y, v; /* (n, w) and its derivative */
+    float chi;
+};
+
+struct kd_escape { float u, phi, fate; }; /* phi = psi + chi */
+
+kd_path kd_path_start(kd_ray ray, float u, float s)
+{
+    kd_path o;
+    o.y = vec4(s, 0.0, u, ray.w);
+    o.v = vec4(-u * ray.p, ray.l, s * ray.p, ray.dw); /* L / sin theta = l: finite on the axis */
+    o.chi = 0.0;
+    return o;
+}
+
+/* On the plane, leaving it upwards (side = 1) or downwards (-1): |u'| = sqrt(Q). */
+kd_path kd_path_crossing(kd_motion m, kd_state y, float psi, float chi, float side)
+{
+    kd_path o;
+    float c = cos(psi), s = sin(psi);
+    o.y = vec4(c, s, 0.0, y.w);
+    o.v = vec4(-m.momentum * s, m.momentum * c, side * sqrt(max(m.q, 0.0)), y.dw);
+    o.chi = chi;
+    return o;
+}
+
+vec4 kd_path_pull(kd_motion m, vec4 y)
+{
+    float e = m.energy2, u = y.z, w = y.w;
+    vec4 f = -(m.q + m.momentum * m.momentum + 2.0 * e * u * u) * y;
+    f.z += e * u;
+    f.w = w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w));
+    return f;
+}
+
+kd_path kd_path_step(kd_motion m, kd_path p, float h)
+{
+    float h2 = h * h;
+    vec4 hv = h * p.v;
+    vec4 k1 = kd_path_pull(m, p.y);
+    vec4 k2 = kd_path_pull(m, p.y + 0.25 * hv + h2 * (1.0 / 32.0) * k1);
+    vec4 k3 = kd_path_pull(m, p.y + 0.5 * hv + h2 * (1.0 / 24.0) * (4.0 * k2 - k1));
+    vec4 k4 = kd_path_pull(m, p.y + 0.75 * hv + h2 * (1.0 / 32.0) * (3.0 * k1 + 4.0 * k2 + 2.0 * k3));
+    vec4 k5 = kd_path_pull(m, p.y + hv + h2 * (1.0 / 14.0) * (6.0 * k2 - k3 + 2.0 * k4));
+    kd_path o;
+    o.y = p.y + (hv + h2 * (1.0 / 90.0) * (7.0 * k1 + 24.0 * k2 + 6.0 * k3 + 8.0 * k4));
+    o.v = p.v + h * (1.0 / 90.0) * (7.0 * (k1 + k5) + 32.0 * (k2 + k4) + 12.0 * k3);
+    o.chi = p.chi;
+    return o;
+}
+
+/* The drag over one step: Simpson's rule, with the middle from the quintic that fits w, w' and w'' at both ends. */
+float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h, float a)
+{
+    float mid = 0.5 * (p.y.w + q.y.w) + h * (5.0 / 32.0) * (p.v.w - q.v.w) +
+                h * h * (1.0 / 64.0) * (kd_path_pull(m, p.y).w + kd_path_pull(m, q.y).w);
+    return h * (1.0 / 6.0) * (kd_drag(m, ray.e, a, p.y.w) + 4.0 * kd_drag(m, ray.e, a, mid) + kd_drag(m, ray.e, a, q.y.w));
+}
+
+kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p, float a, float horizon)
+{
+    kd_escape o;
+    o.fate = KD_FATE_UNDECIDED;
+    o.u = 0.0;
+    o.phi = 0.0;
+    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial. */
+    float rate = sqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
+    float h = KD_PI / (float(STEPS) * rate);
+    /* Twelve half periods: beyond them only rays within 1e-13 of the critical curve still circle. */
+    for (uint i = 0; i < 12 * STEPS; i++) {
+        kd_path q = kd_path_step(m, p, h);
+        if (q.y.w >= horizon || isnan(q.y.w)) {
+            o.fate = KD_FATE_CAPTURED;
+            break;
+        }
+        if (q.y.w < 0.0) {
+            /* Where the cubic through both ends vanishes, by Newton; then one step to there. */
+            float s = p.y.w / (p.y.w - q.y.w), d0 = h * p.v.w, d1 = h * q.v.w, dy = q.y.w - p.y.w;
+            float c2 = 3.0 * dy - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * dy;
+            for (int k = 0; k < 4; k++) {
+                float f = p.y.w + s * (d0 + s * (c2 + s * c3)), df = d0 + s * (2.0 * c2 + 3.0 * s * c3);
+                s = clamp(s - f / (df < 0.0 ? df : -1.0), 0.0, 1.0);
+            }
+            q = kd_path_step(m, p, s * h);
+            vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
+            o.phi = atan(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h, a);
+            o.u = n.z * inversesqrt(dot(n, n));
+            o.fate = KD_FATE_ESCAPED;
+            break;
+        }
+        q.chi = p.chi + kd_path_drag(m, ray, p, q, h, a);
+        p = q;
+    }
+    return o;
+}
+
+#endif

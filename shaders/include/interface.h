@@ -1,0 +1,60 @@
+/* Layouts and constants that C and GLSL share. 4-byte scalars only; each list is written once and expanded by both
+ * sides; a test compares the offsets in the SPIR-V with offsetof. */
+#ifndef KD_INTERFACE_H
+#define KD_INTERFACE_H
+
+/* Invocations of a workgroup in every kernel: eight lavapipe vectors, two NVIDIA warps, one AMD wave. */
+#define KD_GROUP_SIZE 64
+
+/* Camera, constants of the hole, and the rows of rays at hand: the push constants of the tracing and transfer kernels.
+ * A ray at (x, y), in steps from the middle of the picture, y upwards, has the direction c0 + x cx + y cy; at infinity its
+ * first two components are alpha and beta, at a finite radius it is normalised to the look direction (k_r, k_theta, k_phi)
+ * in the observer's local frame. */
+#define KD_CAMERA_FIELDS_(F, U)                                                                                \
+    F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz)                                             \
+    F(middle_x) F(middle_y) /* ray coordinates of the middle of the picture */                                 \
+    F(spin) F(u) F(s)       /* a; cosine and sine of the observer's polar angle */                             \
+    F(horizon)              /* 1/r+ */                                                                         \
+    F(w0)                   /* 1/r of the observer, 0 at infinity */                                           \
+    F(e0) F(e1) F(l0) F(l1) /* E = e0 + e1 m_phi; L/sin(theta) = l0 + l1 m_phi, m = -k the photon's direction */ \
+    F(cp) F(cw)             /* p_theta = cp m_theta; dw/dtau = cw k_r */                                       \
+    U(width)                /* rays a row */                                                                   \
+    U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */                    \
+    U(band0)                /* first row of the band that the buffers hold */                                  \
+    U(stride)               /* rays of the band: distance between planes of the lens map */
+
+/* What the transfer kernel needs beside the camera, in a storage buffer followed by the tables. */
+#define KD_TRANSFER_FIELDS_(F, U)                                                                              \
+    F(r_isco) F(r_in) F(r_out) F(taper_r) /* M; taper_r: where the outer fade begins */                        \
+    F(opacity)                                                                                                 \
+    F(log_t_peak)                         /* log2 of the peak effective temperature times the hardening, K */  \
+    F(sky_brightness) F(sky_grid)         /* sky; grid spacing in radians */                                   \
+    F(azimuth)                            /* of the observer, radians */                                       \
+    U(pixels_x)                           /* pixels a row */
+
+/* Tables behind the transfer parameters, in floats. */
+#define KD_TRANSFER_HEADER 16
+#define KD_DISK_TABLE 1024    /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
+#define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
+#define KD_COLOUR_LOG_MIN 6.0 /* 64 K */
+#define KD_COLOUR_LOG_MAX 30.0
+
+#define KD_POST_FIELDS_(F, U)                                                                                  \
+    F(gain)                  /* 2^exposure */                                                                  \
+    F(levels)                /* 255 or 65535 */                                                                \
+    F(dither)                /* 0 or 1 */                                                                      \
+    U(pixels)                /* of the band */                                                                 \
+    U(first)                 /* index of the band's first pixel in the picture */                              \
+    U(pixels_x)
+
+/* Histogram of log2 luminance for auto exposure: bin 0 is black. */
+#define KD_HISTOGRAM_BINS 512
+#define KD_HISTOGRAM_MIN -40.0
+#define KD_HISTOGRAM_PER_STOP 8.0
+
+/* Values of the fate plane. */
+#define KD_FATE_ESCAPED 0.0
+#define KD_FATE_CAPTURED 1.0
+#define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
+
+#endif

@@ -1,0 +1,36 @@
+/* A null geodesic of Kerr in Mino time tau, with w = M/r and u = cos(theta), M = 1, traced from the observer.
+ *
+ *   w'^2 = R(w) = E^2 + A w^2 + 2 K w^3 - D w^4     A = a^2 E^2 - L^2 - Q,  K = Q + (L - aE)^2,  D = a^2 Q
+ *   u'^2 = U(u) = Q + A u^2 - a^2 E^2 u^4
+ *
+ * (Carter 1968, with w and u for r and theta.) With l = L / sin(theta_o) and p = p_theta at the observer,
+ * L^2 + Q = l^2 + p^2 - a^2 E^2 cos^2(theta_o), so that no term is singular for an observer on the axis. At infinity
+ * l = -alpha and p = beta. E is the photon's energy at infinity over the one that the observer measures. */
+#ifndef KD_KERR_RAY_GLSL
+#define KD_KERR_RAY_GLSL
+
+struct kd_ray {
+    real e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
+    real w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
+};
+
+struct kd_motion {
+    real momentum, q, energy2; /* L, Q, a^2 E^2 */
+    real a2, k, d;             /* A, K, D       */
+};
+
+/* a: spin; u, s: cosine and sine of the observer's polar angle. */
+KD_FN kd_motion kd_motion_of(kd_ray ray, real a, real u, real s)
+{
+    kd_motion m;
+    real ae = a * ray.e;
+    m.energy2 = ae * ae;
+    m.momentum = ray.l * s;
+    m.q = ray.p * ray.p + u * u * (ray.l * ray.l - m.energy2);
+    m.a2 = m.energy2 * (KD_R(1) + u * u) - ray.l * ray.l - ray.p * ray.p;
+    m.k = m.q + (m.momentum - ae) * (m.momentum - ae);
+    m.d = a * a * m.q;
+    return m;
+}
+
+#endif

@@ -1,0 +1,311 @@
+/* One frame: the plan's passes, band by band, in short submissions. */
+#include "render/internal.h"
+
+#include "render/camera.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
+
+struct job {
+    struct kd_renderer *r;
+    const struct kd_scene *scene;
+    const struct kd_plan *plan;
+    struct kd_camera_push camera;
+    struct kd_lens_map *lens;
+    kd_progress_fn progress;
+    void *user;
+    double done, weight; /* rows so far, of all passes */
+    struct kd_error *error;
+};
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static enum kd_status report(struct job *j, double rows)
+{
+    j->done += rows;
+    if (j->progress && !j->progress(j->user, fmin(j->done / j->weight, 1)))
+        return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
+    return KD_OK;
+}
+
+static uint32_t band_first(const struct job *j, uint32_t band) { return band * j->plan->band_rows; }
+static uint32_t band_rows(const struct job *j, uint32_t band)
+{
+    uint32_t left = j->plan->height - band_first(j, band);
+    return left < j->plan->band_rows ? left : j->plan->band_rows;
+}
+static struct kd_vk_buffer *lens_buffer(const struct job *j, uint32_t band)
+{
+    return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
+}
+
+static uint32_t groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
+
+/* Rows of pixels that one submission takes, given nanoseconds a row. */
+static uint32_t slice_rows(double ns_per_row, uint32_t rows)
+{
+    double n = SLICE_MS * 1e6 / fmax(ns_per_row, 1);
+    return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
+}
+
+static enum kd_status trace_kernel(struct job *j, const struct kd_vk_pipeline **out)
+{
+    const struct kd_plan *p = j->plan;
+    if (p->radius_only)
+        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, (uint32_t[]){ p->orders }, 1, out,
+                              j->error);
+    const uint32_t constants[] = { p->orders, p->steps, !isinf(j->scene->camera.r), p->phi, p->sky };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 5, out, j->error);
+}
+
+static enum kd_status transfer_kernel(struct job *j, const struct kd_vk_pipeline **out)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_disk *d = &j->scene->disk;
+    const uint32_t constants[] = {
+        p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
+        p->orders + (p->phi ? p->orders : 0), d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1,
+    };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, 10, out, j->error);
+}
+
+/* Run a kernel over the rows of a band in slices. rays: the grid is that of the rays, not of the pixels. */
+static enum kd_status run_band(struct job *j, uint32_t band, const struct kd_vk_dispatch *base, bool rays,
+                               double ns_per_ray)
+{
+    const struct kd_plan *p = j->plan;
+    uint32_t first = band_first(j, band), rows = band_rows(j, band);
+    double row_ns = ns_per_ray * p->width * p->side * p->side;
+    uint32_t step = slice_rows(row_ns, rows);
+    for (uint32_t done = 0; done < rows; done += step) {
+        uint32_t n = rows - done < step ? rows - done : step;
+        struct kd_camera_push push = j->camera;
+        push.row0 = (first + done) * p->side;
+        push.rows = n * p->side;
+        push.band0 = first * p->side;
+        push.stride = p->width * p->side * p->band_rows * p->side;
+        struct kd_vk_dispatch d = *base;
+        d.push = &push;
+        d.groups[0] = groups(rays ? (uint64_t)p->width * p->side : p->width);
+        d.groups[1] = rays ? push.rows : n;
+        enum kd_status status = kd_vk_dispatch(j->r->vk, &d, j->error);
+        if (!status)
+            status = kd_vk_submit(j->r->vk, NULL, j->error);
+        if (!status)
+            status = report(j, n);
+        if (status)
+            return status;
+    }
+    return KD_OK;
+}
+
+static enum kd_status trace_and_transfer(struct job *j, bool reused, const struct kd_capacity *c)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_vk_pipeline *trace = NULL, *transfer;
+    enum kd_status status = reused || !p->planes ? KD_OK : trace_kernel(j, &trace);
+    if (!status)
+        status = transfer_kernel(j, &transfer);
+    for (uint32_t band = 0; band < p->bands && !status; band++) {
+        struct kd_vk_buffer *lens = lens_buffer(j, band);
+        if (trace)
+            status = run_band(j, band,
+                              &(struct kd_vk_dispatch){ "trace", trace, { { lens, 0, 0, true } }, 0, { 0 } }, true,
+                              p->radius_only ? c->ns_per_ray_radius : c->ns_per_ray_full);
+        if (!status)
+            status = run_band(j, band,
+                              &(struct kd_vk_dispatch){ "transfer",
+                                                        transfer,
+                                                        { { lens, 0, 0, false },
+                                                          { j->r->store.transfer, 0, 0, false },
+                                                          { j->r->store.radiance.buffers[band], 0, 0, true } },
+                                                        0,
+                                                        { 0 } },
+                              false, c->ns_per_sample_transfer);
+    }
+    return status;
+}
+
+/* Histogram of the whole picture to the host. */
+static enum kd_status measure(struct job *j)
+{
+    struct kd_vk *vk = j->r->vk;
+    struct kd_store *s = &j->r->store;
+    const struct kd_vk_pipeline *expose;
+    enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error);
+    if (!status)
+        status = kd_vk_fill(vk, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
+    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+        uint32_t pixels = j->plan->width * band_rows(j, band);
+        uint32_t n = groups(pixels / 64 + 1); /* each invocation counts some 64 pixels */
+        status = kd_vk_dispatch(vk,
+                                &(struct kd_vk_dispatch){ "expose",
+                                                          expose,
+                                                          { { s->radiance.buffers[band], 0, 0, false },
+                                                            { s->histogram, 0, 0, true } },
+                                                          &pixels,
+                                                          { n } },
+                                j->error);
+    }
+    if (!status)
+        status = kd_vk_copy(vk, "expose", s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error);
+    if (!status)
+        status = kd_vk_submit(vk, NULL, j->error);
+    return status ? status : kd_vk_wait(vk, 0, j->error);
+}
+
+/* Stops that bring the brightest thousandth of the lit pixels to the shoulder of the curve. */
+static double auto_exposure(const uint32_t *counts)
+{
+    uint64_t lit = 0, above = 0;
+    for (int i = 1; i < KD_HISTOGRAM_BINS; i++)
+        lit += counts[i];
+    if (!lit)
+        return 0;
+    int bin = KD_HISTOGRAM_BINS - 1;
+    for (; bin > 1; bin--) {
+        above += counts[bin];
+        if (above * 1000 > lit * 4)
+            break;
+    }
+    double log_y = KD_HISTOGRAM_MIN + (bin + 1) / KD_HISTOGRAM_PER_STOP;
+    return 0.8 - log_y;
+}
+
+/* Post and read back, one band at a time. */
+static enum kd_status finish_pixels(struct job *j, struct kd_frame *frame)
+{
+    struct kd_vk *vk = j->r->vk;
+    struct kd_store *s = &j->r->store;
+    const struct kd_scene *scene = j->scene;
+    const struct kd_vk_pipeline *post;
+    bool wide = frame->bit_depth == 16;
+    size_t pixel_bytes = wide ? 6 : 3;
+    const uint32_t constants[] = { scene->style.tone_map == KD_TONE_ACES, wide };
+    enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, constants, 2, &post, j->error);
+    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+        uint32_t pixels = frame->width * band_rows(j, band);
+        uint32_t first = frame->width * band_first(j, band);
+        struct kd_post_push push = {
+            .gain = (float)exp2(frame->exposure),
+            .levels = wide ? 65535 : 255,
+            .dither = scene->style.dither,
+            .pixels = pixels,
+            .first = first,
+            .pixels_x = frame->width,
+        };
+        status = kd_vk_dispatch(vk,
+                                &(struct kd_vk_dispatch){ "post",
+                                                          post,
+                                                          { { s->radiance.buffers[band], 0, 0, false },
+                                                            { s->words, 0, 0, true } },
+                                                          &push,
+                                                          { groups(((uint64_t)pixels + 3) / 4) } },
+                                j->error);
+        if (!status)
+            status = kd_vk_copy(vk, "readback", s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);
+        if (!status)
+            status = kd_vk_submit(vk, NULL, j->error);
+        if (!status)
+            status = kd_vk_wait(vk, 0, j->error);
+        if (!status)
+            memcpy((char *)frame->pixels + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
+        if (!status)
+            status = report(j, band_rows(j, band));
+    }
+    return status;
+}
+
+static void add_timing(struct kd_frame *frame, const char *name, double ms)
+{
+    if (frame->n_timings >= KD_FRAME_MAX_TIMINGS)
+        return;
+    struct kd_timing *t = &frame->timings[frame->n_timings++];
+    snprintf(t->name, sizeof t->name, "%s", name);
+    t->ms = ms;
+}
+
+static void collect_timings(struct kd_renderer *r, struct kd_frame *frame, double total_ms)
+{
+    struct kd_vk_time times[KD_VK_MAX_PASSES];
+    size_t n = kd_vk_times(r->vk, times);
+    for (size_t i = 0; i < n; i++)
+        add_timing(frame, times[i].pass, times[i].ms);
+    add_timing(frame, "total", total_ms);
+}
+
+static enum kd_status run(struct job *j, struct kd_frame *frame)
+{
+    struct kd_renderer *r = j->r;
+    struct kd_capacity c;
+    bool reused = false;
+    kd_renderer_capacity(r, &c);
+    enum kd_status status = kd_store_lens_map(&r->store, j->plan, &j->lens, &reused, j->error);
+    if (!status)
+        status = kd_store_frame(&r->store, j->plan, frame->bit_depth, j->error);
+    if (status)
+        return status;
+
+    kd_tables_fill(r->tables, j->scene, !r->tables_ready);
+    r->tables_ready = true;
+    memcpy(kd_vk_buffer_map(r->store.transfer), r->tables, sizeof *r->tables);
+
+    frame->lens_reused = reused;
+    j->weight = (double)j->plan->height * (reused ? 2 : 3);
+    status = trace_and_transfer(j, reused, &c);
+    frame->exposure = j->scene->style.exposure;
+    if (!status && isinf(frame->exposure)) {
+        status = measure(j);
+        if (!status)
+            frame->exposure = auto_exposure(kd_vk_buffer_map(r->store.counts));
+    }
+    if (!status)
+        status = finish_pixels(j, frame);
+    if (!status && !reused)
+        kd_store_commit(&r->store, j->lens, j->plan);
+    return status;
+}
+
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                         kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+{
+    double start = now_ms();
+    struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = scene->image.bit_depth };
+    struct job job = {
+        .r = renderer, .scene = scene, .plan = plan, .camera = kd_camera_push(scene),
+        .progress = progress, .user = user, .error = error,
+    };
+    frame.pixels = malloc(plan->host_bytes);
+    if (!frame.pixels)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %llu bytes of pixels",
+                            (unsigned long long)plan->host_bytes);
+    kd_vk_times_reset(renderer->vk);
+    enum kd_status status = run(&job, &frame);
+    if (status) {
+        kd_vk_discard(renderer->vk);
+        if (status != KD_EDEVICE)
+            kd_vk_wait(renderer->vk, 0, NULL);
+        kd_frame_finish(&frame);
+        return status;
+    }
+    collect_timings(renderer, &frame, now_ms() - start);
+    kd_renderer_learn(renderer, plan, &frame);
+    *out = frame;
+    return KD_OK;
+}
+
+void kd_frame_finish(struct kd_frame *frame)
+{
+    free(frame->pixels);
+    *frame = (struct kd_frame){ 0 };
+}

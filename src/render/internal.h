@@ -1,0 +1,26 @@
+/* What the files of src/render share about a renderer. */
+#ifndef KD_RENDER_INTERNAL_H
+#define KD_RENDER_INTERNAL_H
+
+#include "render/kernels.h"
+#include "render/render.h"
+#include "render/store.h"
+#include "render/tables.h"
+
+#include <pthread.h>
+
+struct kd_renderer {
+    struct kd_vk *vk;
+    struct kd_kernels kernels;
+    struct kd_store store;
+    struct kd_transfer_data *tables; /* staging; its colour table is filled once */
+    bool tables_ready;
+    pthread_mutex_t lock; /* guards capacity */
+    struct kd_capacity capacity;
+    char name[800];
+};
+
+/* Learn from the device times of a frame: nanoseconds an item, smoothed. */
+void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
+
+#endif

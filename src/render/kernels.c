@@ -1,0 +1,79 @@
+#include "render/kernels.h"
+
+#include "render/layout.h"
+
+#include "expose.spv.h"
+#include "lens_map.spv.h"
+#include "lens_radius.spv.h"
+#include "post.spv.h"
+#include "transfer.spv.h"
+
+#include <string.h>
+
+static const struct {
+    const char *name;
+    const uint32_t *spirv;
+    size_t bytes;
+    uint32_t n_buffers, push_bytes;
+} sources[] = {
+    [KD_KERNEL_LENS_RADIUS] = { "lens_radius", kd_spv_lens_radius, sizeof kd_spv_lens_radius, 1, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 1, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 3, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 4 },
+    [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
+};
+
+static enum kd_status make(struct kd_vk *vk, enum kd_kernel kernel, const uint32_t *constants, size_t n,
+                           struct kd_vk_pipeline **out, struct kd_error *error)
+{
+    struct kd_vk_spec spec[KD_KERNEL_MAX_CONSTANTS];
+    for (size_t i = 0; i < n; i++)
+        spec[i] = (struct kd_vk_spec){ (uint32_t)i, constants[i] };
+    struct kd_vk_pipeline_params params = {
+        .name = sources[kernel].name,
+        .spirv = sources[kernel].spirv,
+        .spirv_bytes = sources[kernel].bytes,
+        .n_buffers = sources[kernel].n_buffers,
+        .push_bytes = sources[kernel].push_bytes,
+        .spec = spec,
+        .n_spec = n,
+    };
+    return kd_vk_pipeline_create(vk, &params, out, error);
+}
+
+enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
+                              const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
+                              struct kd_error *error)
+{
+    uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
+    struct kd_kernel_entry *oldest = &kernels->entries[0];
+    memcpy(key, constants, n * sizeof *key);
+    for (size_t i = 0; i < KD_KERNELS_KEPT; i++) {
+        struct kd_kernel_entry *e = &kernels->entries[i];
+        if (e->pipeline && e->kernel == kernel && !memcmp(e->constants, key, sizeof key)) {
+            e->used = ++kernels->clock;
+            *out = e->pipeline;
+            return KD_OK;
+        }
+        if (e->used < oldest->used)
+            oldest = e;
+    }
+    struct kd_vk_pipeline *pipeline;
+    enum kd_status status = make(vk, kernel, key, n, &pipeline, error);
+    if (status)
+        return status;
+    kd_vk_pipeline_destroy(vk, oldest->pipeline);
+    oldest->kernel = kernel;
+    memcpy(oldest->constants, key, sizeof key);
+    oldest->pipeline = pipeline;
+    oldest->used = ++kernels->clock;
+    *out = pipeline;
+    return KD_OK;
+}
+
+void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk)
+{
+    for (size_t i = 0; i < KD_KERNELS_KEPT; i++)
+        kd_vk_pipeline_destroy(vk, kernels->entries[i].pipeline);
+    memset(kernels, 0, sizeof *kernels);
+}

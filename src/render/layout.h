@@ -1,0 +1,20 @@
+/* The structs of shaders/include/interface.h on the C side. */
+#ifndef KD_RENDER_LAYOUT_H
+#define KD_RENDER_LAYOUT_H
+
+#include "interface.h"
+
+#include <stdint.h>
+
+#define F(name) float name;
+#define U(name) uint32_t name;
+struct kd_camera_push { KD_CAMERA_FIELDS_(F, U) };
+struct kd_transfer_block { KD_TRANSFER_FIELDS_(F, U) };
+struct kd_post_push { KD_POST_FIELDS_(F, U) };
+#undef F
+#undef U
+
+_Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that every device has");
+_Static_assert(sizeof(struct kd_transfer_block) <= 4 * KD_TRANSFER_HEADER, "the tables start behind the header");
+
+#endif

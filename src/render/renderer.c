@@ -1,0 +1,143 @@
+#include "render/internal.h"
+
+#include <cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Before anything has been measured: orders of magnitude for this type of device, per item. */
+static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
+{
+    double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
+    return (struct kd_capacity){
+        .max_binding_bytes = info->max_binding_bytes,
+        .memory_bytes = memory_bytes ? memory_bytes : info->heap_bytes / 4 * 3,
+        .ns_per_ray_radius = 30 * scale,
+        .ns_per_ray_full = 150 * scale,
+        .ns_per_sample_transfer = 20 * scale,
+        .ns_per_pixel_post = 30 * scale,
+    };
+}
+
+enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
+                                  struct kd_error *error)
+{
+    struct kd_renderer *r = calloc(1, sizeof *r);
+    struct kd_transfer_data *tables = calloc(1, sizeof *tables);
+    if (!r || !tables) {
+        free(r);
+        free(tables);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
+    }
+    r->tables = tables;
+    pthread_mutex_init(&r->lock, NULL);
+    struct kd_vk_params vk = { .device = params->device, .cache_dir = params->cache_dir, .validate = params->validate };
+    enum kd_status status = kd_vk_create(&vk, &r->vk, error);
+    if (status) {
+        kd_renderer_destroy(r);
+        return status;
+    }
+    const struct kd_vk_info *info = kd_vk_info(r->vk);
+    r->capacity = guess(info, params->memory_bytes);
+    r->store.vk = r->vk;
+    r->store.memory_bytes = r->capacity.memory_bytes;
+    snprintf(r->name, sizeof r->name, "%s, %s %s", info->name, info->driver, info->driver_info);
+    *out = r;
+    return KD_OK;
+}
+
+void kd_renderer_destroy(struct kd_renderer *renderer)
+{
+    if (!renderer)
+        return;
+    if (renderer->vk) {
+        kd_vk_wait(renderer->vk, 0, NULL);
+        kd_kernels_finish(&renderer->kernels, renderer->vk);
+        kd_store_finish(&renderer->store);
+        kd_vk_destroy(renderer->vk);
+    }
+    pthread_mutex_destroy(&renderer->lock);
+    free(renderer->tables);
+    free(renderer);
+}
+
+void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
+{
+    pthread_mutex_lock(&renderer->lock);
+    *out = renderer->capacity;
+    pthread_mutex_unlock(&renderer->lock);
+}
+
+static void smooth(double *figure, double ms, uint64_t items)
+{
+    if (ms > 0 && items >= 4096) /* a small picture measures the overhead */
+        *figure += 0.3 * (ms * 1e6 / (double)items - *figure);
+}
+
+static double timing(const struct kd_frame *frame, const char *pass)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, pass))
+            return frame->timings[i].ms;
+    return 0;
+}
+
+void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame)
+{
+    struct kd_capacity *c = &renderer->capacity;
+    uint64_t pixels = (uint64_t)plan->width * plan->height;
+    pthread_mutex_lock(&renderer->lock);
+    smooth(plan->radius_only ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), plan->rays);
+    smooth(&c->ns_per_sample_transfer, timing(frame, "transfer"), plan->rays);
+    smooth(&c->ns_per_pixel_post, timing(frame, "post"), pixels);
+    c->measured = c->measured || pixels >= 4096;
+    pthread_mutex_unlock(&renderer->lock);
+}
+
+const char *kd_renderer_device_name(const struct kd_renderer *renderer) { return renderer->name; }
+
+uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer)
+{
+    return kd_vk_validation_messages(renderer->vk);
+}
+
+enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out)
+{
+    const struct kd_vk_info *info = kd_vk_info(renderer->vk);
+    struct kd_capacity c;
+    char version[32];
+    kd_renderer_capacity(renderer, &c);
+    snprintf(version, sizeof version, "%u.%u.%u", info->api_version >> 22 & 0x7f, info->api_version >> 12 & 0x3ff,
+             info->api_version & 0xfff);
+
+    cJSON *root = cJSON_CreateObject();
+    cJSON_AddStringToObject(root, "kerrd", KD_VERSION);
+    cJSON_AddStringToObject(root, "name", info->name);
+    cJSON_AddStringToObject(root, "type", kd_vk_type_name(info->type));
+    cJSON_AddStringToObject(root, "driver", info->driver);
+    cJSON_AddStringToObject(root, "driver_info", info->driver_info);
+    cJSON_AddStringToObject(root, "vulkan", version);
+    cJSON_AddNumberToObject(root, "index", info->index);
+    cJSON_AddStringToObject(root, "choice", kd_vk_choice(renderer->vk));
+    cJSON *precision = cJSON_AddArrayToObject(root, "precision");
+    cJSON_AddItemToArray(precision, cJSON_CreateString("f32"));
+    cJSON_AddBoolToObject(root, "float64_hardware", info->float64);
+    cJSON_AddBoolToObject(root, "timestamps", info->timestamps);
+    cJSON *limits = cJSON_AddObjectToObject(root, "limits");
+    cJSON_AddNumberToObject(limits, "heap_bytes", (double)info->heap_bytes);
+    cJSON_AddNumberToObject(limits, "memory_bytes", (double)c.memory_bytes);
+    cJSON_AddNumberToObject(limits, "binding_bytes", (double)info->max_binding_bytes);
+    cJSON_AddNumberToObject(limits, "subgroup_size", info->subgroup_size);
+    cJSON *speed = cJSON_AddObjectToObject(root, "ns_per_item");
+    cJSON_AddStringToObject(speed, "basis", c.measured ? "measured" : "guess");
+    cJSON_AddNumberToObject(speed, "ray_radius", c.ns_per_ray_radius);
+    cJSON_AddNumberToObject(speed, "ray_full", c.ns_per_ray_full);
+    cJSON_AddNumberToObject(speed, "sample_transfer", c.ns_per_sample_transfer);
+    cJSON_AddNumberToObject(speed, "pixel_post", c.ns_per_pixel_post);
+
+    char *text = root ? cJSON_Print(root) : NULL;
+    enum kd_status status = text ? kd_buffer_append(out, text, strlen(text)) : KD_ENOMEM;
+    cJSON_free(text);
+    cJSON_Delete(root);
+    return status;
+}

@@ -1,0 +1,141 @@
+#include "render/store.h"
+
+#include "render/tables.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void bands_finish(struct kd_bands *bands, struct kd_vk *vk)
+{
+    for (uint32_t i = 0; i < bands->count; i++)
+        kd_vk_buffer_destroy(vk, bands->buffers[i]);
+    free(bands->buffers);
+    *bands = (struct kd_bands){ 0 };
+}
+
+static enum kd_status bands_init(struct kd_bands *bands, struct kd_vk *vk, uint32_t count, uint64_t bytes,
+                                 const char *name, struct kd_error *error)
+{
+    if (bands->count == count && bands->band_bytes == bytes)
+        return KD_OK;
+    bands_finish(bands, vk);
+    bands->buffers = calloc(count, sizeof *bands->buffers);
+    if (!bands->buffers)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %u bands", count);
+    bands->count = count;
+    bands->band_bytes = bytes;
+    for (uint32_t i = 0; i < count; i++) {
+        enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, name, &bands->buffers[i], error);
+        if (status) {
+            bands_finish(bands, vk);
+            return status;
+        }
+    }
+    return KD_OK;
+}
+
+static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
+{
+    bands_finish(&map->bands, vk);
+    map->key[0] = 0;
+    map->used = 0;
+}
+
+/* Drop kept maps, oldest first, until the plan fits beside the others. */
+static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
+{
+    for (;;) {
+        uint64_t held = plan->device_bytes;
+        struct kd_lens_map *oldest = NULL;
+        for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+            struct kd_lens_map *m = &store->maps[i];
+            if (m == spare || !m->bands.count)
+                continue;
+            held += m->bands.count * m->bands.band_bytes;
+            if (!oldest || m->used < oldest->used)
+                oldest = m;
+        }
+        if (held <= store->memory_bytes || !oldest)
+            return;
+        map_finish(oldest, store->vk);
+    }
+}
+
+enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                 bool *reused, struct kd_error *error)
+{
+    struct kd_lens_map *oldest = &store->maps[0];
+    *reused = false;
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+        struct kd_lens_map *m = &store->maps[i];
+        if (plan->cacheable && !strcmp(m->key, plan->lens_key)) {
+            m->used = ++store->clock;
+            *out = m;
+            *reused = true;
+            make_room(store, plan, m);
+            return KD_OK;
+        }
+        if (m->used < oldest->used)
+            oldest = m;
+    }
+    make_room(store, plan, oldest);
+    uint64_t row = 4ull * plan->planes * plan->width * plan->side * plan->side;
+    enum kd_status status = bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1,
+                                       row * plan->band_rows + 16, "lens map", error);
+    oldest->key[0] = 0;
+    oldest->used = ++store->clock;
+    *out = oldest;
+    return status;
+}
+
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan)
+{
+    (void)store;
+    if (plan->cacheable)
+        memcpy(map->key, plan->lens_key, sizeof map->key);
+}
+
+/* A buffer of at least this size; a larger one is kept. */
+static enum kd_status at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                               const char *name, struct kd_error *error)
+{
+    if (*buffer && kd_vk_buffer_size(*buffer) >= size && kd_vk_buffer_size(*buffer) <= 4 * size + (1 << 20))
+        return KD_OK;
+    kd_vk_buffer_destroy(vk, *buffer);
+    *buffer = NULL;
+    return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
+}
+
+enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth, struct kd_error *error)
+{
+    struct kd_vk *vk = store->vk;
+    uint64_t pixels = (uint64_t)plan->width * plan->band_rows;
+    /* The last invocation of post.comp writes four whole pixels. */
+    uint64_t words = (pixels + 3) / 4 * (bit_depth == 16 ? 24 : 12);
+    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, 12 * pixels, "radiance", error);
+    if (!status)
+        status = at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
+    if (!status)
+        status = at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
+    if (!status && !store->transfer)
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_UPLOAD, "transfer tables",
+                                     &store->transfer, error);
+    if (!status && !store->histogram)
+        status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_DEVICE, "histogram", &store->histogram, error);
+    if (!status && !store->counts)
+        status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_READBACK, "histogram on the host",
+                                     &store->counts, error);
+    return status;
+}
+
+void kd_store_finish(struct kd_store *store)
+{
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        map_finish(&store->maps[i], store->vk);
+    bands_finish(&store->radiance, store->vk);
+    kd_vk_buffer_destroy(store->vk, store->words);
+    kd_vk_buffer_destroy(store->vk, store->readback);
+    kd_vk_buffer_destroy(store->vk, store->transfer);
+    kd_vk_buffer_destroy(store->vk, store->histogram);
+    kd_vk_buffer_destroy(store->vk, store->counts);
+}

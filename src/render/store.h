@@ -1,0 +1,45 @@
+/* Device buffers of a renderer: lens maps that are kept between frames, and the frame's working set.
+ * Render thread only. */
+#ifndef KD_RENDER_STORE_H
+#define KD_RENDER_STORE_H
+
+#include "render/plan.h"
+#include "vk/vk.h"
+
+/* One buffer a band of the picture. */
+struct kd_bands {
+    struct kd_vk_buffer **buffers;
+    uint32_t count;
+    uint64_t band_bytes;
+};
+
+struct kd_lens_map {
+    char key[65]; /* "" while empty or half made */
+    struct kd_bands bands;
+    uint64_t used;
+};
+#define KD_LENS_MAPS_KEPT 4
+
+struct kd_store {
+    struct kd_vk *vk;
+    uint64_t memory_bytes; /* most that all of this may hold */
+    struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
+    uint64_t clock;
+    struct kd_bands radiance;
+    struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
+    struct kd_vk_buffer *transfer;         /* parameters and tables, host-visible */
+    struct kd_vk_buffer *histogram, *counts;
+};
+
+/* The lens map of the plan: *reused says that it is complete. Otherwise its buffers are there to be written, and
+ * kd_store_commit makes it findable. Least recently used maps make room. */
+enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                 bool *reused, struct kd_error *error);
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan);
+
+/* Radiance, packed pixels, tables and histogram for a picture of this plan and bit depth. */
+enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth,
+                              struct kd_error *error);
+void kd_store_finish(struct kd_store *store);
+
+#endif

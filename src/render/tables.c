@@ -1,0 +1,81 @@
+#include "render/tables.h"
+
+#include "physics/colour.h"
+#include "physics/disk.h"
+#include "physics/kerr.h"
+
+#include <math.h>
+
+static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
+{
+    return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne;
+}
+
+double kd_tables_peak_temperature(const struct kd_scene *scene)
+{
+    double a = scene->spacetime.spin, flux;
+    if (scene->disk.colour == KD_COLOUR_PEAK)
+        return scene->disk.peak_temperature_k;
+    kd_disk_peak(flux_of(scene), a, &flux);
+    return kd_disk_temperature(flux, a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
+}
+
+/* T r^(3/4) is smooth and bounded in y = sqrt(1 - r_isco/r): linear at the ISCO, where the flux has a double zero, and
+ * finite at infinity, where T falls as r^(-3/4). */
+static void fill_disk(float *table, const struct kd_scene *scene)
+{
+    kd_disk_flux_fn flux = flux_of(scene);
+    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak;
+    kd_disk_peak(flux, a, &peak);
+    for (int i = 0; i < KD_DISK_TABLE; i++) {
+        double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
+        table[i] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));
+    }
+}
+
+static void fill_colours(float (*table)[4])
+{
+    for (int i = 0; i < KD_COLOUR_TABLE; i++) {
+        double t = exp2(KD_COLOUR_LOG_MIN + i * (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN) / (KD_COLOUR_TABLE - 1));
+        struct kd_colour_rgb c = kd_colour_blackbody_unit(t);
+        table[i][0] = (float)c.r;
+        table[i][1] = (float)c.g;
+        table[i][2] = (float)c.b;
+    }
+}
+
+/* Fourth column: log2 of the luminous fraction over its value at the disk's hottest place. */
+static void fill_luminous(float (*table)[4], double peak)
+{
+    double reference = log2(fmax(kd_colour_luminous_fraction(peak), 1e-300));
+    for (int i = 0; i < KD_COLOUR_TABLE; i++) {
+        double t = exp2(KD_COLOUR_LOG_MIN + i * (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN) / (KD_COLOUR_TABLE - 1));
+        table[i][3] = (float)fmax(log2(fmax(kd_colour_luminous_fraction(t), 1e-300)) - reference, -120);
+    }
+}
+
+void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, bool fill_colour)
+{
+    const struct kd_disk *disk = &scene->disk;
+    double isco = kd_kerr_isco(scene->spacetime.spin), peak = kd_tables_peak_temperature(scene) * disk->hardening;
+
+    if (fill_colour)
+        fill_colours(out->colour);
+    if (disk->model != KD_DISK_NONE) {
+        fill_disk(out->disk, scene);
+        if (disk->band == KD_BAND_VISIBLE)
+            fill_luminous(out->colour, peak);
+    }
+    out->block = (struct kd_transfer_block){
+        .r_isco = (float)isco,
+        .r_in = (float)(isinf(disk->inner) ? isco : disk->inner),
+        .r_out = (float)disk->outer,
+        .taper_r = (float)(disk->outer * (1 - disk->taper)),
+        .opacity = (float)disk->opacity,
+        .log_t_peak = (float)log2(peak),
+        .sky_brightness = (float)scene->sky.brightness,
+        .sky_grid = (float)(scene->sky.grid_deg * (M_PI / 180)),
+        .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
+        .pixels_x = (uint32_t)scene->image.width,
+    };
+}
