@@ -36,8 +36,8 @@ fail:
     return status;
 }
 
-enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
-                                   struct kd_vk_buffer **out, struct kd_error *error)
+enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
+                                   const char *name, struct kd_vk_buffer **out, struct kd_error *error)
 {
     *out = NULL;
     enum kd_status status = kd_vk_alive(vk, error);
@@ -49,9 +49,9 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
         return kd_error_set(error, KD_EINVAL, "buffer '%s' has no bytes", name);
     /* Before vkCreateBuffer, which need not cope with any size. */
     if (size > vk->physical.info.max_allocation_bytes)
-        return kd_error_set(error, KD_ENOMEM, "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once",
-                            name, (double)size / 0x1p20,
-                            (double)vk->physical.info.max_allocation_bytes / 0x1p20);
+        return kd_error_set(error, KD_ENOMEM,
+                            "buffer '%s' of %.2f MiB: the device allocates at most %.2f MiB at once", name,
+                            (double)size / 0x1p20, (double)vk->physical.info.max_allocation_bytes / 0x1p20);
     struct kd_vk_buffer *buffer = calloc(1, sizeof *buffer);
     if (!buffer)
         return kd_error_set(error, KD_ENOMEM, "buffer '%s': out of host memory", name);
@@ -82,4 +82,7 @@ void *kd_vk_buffer_map(struct kd_vk_buffer *buffer)
     return map ? map + buffer->slice.offset : NULL;
 }
 
-uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer) { return buffer->size; }
+uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer)
+{
+    return buffer->size;
+}

@@ -12,7 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Before the driver's data: drivers trust what they are given more than they should, so damage is found here. */
+/* Before the driver's data: drivers trust what they are given more than they should, so damage is found here.
+ */
 struct envelope {
     char magic[8];
     uint64_t bytes, hash;
@@ -156,7 +157,8 @@ static bool replace(const char *path, const struct envelope *envelope, const uin
     free(directories);
     int fd = good ? mkostemp(temporary, O_CLOEXEC) : -1;
     if (fd >= 0) {
-        good = write_all(fd, envelope, sizeof *envelope) && write_all(fd, data, envelope->bytes) && !fsync(fd);
+        good =
+            write_all(fd, envelope, sizeof *envelope) && write_all(fd, data, envelope->bytes) && !fsync(fd);
         good = !close(fd) && good && !rename(temporary, path);
         if (!good)
             unlink(temporary);

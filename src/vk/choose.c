@@ -90,8 +90,8 @@ enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const 
         snprintf(reason, sizeof reason, "asked for by its index");
     } else {
         status = by_name(infos, count, wish, index, &n, error);
-        snprintf(reason, sizeof reason, "%s '%.80s'", n > 1 ? "the best of those whose names contain" : "its name contains",
-                 wish);
+        snprintf(reason, sizeof reason, "%s '%.80s'",
+                 n > 1 ? "the best of those whose names contain" : "its name contains", wish);
     }
     if (!status)
         snprintf(why, why_size, "device %u, %s (%s): %s", infos[*index].index, infos[*index].name,

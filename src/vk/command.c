@@ -30,10 +30,10 @@ static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, ui
                             pass, index, binding->offset, binding->size, binding->buffer->name,
                             binding->buffer->size, KD_VK_ALIGNMENT);
     if (end_of(binding) - binding->offset > vk->physical.info.max_binding_bytes)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64,
-                            pass, index, end_of(binding) - binding->offset, binding->buffer->name,
-                            vk->physical.info.max_binding_bytes);
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass, index,
+            end_of(binding) - binding->offset, binding->buffer->name, vk->physical.info.max_binding_bytes);
     return KD_OK;
 }
 
@@ -45,9 +45,9 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
         return kd_error_set(error, KD_EINVAL, "%s: a dispatch without a pipeline", pass);
     for (int i = 0; i < 3; i++)
         if (dispatch->groups[i] > vk->physical.properties.limits.maxComputeWorkGroupCount[i])
-            return kd_error_set(error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
-                                dispatch->groups[i], i,
-                                vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
+            return kd_error_set(
+                error, KD_ETOOBIG, "%s: %u groups along axis %d, this device takes at most %u", pass,
+                dispatch->groups[i], i, vk->physical.properties.limits.maxComputeWorkGroupCount[i]);
     if (dispatch->pipeline->push_bytes && !dispatch->push)
         return kd_error_set(error, KD_EINVAL, "%s: no push constants were given", pass);
     for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
@@ -58,7 +58,11 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
 static struct kd_vk_access access_of(const struct kd_vk_buffer *buffer, uint64_t begin, uint64_t end,
                                      VkPipelineStageFlags stage, bool write)
 {
-    return (struct kd_vk_access) { .buffer = buffer->id, .begin = begin, .end = end, .stage = stage, .write = write,
+    return (struct kd_vk_access) { .buffer = buffer->id,
+                                   .begin = begin,
+                                   .end = end,
+                                   .stage = stage,
+                                   .write = write,
                                    .host = buffer->slice.block->map != NULL };
 }
 
@@ -84,8 +88,8 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
                                          .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                          .pBufferInfo = buffers };
     vk->fn.UpdateDescriptorSets(vk->device, 1, &write, 0, NULL);
-    vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set, 0,
-                                 NULL);
+    vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set,
+                                 0, NULL);
     return KD_OK;
 }
 
@@ -105,7 +109,9 @@ static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const stru
 enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error)
 {
     struct kd_vk_slot *slot;
-    const char *pass = dispatch->pass ? dispatch->pass : dispatch->pipeline ? dispatch->pipeline->name : "unnamed";
+    const char *pass = dispatch->pass       ? dispatch->pass
+                       : dispatch->pipeline ? dispatch->pipeline->name
+                                            : "unnamed";
     enum kd_status status = check_dispatch(vk, dispatch, pass, error);
     if (!status)
         status = kd_vk_submit_slot(vk, &slot, error);
@@ -121,8 +127,10 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
     if (pipeline->push_bytes)
         vk->fn.CmdPushConstants(slot->commands, pipeline->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                 pipeline->push_bytes, dispatch->push);
-    vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1], groups[2] + !groups[2]);
-    ((struct kd_vk_pipeline *)pipeline)->retired.ticket = kd_vk_current(vk); /* ours to write, not the caller's */
+    vk->fn.CmdDispatch(slot->commands, groups[0] + !groups[0], groups[1] + !groups[1],
+                       groups[2] + !groups[2]);
+    ((struct kd_vk_pipeline *)pipeline)->retired.ticket =
+        kd_vk_current(vk); /* ours to write, not the caller's */
     return KD_OK;
 }
 

@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Devices that were lost and then destroyed. They are kept, because a driver whose device hangs or has vanished may
- * crash when it is torn down (lavapipe does); the list keeps them reachable for leak checkers. */
+/* Devices that were lost and then destroyed. They are kept, because a driver whose device hangs or has
+ * vanished may crash when it is torn down (lavapipe does); the list keeps them reachable for leak checkers.
+ */
 static struct kd_vk *graveyard;
 
 enum kd_status kd_vk_alive(const struct kd_vk *vk, struct kd_error *error)
@@ -123,7 +124,10 @@ enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **ou
 
 static void close_device(struct kd_vk *vk)
 {
-    vk->fn.DeviceWaitIdle(vk->device);
+    if (vk->fn.DeviceWaitIdle(vk->device) == VK_ERROR_DEVICE_LOST) {
+        kd_vk_lose(vk, NULL, "vkDeviceWaitIdle: VK_ERROR_DEVICE_LOST");
+        return;
+    }
     vk->done = vk->submitted;
     kd_vk_retire_all(vk);
     if (vk->n_buffers || vk->n_pipelines)
@@ -153,8 +157,14 @@ void kd_vk_destroy(struct kd_vk *vk)
     free(vk);
 }
 
-const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk) { return &vk->physical.info; }
-const char *kd_vk_choice(const struct kd_vk *vk) { return vk->choice; }
+const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk)
+{
+    return &vk->physical.info;
+}
+const char *kd_vk_choice(const struct kd_vk *vk)
+{
+    return vk->choice;
+}
 
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk)
 {

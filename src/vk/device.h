@@ -59,6 +59,9 @@ enum kd_status kd_vk_lose(struct kd_vk *vk, struct kd_error *error, const char *
     __attribute__((format(printf, 3, 4)));
 
 /* The timeline value that the commands now being recorded will have. */
-static inline uint64_t kd_vk_current(const struct kd_vk *vk) { return vk->submitted + 1; }
+static inline uint64_t kd_vk_current(const struct kd_vk *vk)
+{
+    return vk->submitted + 1;
+}
 
 #endif

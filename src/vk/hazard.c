@@ -36,8 +36,8 @@ static struct kd_vk_barrier everything(const struct kd_vk_hazards *hazards)
     return barrier;
 }
 
-/* Widen an entry that touches the access, or append one. The union of touching ranges is exact, so tiles written
- * side by side stay one entry. */
+/* Widen an entry that touches the access, or append one. The union of touching ranges is exact, so tiles
+ * written side by side stay one entry. */
 static void enter(struct kd_vk_hazards *hazards, const struct kd_vk_access *access)
 {
     for (size_t i = 0; i < hazards->count; i++) {

@@ -1,10 +1,10 @@
 /* Which commands must not overlap: a pure table, no Vulkan call in it.
  *
  * It lists the accesses since the last barrier, in recorded order and across submissions (a pipeline barrier
- * also orders earlier submissions of its queue). A command conflicts when one of its ranges overlaps a listed range of the
- * same buffer and either of the two writes. The barrier that follows orders everything before it against
- * everything after it, in both stages we use, so it empties the table: on hardware a barrier of one buffer costs
- * what a global one costs, since caches are flushed whole. */
+ * also orders earlier submissions of its queue). A command conflicts when one of its ranges overlaps a listed
+ * range of the same buffer and either of the two writes. The barrier that follows orders everything before it
+ * against everything after it, in both stages we use, so it empties the table: on hardware a barrier of one
+ * buffer costs what a global one costs, since caches are flushed whole. */
 #ifndef KD_VK_HAZARD_H
 #define KD_VK_HAZARD_H
 
@@ -41,8 +41,8 @@ struct kd_vk_barrier {
 bool kd_vk_hazards_add(struct kd_vk_hazards *hazards, const struct kd_vk_access *accesses, size_t n,
                        struct kd_vk_barrier *barrier);
 
-/* At the end of a submission: true if *barrier has to be recorded for the host to see what was written. The other
- * direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
+/* At the end of a submission: true if *barrier has to be recorded for the host to see what was written. The
+ * other direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
 bool kd_vk_hazards_to_host(struct kd_vk_hazards *hazards, struct kd_vk_barrier *barrier);
 
 #endif

@@ -11,7 +11,10 @@
 #define CACHED VK_MEMORY_PROPERTY_HOST_CACHED_BIT
 
 /* Types that need a feature of their own (AMD's uncached ones, protected, lazily allocated) never do. */
-static bool plain(VkMemoryPropertyFlags flags) { return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED)); }
+static bool plain(VkMemoryPropertyFlags flags)
+{
+    return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED));
+}
 
 /* Points for a type, -1 where it will not do. Host memory is sought outside the device's: on a discrete
  * card the part of its memory that the host can map may be as small as 256 MiB. */
@@ -179,22 +182,22 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
     struct kd_error why = { 0 };
     if (alignment < KD_VK_ALIGNMENT)
         alignment = KD_VK_ALIGNMENT;
-    size = size > UINT64_MAX - alignment ? size : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
+    size = size > UINT64_MAX - alignment ? size
+                                         : (size + KD_VK_ALIGNMENT - 1) & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
     enum kd_status status = take_or_grow(vk, type, size, alignment, out, &why);
     if (status == KD_ENOMEM && vk->retired && !kd_vk_wait(vk, 0, NULL))
         status = take_or_grow(vk, type, size, alignment, out, &why); /* with what was waiting to be freed */
     if (!status)
         return KD_OK;
-    return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
-                        (double)size / 0x1p20,
-                        memory == KD_VK_DEVICE   ? "device"
-                        : memory == KD_VK_UPLOAD ? "upload"
-                                                 : "readback",
-                        why.message, (double)kd_vk_allocated(vk) / 0x1p20,
-                        (double)vk->heap.properties
-                                .memoryHeaps[vk->heap.properties.memoryTypes[type].heapIndex]
-                                .size /
-                            0x1p20);
+    return kd_error_set(
+        error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
+        (double)size / 0x1p20,
+        memory == KD_VK_DEVICE   ? "device"
+        : memory == KD_VK_UPLOAD ? "upload"
+                                 : "readback",
+        why.message, (double)kd_vk_allocated(vk) / 0x1p20,
+        (double)vk->heap.properties.memoryHeaps[vk->heap.properties.memoryTypes[type].heapIndex].size /
+            0x1p20);
 }
 
 void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice)

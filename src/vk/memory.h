@@ -39,8 +39,8 @@ enum kd_status kd_vk_heap_take(struct kd_vk *vk, enum kd_vk_memory memory, uint6
                                struct kd_vk_slice *out, struct kd_error *error);
 void kd_vk_heap_give(struct kd_vk *vk, const struct kd_vk_slice *slice);
 
-/* The best of the memory types in `allowed` (a bit each) for a purpose, or -1. Pure. host_near: the device's own
- * memory is the host's too (CPU, integrated), so mapping it costs nothing. */
+/* The best of the memory types in `allowed` (a bit each) for a purpose, or -1. Pure. host_near: the device's
+ * own memory is the host's too (CPU, integrated), so mapping it costs nothing. */
 int kd_vk_memory_type(const VkPhysicalDeviceMemoryProperties *properties, uint32_t allowed,
                       enum kd_vk_memory memory, bool host_near);
 

@@ -9,14 +9,13 @@ struct kd_vk_physical {
     VkPhysicalDevice handle;
     struct kd_vk_info info;
     VkPhysicalDeviceProperties properties;
-    uint32_t family;          /* the queue family we submit to */
-    uint32_t timestamp_bits;  /* valid ones; 0: no timestamps */
+    uint32_t family;         /* the queue family we submit to */
+    uint32_t timestamp_bits; /* valid ones; 0: no timestamps */
     bool int64, host_query_reset, subgroup_extended_types, portability_subset;
 };
 
 /* Every physical device of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
 enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance,
                                    struct kd_vk_physical **out, size_t *count, struct kd_error *error);
-
 
 #endif

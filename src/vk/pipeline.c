@@ -13,11 +13,12 @@ static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_
 {
     const char *name = params->name ? params->name : "unnamed";
     uint32_t max_push = vk->physical.info.max_push_bytes;
-    if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 || params->spirv[0] != SPIRV_MAGIC)
+    if (!params->spirv || params->spirv_bytes < 20 || params->spirv_bytes % 4 ||
+        params->spirv[0] != SPIRV_MAGIC)
         return kd_error_set(error, KD_EINVAL, "pipeline '%s': this is not SPIR-V", name);
     if (params->n_buffers > KD_VK_MAX_BINDINGS)
-        return kd_error_set(error, KD_EINVAL, "pipeline '%s': %u buffers, at most %u", name, params->n_buffers,
-                            KD_VK_MAX_BINDINGS);
+        return kd_error_set(error, KD_EINVAL, "pipeline '%s': %u buffers, at most %u", name,
+                            params->n_buffers, KD_VK_MAX_BINDINGS);
     if (params->push_bytes > max_push || params->push_bytes % 4)
         return kd_error_set(error, KD_EINVAL,
                             "pipeline '%s': %u bytes of push constants, at most %u and a multiple of 4", name,
@@ -37,7 +38,8 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
                                                        .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                        .descriptorCount = 1,
                                                        .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT };
-    const VkDescriptorSetLayoutCreateInfo set = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+    const VkDescriptorSetLayoutCreateInfo set = { .sType =
+                                                      VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                   .bindingCount = pipeline->n_buffers,
                                                   .pBindings = bindings };
     KD_VK_TRY(&vk->fn, CreateDescriptorSetLayout, vk->device, &set, NULL, &pipeline->set_layout);
@@ -50,7 +52,8 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
                                                 .pushConstantRangeCount = pipeline->push_bytes > 0,
                                                 .pPushConstantRanges = &push };
     KD_VK_TRY(&vk->fn, CreatePipelineLayout, vk->device, &layout, NULL, &pipeline->layout);
-    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s", pipeline->name);
+    kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s",
+                     pipeline->name);
     return KD_OK;
 fail:
     return status;
@@ -76,7 +79,8 @@ static enum kd_status make_pipeline(struct kd_vk *vk, struct kd_vk_pipeline *pip
                    .pSpecializationInfo = params->n_spec ? &spec : NULL },
         .layout = pipeline->layout,
     };
-    KD_VK_TRY(&vk->fn, CreateComputePipelines, vk->device, vk->cache.handle, 1, &info, NULL, &pipeline->handle);
+    KD_VK_TRY(&vk->fn, CreateComputePipelines, vk->device, vk->cache.handle, 1, &info, NULL,
+              &pipeline->handle);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE, KD_VK_HANDLE(pipeline->handle), "%s", pipeline->name);
     vk->cache.grown = true;
     return KD_OK;

@@ -13,7 +13,10 @@ static uint64_t now_ns(void)
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-static struct kd_vk_slot *slot_of(struct kd_vk *vk, uint64_t value) { return &vk->slots[value % KD_VK_SLOTS]; }
+static struct kd_vk_slot *slot_of(struct kd_vk *vk, uint64_t value)
+{
+    return &vk->slots[value % KD_VK_SLOTS];
+}
 
 static enum kd_status slot_init(struct kd_vk *vk, uint32_t index, struct kd_error *error)
 {
@@ -116,8 +119,8 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
     if (status)
         return status;
     if (ticket > vk->submitted)
-        return kd_error_set(error, KD_EINVAL, "there is no submission %" PRIu64 ", the last was %" PRIu64, ticket,
-                            vk->submitted);
+        return kd_error_set(error, KD_EINVAL, "there is no submission %" PRIu64 ", the last was %" PRIu64,
+                            ticket, vk->submitted);
     if (!ticket)
         ticket = vk->submitted;
     if (vk->done < ticket)
@@ -148,10 +151,12 @@ fail:
     return status;
 }
 
-static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_t value, struct kd_error *error)
+static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_t value,
+                              struct kd_error *error)
 {
     enum kd_status status;
-    const VkTimelineSemaphoreSubmitInfo timeline = { .sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
+    const VkTimelineSemaphoreSubmitInfo timeline = { .sType =
+                                                         VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO,
                                                      .signalSemaphoreValueCount = 1,
                                                      .pSignalSemaphoreValues = &value };
     const VkSubmitInfo info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,

@@ -12,8 +12,8 @@ double kd_vk_timing_ms(uint64_t from, uint64_t to, uint32_t bits, double period_
     return (double)((to - from) & mask) * period_ns * 1e-6;
 }
 
-/* The row of a name; the name is copied, since totals outlive submissions and so the caller's string. When all
- * rows are taken the last one collects the rest. */
+/* The row of a name; the name is copied, since totals outlive submissions and so the caller's string. When
+ * all rows are taken the last one collects the rest. */
 static uint32_t row_of(struct kd_vk_timing *timing, const char *pass)
 {
     char name[sizeof timing->names[0]];
@@ -108,8 +108,8 @@ static bool read_stamps(struct kd_vk *vk, struct kd_vk_stamps *stamps, uint64_t 
 {
     for (size_t first = 0; first < stamps->n; first += KD_VK_STAMPS_PER_POOL) {
         size_t n = stamps->n - first < KD_VK_STAMPS_PER_POOL ? stamps->n - first : KD_VK_STAMPS_PER_POOL;
-        if (vk->fn.GetQueryPoolResults(vk->device, stamps->pools[first / KD_VK_STAMPS_PER_POOL], 0, (uint32_t)n,
-                                       n * sizeof *out, out + first, sizeof *out,
+        if (vk->fn.GetQueryPoolResults(vk->device, stamps->pools[first / KD_VK_STAMPS_PER_POOL], 0,
+                                       (uint32_t)n, n * sizeof *out, out + first, sizeof *out,
                                        VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
             return false;
     }

@@ -1,8 +1,8 @@
 /* A Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
  *
  * One thread owns a struct kd_vk and everything made from it; only kd_vk_list and kd_vk_info of a
- * device that is already open may be called from elsewhere. Every object has a name, for the validation layer and
- * for captures. destroy accepts NULL and half-built objects. */
+ * device that is already open may be called from elsewhere. Every object has a name, for the validation layer
+ * and for captures. destroy accepts NULL and half-built objects. */
 #ifndef KD_VK_VK_H
 #define KD_VK_VK_H
 
@@ -25,7 +25,7 @@ struct kd_vk_info {
     uint32_t index; /* the N of --device N */
     char name[256], driver[256], driver_info[256];
     enum kd_vk_type type;
-    uint32_t api_version; /* VK_MAKE_API_VERSION packing */
+    uint32_t api_version;       /* VK_MAKE_API_VERSION packing */
     uint64_t heap_bytes;        /* largest device-local heap */
     uint64_t max_binding_bytes; /* largest storage-buffer binding: 128 MiB on lavapipe */
     uint64_t max_allocation_bytes;
@@ -47,21 +47,25 @@ enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_erro
 enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error);
 void kd_vk_destroy(struct kd_vk *vk);
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
-const char *kd_vk_choice(const struct kd_vk *vk);            /* one sentence: why this device */
+const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and errors so far    */
 
 /* Buffers: suballocated from few large allocations. DEVICE: storage + transfer. UPLOAD and READBACK are
  * host-visible, coherent, persistently mapped (storage + transfer as well). */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
-enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
-                                   struct kd_vk_buffer **out, struct kd_error *error);
+enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
+                                   const char *name, struct kd_vk_buffer **out, struct kd_error *error);
 void kd_vk_buffer_destroy(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 void *kd_vk_buffer_map(struct kd_vk_buffer *buffer); /* NULL for KD_VK_DEVICE without host access */
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
 uint64_t kd_vk_allocated(const struct kd_vk *vk); /* bytes held from the device, all buffers */
 
-/* Pipelines: one storage buffer a binding 0..n_buffers-1 in set 0; push constants; specialisation constants of 4 bytes. */
-struct kd_vk_spec { uint32_t id; uint32_t value; };
+/* Pipelines: one storage buffer a binding 0..n_buffers-1 in set 0; push constants; specialisation constants
+ * of 4 bytes. */
+struct kd_vk_spec {
+    uint32_t id;
+    uint32_t value;
+};
 struct kd_vk_pipeline_params {
     const char *name;
     const uint32_t *spirv;
@@ -74,8 +78,8 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
                                      struct kd_vk_pipeline **out, struct kd_error *error);
 void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline);
 
-/* Work: record with the calls below, then kd_vk_submit. Commands run in the order they were recorded; a barrier
- * between any two that touch the same buffer, one of them writing, is emitted by the layer from the
+/* Work: record with the calls below, then kd_vk_submit. Commands run in the order they were recorded; a
+ * barrier between any two that touch the same buffer, one of them writing, is emitted by the layer from the
  * declared access, as are those against host reads and against earlier submissions.
  * Passes are timed: the same pass name over several dispatches and submissions adds up. */
 struct kd_vk_binding {
@@ -91,24 +95,30 @@ struct kd_vk_dispatch {
     const void *push;
     uint32_t groups[3]; /* 0 counts as 1 */
 };
-enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch, struct kd_error *error);
+enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dispatch,
+                              struct kd_error *error);
 enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,
                           struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size,
                           struct kd_error *error);
 enum kd_status kd_vk_fill(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
                           uint32_t value, struct kd_error *error);
 
-/* Submit what was recorded (nothing recorded: no-op) and return at once; *ticket (may be NULL) is the timeline value.
- * At most KD_VK_IN_FLIGHT submissions are under way: one more waits for the oldest. */
+/* Submit what was recorded (nothing recorded: no-op) and return at once; *ticket (may be NULL) is the
+ * timeline value. At most KD_VK_IN_FLIGHT submissions are under way: one more waits for the oldest. */
 #define KD_VK_IN_FLIGHT 4
 enum kd_status kd_vk_submit(struct kd_vk *vk, uint64_t *ticket, struct kd_error *error);
-/* Wait until that ticket (0: everything submitted) is done, or its deadline passes: KD_EDEVICE, and the device is lost. */
+/* Wait until that ticket (0: everything submitted) is done, or its deadline passes: KD_EDEVICE, and the
+ * device is lost. */
 enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *error);
 /* Drop what was recorded and not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
 /* Device time by pass name since the last reset, of finished submissions. pass: the caller's string. */
-struct kd_vk_time { const char *pass; double ms; uint32_t dispatches; };
+struct kd_vk_time {
+    const char *pass;
+    double ms;
+    uint32_t dispatches;
+};
 #define KD_VK_MAX_PASSES 16
 size_t kd_vk_times(const struct kd_vk *vk, struct kd_vk_time out[KD_VK_MAX_PASSES]);
 void kd_vk_times_reset(struct kd_vk *vk);

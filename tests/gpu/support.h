@@ -14,6 +14,7 @@
 
 #include "vk/buffer.h"
 #include "vk/device.h"
+#include "vk/pipeline.h"
 #include "vk/vk.h"
 
 #include "mix_spv.h"
@@ -35,7 +36,7 @@
     do {                                                                                                     \
         struct kd_error error = { 0 };                                                                       \
         enum kd_status got = (call);                                                                         \
-        if (got != (status_) || error.status != (status_) || !strstr(error.message, part))                  \
+        if (got != (status_) || error.status != (status_) || !strstr(error.message, part))                   \
             fail_msg("%s: got %s: '%s'", #call, kd_status_name(got), error.message);                         \
         assert_null(strchr(error.message, '\n'));                                                            \
     } while (0)
@@ -58,12 +59,15 @@ static inline struct kd_vk *open_device(bool validate)
 {
     struct kd_vk *vk = NULL;
     const char *device = getenv("KERRD_TEST_DEVICE");
-    OK(kd_vk_create(&(struct kd_vk_params) { .device = device ? device : "auto", .cache_dir = "", .validate = validate },
-                    &vk, &error));
+    OK(kd_vk_create(
+        &(struct kd_vk_params) { .device = device ? device : "auto", .cache_dir = "", .validate = validate },
+        &vk, &error));
     return vk;
 }
 
-struct mix_push { uint32_t n, mul; };
+struct mix_push {
+    uint32_t n, mul;
+};
 #define MIX_GROUP 64
 
 static inline struct kd_vk_pipeline *make_mix(struct kd_vk *vk, uint32_t bias)
@@ -87,13 +91,14 @@ static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, 
                        struct kd_vk_buffer *y, uint32_t n, uint32_t mul)
 {
     const struct mix_push push = { n, mul };
-    OK(kd_vk_dispatch(vk,
-                      &(struct kd_vk_dispatch) { .pass = "mix",
-                                                 .pipeline = pipeline,
-                                                 .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
-                                                 .push = &push,
-                                                 .groups = { (n + MIX_GROUP - 1) / MIX_GROUP } },
-                      &error));
+    OK(kd_vk_dispatch(
+        vk,
+        &(struct kd_vk_dispatch) { .pass = "mix",
+                                   .pipeline = pipeline,
+                                   .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
+                                   .push = &push,
+                                   .groups = { (n + MIX_GROUP - 1) / MIX_GROUP } },
+        &error));
 }
 
 static inline struct kd_vk_buffer *make_buffer(struct kd_vk *vk, uint32_t n, enum kd_vk_memory memory,

@@ -1,0 +1,89 @@
+/* Listing and choosing the devices of this machine. */
+#include "support.h"
+
+static struct kd_vk_info *infos;
+static size_t n_infos;
+
+static enum kd_status open_as(const char *device, struct kd_vk **vk, struct kd_error *error)
+{
+    return kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "" }, vk, error);
+}
+
+static void listed(void **state)
+{
+    (void)state;
+    assert_true(n_infos > 0);
+    for (size_t i = 0; i < n_infos; i++) {
+        const struct kd_vk_info *info = &infos[i];
+        print_message("%zu: %s (%s), %s %s, Vulkan %u.%u, %.0f MiB, subgroup %u%s%s%s\n", i, info->name,
+                      kd_vk_type_name(info->type), info->driver, info->driver_info,
+                      VK_API_VERSION_MAJOR(info->api_version), VK_API_VERSION_MINOR(info->api_version),
+                      (double)info->heap_bytes / 0x1p20, info->subgroup_size,
+                      info->float64 ? ", float64" : "", info->timestamps ? ", timestamps" : "",
+                      info->missing[0] ? ", unusable" : "");
+        assert_int_equal(info->index, i);
+        assert_true(info->name[0]);
+        if (info->missing[0])
+            continue;
+        assert_true(info->driver[0] && info->subgroup_size && info->heap_bytes);
+        assert_true(info->api_version >= VK_API_VERSION_1_2);
+        assert_true(info->max_push_bytes >= 128 && info->max_workgroup >= 128); /* what Vulkan guarantees */
+        assert_true(info->max_groups_x >= 65535 && info->max_binding_bytes >= 1u << 27);
+        assert_true(info->max_allocation_bytes >= 1u << 30);
+    }
+}
+
+static void by_index_and_name(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < n_infos; i++) {
+        struct kd_vk *vk;
+        char text[24];
+        snprintf(text, sizeof text, "%zu", i);
+        if (infos[i].missing[0]) {
+            FAILS(KD_EDEVICE, "lacks", open_as(text, &vk, &error));
+            continue;
+        }
+        OK(open_as(text, &vk, &error));
+        assert_string_equal(kd_vk_info(vk)->name, infos[i].name);
+        assert_non_null(strstr(kd_vk_choice(vk), infos[i].name));
+        kd_vk_destroy(vk);
+        OK(open_as(infos[i].name, &vk, &error));
+        assert_string_equal(kd_vk_info(vk)->name, infos[i].name);
+        kd_vk_destroy(vk);
+    }
+}
+
+static void automatic(void **state)
+{
+    struct kd_vk *vk;
+    (void)state;
+    OK(open_as("auto", &vk, &error));
+    print_message("auto: %s\n", kd_vk_choice(vk));
+    for (size_t i = 0; i < n_infos; i++)
+        assert_true(infos[i].missing[0] || infos[i].type <= kd_vk_info(vk)->type);
+    kd_vk_destroy(vk);
+    kd_vk_destroy(NULL);
+}
+
+static void refused(void **state)
+{
+    struct kd_vk *vk;
+    (void)state;
+    FAILS(KD_EINVAL, "there is no device 77", open_as("77", &vk, &error));
+    assert_null(vk);
+    FAILS(KD_EINVAL, "no device is called 'no such thing'", open_as("no such thing", &vk, &error));
+    FAILS(KD_EINVAL, infos[0].name, open_as("no such thing", &vk, &error));
+    assert_null(vk);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(listed), cmocka_unit_test(by_index_and_name),
+                                        cmocka_unit_test(automatic), cmocka_unit_test(refused) };
+    if (skip_without_device() || kd_vk_list(&infos, &n_infos, NULL))
+        return SKIPPED;
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    free(infos);
+    return failed != 0;
+}

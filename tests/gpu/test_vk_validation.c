@@ -1,0 +1,118 @@
+/* Does the validation layer listen? A fault is planted for each thing it is trusted to find; messages on
+ * stderr are expected here. */
+#include "support.h"
+
+static VKAPI_ATTR void VKAPI_CALL no_barrier(VkCommandBuffer commands, VkPipelineStageFlags src,
+                                             VkPipelineStageFlags dst, VkDependencyFlags flags,
+                                             uint32_t n_memory, const VkMemoryBarrier *memory,
+                                             uint32_t n_buffer, const VkBufferMemoryBarrier *buffer,
+                                             uint32_t n_image, const VkImageMemoryBarrier *image)
+{
+    (void)commands, (void)src, (void)dst, (void)flags, (void)n_memory, (void)memory, (void)n_buffer;
+    (void)buffer, (void)n_image, (void)image;
+}
+
+/* Messages from a fill that a kernel then adds to. */
+static uint32_t fill_then_add(bool barriers)
+{
+    struct kd_vk *vk = open_device(true);
+    struct kd_vk_pipeline *pipeline = make_mix(vk, 0);
+    struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_DEVICE, "x"),
+                        *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
+    if (!barriers)
+        vk->fn.CmdPipelineBarrier = no_barrier;
+    OK(kd_vk_fill(vk, x, 0, 256, 1, &error));
+    OK(kd_vk_fill(vk, y, 0, 256, 1, &error));
+    mix(vk, pipeline, x, y, 64, 1);
+    finish(vk);
+    kd_vk_buffer_destroy(vk, x);
+    kd_vk_buffer_destroy(vk, y);
+    kd_vk_pipeline_destroy(vk, pipeline);
+    uint32_t messages = kd_vk_validation_messages(vk);
+    kd_vk_destroy(vk);
+    return messages;
+}
+
+static void synchronisation(void **state)
+{
+    (void)state;
+    assert_int_equal(fill_then_add(true), 0);
+    assert_true(fill_then_add(false) > 0);
+}
+
+/* The core checks: more push constants than the layout has. */
+static void core(void **state)
+{
+    (void)state;
+    struct kd_vk *vk = open_device(true);
+    struct kd_vk_pipeline *pipeline = make_mix(vk, 0);
+    struct kd_vk_buffer *x = make_buffer(vk, 64, KD_VK_DEVICE, "x"),
+                        *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
+    assert_int_equal(kd_vk_validation_messages(vk), 0);
+    const uint32_t push[4] = { 64, 1 };
+    pipeline->push_bytes = sizeof push;
+    OK(kd_vk_dispatch(
+        vk,
+        &(struct kd_vk_dispatch) { .pass = "bad",
+                                   .pipeline = pipeline,
+                                   .bindings = { { .buffer = x }, { .buffer = y, .write = true } },
+                                   .push = push },
+        &error));
+    assert_true(kd_vk_validation_messages(vk) > 0);
+    kd_vk_discard(vk);
+    kd_vk_buffer_destroy(vk, x);
+    kd_vk_buffer_destroy(vk, y);
+    kd_vk_pipeline_destroy(vk, pipeline);
+    kd_vk_destroy(vk);
+}
+
+static void by_environment(void **state)
+{
+    struct kd_vk *vk;
+    (void)state;
+    vk = open_device(false);
+    assert_true(vk->instance.debug.messenger == VK_NULL_HANDLE);
+    kd_vk_destroy(vk);
+    setenv("KERRD_VALIDATE", "1", 1);
+    vk = open_device(false);
+    assert_true(vk->instance.debug.messenger != VK_NULL_HANDLE);
+    kd_vk_destroy(vk);
+    setenv("KERRD_VALIDATE", "0", 1);
+    vk = open_device(false);
+    assert_true(vk->instance.debug.messenger == VK_NULL_HANDLE);
+    kd_vk_destroy(vk);
+    unsetenv("KERRD_VALIDATE");
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL no_layers(uint32_t *count, VkLayerProperties *list)
+{
+    (void)list;
+    *count = 0;
+    return VK_SUCCESS;
+}
+
+static void hide_layers(struct kd_vk_functions *fn)
+{
+    fn->EnumerateInstanceLayerProperties = no_layers;
+}
+
+static void layer_missing(void **state)
+{
+    struct kd_vk *vk;
+    (void)state;
+    kd_vk_functions_hook = hide_layers;
+    FAILS(KD_EDEVICE, "VK_LAYER_KHRONOS_validation is not installed",
+          kd_vk_create(&(struct kd_vk_params) { .validate = true, .cache_dir = "" }, &vk, &error));
+    kd_vk_functions_hook = NULL;
+    assert_null(vk);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(synchronisation), cmocka_unit_test(core),
+                                        cmocka_unit_test(by_environment), cmocka_unit_test(layer_missing) };
+    if (skip_without_device())
+        return SKIPPED;
+    unsetenv("KERRD_VALIDATE");
+    return cmocka_run_group_tests(tests, NULL, NULL) != 0;
+}
