@@ -1,0 +1,95 @@
+#include "cli/cli.h"
+
+#include "base/log.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static error_t parse_log(int key, char *text, struct argp_state *state)
+{
+    static const char *const levels[] = { "error", "warn", "info", "debug" };
+    if (key != 'l')
+        return ARGP_ERR_UNKNOWN;
+    for (int i = 0; i < 4; i++)
+        if (strcmp(text, levels[i]) == 0) {
+            kd_log_set_level((enum kd_log_level)i);
+            return 0;
+        }
+    argp_error(state, "--log-level %s: error, warn, info or debug", text);
+    return EINVAL;
+}
+
+static const struct argp_option log_options[] = {
+    { "log-level", 'l', "LEVEL", 0, "error, warn (the default), info or debug", 1 },
+    { 0 },
+};
+const struct argp kd_cli_log_argp = { .options = log_options, .parser = parse_log };
+
+static error_t parse_device(int key, char *text, struct argp_state *state)
+{
+    const char **device = state->input;
+    if (key == ARGP_KEY_INIT) {
+        const char *wish = getenv("KERRD_DEVICE");
+        *device = wish && *wish ? wish : "auto";
+        return 0;
+    }
+    if (key != 'd')
+        return ARGP_ERR_UNKNOWN;
+    *device = text;
+    return 0;
+}
+
+static const struct argp_option device_options[] = {
+    { "device", 'd', "DEVICE", 0,
+      "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)", 1 },
+    { 0 },
+};
+const struct argp kd_cli_device_argp = { .options = device_options, .parser = parse_device };
+
+int kd_cli_fail(const struct kd_error *error)
+{
+    if (error->pointer[0])
+        fprintf(stderr, "kerrd: %s (at %s)\n", error->message, error->pointer);
+    else
+        fprintf(stderr, "kerrd: %s\n", error->message);
+    return error->status == KD_EINVAL || error->status == KD_ETOOBIG ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
+}
+
+enum kd_status kd_cli_prefix(struct kd_error *error, const char *name)
+{
+    char message[sizeof error->message];
+    memcpy(message, error->message, sizeof message);
+    /* Both are cut if they must be; what is wrong matters more than where a very long path leads. */
+    snprintf(error->message, sizeof error->message, "%.120s: %.350s", name, message);
+    return error->status;
+}
+
+_Noreturn void kd_cli_device_lost(const struct kd_error *error)
+{
+    kd_cli_fail(error);
+    fflush(NULL);
+    _exit(KD_EXIT_FAILURE);
+}
+
+int kd_cli_print(const void *data, size_t size)
+{
+    if (fwrite(data, 1, size, stdout) == size && fflush(stdout) == 0)
+        return KD_EXIT_OK;
+    fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(errno));
+    return KD_EXIT_FAILURE;
+}
+
+unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,
+                       unsigned maximum)
+{
+    char *end;
+    errno = 0;
+    unsigned long value = strtoul(text, &end, 10);
+    /* strtoul takes "-1" and " 1" as well; an option does not. */
+    if (text[0] < '0' || text[0] > '9' || *end || errno || value < minimum || value > maximum)
+        argp_error(state, "%s %s: a whole number from %u to %u", option, text, minimum, maximum);
+    return (unsigned)value;
+}

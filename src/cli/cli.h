@@ -1,0 +1,41 @@
+/* What the subcommands of kerrd share. Main thread only.
+ *
+ * A subcommand gets its own arguments, argv[0] being "kerrd NAME", and returns an exit code. Usage errors leave through
+ * argp with KD_EXIT_USAGE. */
+#ifndef KD_CLI_CLI_H
+#define KD_CLI_CLI_H
+
+#include "base/error.h"
+
+#include <argp.h>
+
+enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
+
+int kd_cli_render(int argc, char **argv);
+int kd_cli_plan(int argc, char **argv);
+int kd_cli_scene(int argc, char **argv);
+int kd_cli_presets(int argc, char **argv);
+int kd_cli_serve(int argc, char **argv);
+int kd_cli_doctor(int argc, char **argv);
+
+/* Children for argp: --log-level (no input), and --device with a `const char *` as its input, which
+ * starts as $KERRD_DEVICE or "auto". */
+extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
+
+/* "kerrd: MESSAGE (at /pointer)" on stderr; returns the exit code for the status. */
+int kd_cli_fail(const struct kd_error *error);
+
+/* Put "name: " before the message, to say which of several inputs is meant. Returns the error's status. */
+enum kd_status kd_cli_prefix(struct kd_error *error, const char *name);
+
+/* A lost device cannot be torn down: report and leave at once, without destructors. */
+_Noreturn void kd_cli_device_lost(const struct kd_error *error);
+
+/* Write to stdout and make sure that it arrived. */
+int kd_cli_print(const void *data, size_t size);
+
+/* A whole number from an option's text, or a usage error. */
+unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,
+                       unsigned maximum);
+
+#endif

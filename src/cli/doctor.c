@@ -1,0 +1,171 @@
+/* kerrd doctor: what this machine can do, what it lacks, and a tiny picture as the proof. */
+#include "cli/cli.h"
+#include "cli/progress.h"
+#include "render/render.h"
+#include "vk/vk.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define WIDTH "64"
+#define HEIGHT "36"
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = state->input; return 0;
+    case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static double mib(uint64_t bytes) { return (double)bytes / (1 << 20); }
+
+static void print_device(const struct kd_vk_info *info)
+{
+    uint32_t v = info->api_version;
+    printf("device %u: %s\n", info->index, info->name);
+    printf("  %s, Vulkan %u.%u.%u, driver %s %s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f, v >> 12 & 0x3ff,
+           v & 0xfff, info->driver, info->driver_info);
+    printf("  memory %.0f MiB, one binding %.0f MiB, one allocation %.0f MiB\n", mib(info->heap_bytes),
+           mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
+    printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n", info->subgroup_size,
+           info->max_workgroup, info->max_push_bytes, info->float64 ? "yes" : "no", info->timestamps ? "yes" : "no");
+    printf("  %s%s\n", info->missing[0] ? "not usable: lacks " : "usable", info->missing);
+}
+
+/* Prints every device; true if one of them is usable. */
+static bool print_devices(struct kd_error *error)
+{
+    struct kd_vk_info *list = NULL;
+    size_t n = 0;
+    bool usable = false;
+    if (kd_vk_list(&list, &n, error)) {
+        printf("devices: none (%s)\n", error->message);
+        return false;
+    }
+    for (size_t i = 0; i < n; i++) {
+        print_device(&list[i]);
+        usable = usable || !list[i].missing[0];
+    }
+    if (n == 0)
+        printf("devices: none\n");
+    free(list);
+    return usable;
+}
+
+static enum kd_status print_choice(const char *device, struct kd_error *error)
+{
+    struct kd_vk *vk = NULL;
+    enum kd_status status = kd_vk_create(&(struct kd_vk_params){ .device = device, .cache_dir = "" }, &vk, error);
+    if (!status)
+        printf("choice: %s\n", kd_vk_choice(vk));
+    kd_vk_destroy(vk);
+    return status;
+}
+
+/* The rule of kd_vk_params.cache_dir. */
+static void print_cache(void)
+{
+    const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char *path = NULL;
+    int n = xdg && xdg[0] == '/' ? asprintf(&path, "%s/kerrd", xdg)
+            : home && *home      ? asprintf(&path, "%s/.cache/kerrd", home)
+                                 : -1;
+    if (n < 0)
+        printf("kernel cache: none, since neither XDG_CACHE_HOME nor HOME is set; each start compiles anew\n");
+    else if (access(path, F_OK) && errno == ENOENT)
+        printf("kernel cache: %s, not there yet\n", path);
+    else if (access(path, R_OK | W_OK | X_OK))
+        printf("kernel cache: %s: %s; each start compiles anew\n", path, strerror(errno));
+    else
+        printf("kernel cache: %s, writable\n", path);
+    if (n >= 0)
+        free(path);
+}
+
+/* The only way to know is to ask for it. */
+static void print_validation(const char *device)
+{
+    struct kd_vk *vk = NULL;
+    struct kd_error error = { 0 };
+    if (kd_vk_create(&(struct kd_vk_params){ .device = device, .cache_dir = "", .validate = true }, &vk, &error))
+        printf("validation layer: no (%s); it is for developers: apt install vulkan-validationlayers\n", error.message);
+    else
+        printf("validation layer: present (KERRD_VALIDATE=1 turns it on)\n");
+    kd_vk_destroy(vk);
+}
+
+static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_scene_defaults(&scene);
+    kd_renderer_capacity(renderer, &capacity);
+    enum kd_status status = kd_scene_set(&scene, "image.width", WIDTH, error);
+    if (!status)
+        status = kd_scene_set(&scene, "image.height", HEIGHT, error);
+    if (!status)
+        status = kd_plan_make(&scene, &capacity, &plan, error);
+    for (int i = 0; i < 2 && !status; i++) { /* the first compiles the kernels */
+        struct kd_frame frame = { 0 };
+        double started = kd_progress_clock();
+        status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error);
+        if (!status)
+            printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n", 1e3 * (kd_progress_clock() - started),
+                   i ? "" : ", kernels made on the way");
+        kd_frame_finish(&frame);
+    }
+    return status;
+}
+
+static enum kd_status try_render(const char *device, struct kd_error *error)
+{
+    struct kd_renderer *renderer = NULL;
+    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params){ .device = device }, &renderer, error);
+    if (status)
+        return status;
+    status = draw(renderer, error);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    kd_renderer_destroy(renderer);
+    return status;
+}
+
+int kd_cli_doctor(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        NULL, parse, NULL,
+        "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
+        "The exit code is 0 if kerrd can work here and 1 if it cannot.",
+        children, NULL, NULL,
+    };
+    const char *device = NULL;
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &device);
+    printf("kerrd %s\n", KD_VERSION);
+    bool any = print_devices(&error);
+    print_cache();
+    enum kd_status status = print_choice(device, &error);
+    if (!status) {
+        print_validation(device);
+        status = try_render(device, &error);
+    }
+    if (!any)
+        printf("to have a device that works on any machine: apt install mesa-vulkan-drivers\n");
+    printf("verdict: %s\n", status ? "not usable" : "usable");
+    fflush(stdout);
+    if (!status)
+        return kd_cli_print("", 0);
+    kd_cli_fail(&error);
+    return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
+}

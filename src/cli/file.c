@@ -1,0 +1,169 @@
+#include "cli/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static enum kd_status read_fd(int fd, const char *name, size_t most, struct kd_buffer *out, struct kd_error *error)
+{
+    uint8_t chunk[64 * 1024];
+    for (;;) {
+        ssize_t n = read(fd, chunk, sizeof chunk);
+        if (n == 0)
+            return KD_OK;
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return kd_error_set(error, errno == EISDIR ? KD_EINVAL : KD_EIO, "cannot read %s: %s", name,
+                                strerror(errno));
+        if (out->size + (size_t)n > most)
+            return kd_error_set(error, KD_EINVAL, "%s has more than %zu bytes", name, most);
+        if (kd_buffer_append(out, chunk, (size_t)n))
+            return kd_error_set(error, KD_ENOMEM, "out of memory for %s", name);
+    }
+}
+
+enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out, struct kd_error *error)
+{
+    if (strcmp(path, "-") == 0)
+        return read_fd(STDIN_FILENO, "standard input", most, out, error);
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return kd_error_set(error, KD_EINVAL, "cannot open %s: %s", path, strerror(errno));
+    enum kd_status status = read_fd(fd, path, most, out, error);
+    close(fd);
+    return status;
+}
+
+/* Where the bytes go in the end: the file behind symbolic links, since rename would replace the link. */
+struct target {
+    char *path;     /* malloc'd */
+    bool in_place;  /* exists and is no regular file: must not be renamed over */
+};
+
+static enum kd_status find_target(const char *path, struct target *out, struct kd_error *error)
+{
+    struct stat info;
+    *out = (struct target){ 0 };
+    if (stat(path, &info) == 0) {
+        if (S_ISDIR(info.st_mode))
+            return kd_error_set(error, KD_EINVAL, "cannot write %s: it is a directory", path);
+        out->in_place = !S_ISREG(info.st_mode);
+        out->path = realpath(path, NULL);
+    } else {
+        out->path = strdup(path);
+    }
+    if (!out->path)
+        return kd_error_set(error, KD_EIO, "cannot write %s: %s", path, strerror(errno));
+    return KD_OK;
+}
+
+/* An empty file beside the target with the permissions of a new one. *temporary is malloc'd. */
+static int open_beside(const char *path, char **temporary)
+{
+    *temporary = NULL;
+    const char *slash = strrchr(path, '/');
+    int folder = slash ? (int)(slash - path) + 1 : 0;
+    if (asprintf(temporary, "%.*s.kerrd-XXXXXX", folder, path) < 0) {
+        *temporary = NULL;
+        errno = ENOMEM;
+        return -1;
+    }
+    int fd = mkostemp(*temporary, O_CLOEXEC);
+    if (fd < 0) {
+        free(*temporary);
+        *temporary = NULL;
+        return -1;
+    }
+    mode_t mask = umask(0);
+    umask(mask);
+    fchmod(fd, 0666 & ~mask); /* mkostemp made it private; a picture is an ordinary file */
+    return fd;
+}
+
+enum kd_status kd_file_check(const char *path, struct kd_error *error)
+{
+    if (strcmp(path, "-") == 0) {
+        if (isatty(STDOUT_FILENO))
+            return kd_error_set(error, KD_EINVAL, "-o - would write a picture to the terminal: redirect it, or "
+                                                  "name a file");
+        return KD_OK;
+    }
+    struct target target;
+    char *temporary = NULL;
+    enum kd_status status = find_target(path, &target, error);
+    if (status)
+        return status;
+    if (target.in_place) {
+        if (access(target.path, W_OK))
+            status = kd_error_set(error, KD_EIO, "cannot write %s: %s", path, strerror(errno));
+    } else {
+        int fd = open_beside(target.path, &temporary);
+        if (fd < 0)
+            status = kd_error_set(error, KD_EIO, "cannot write %s: %s", path, strerror(errno));
+        else
+            close(fd), unlink(temporary);
+    }
+    free(temporary);
+    free(target.path);
+    return status;
+}
+
+static bool write_all(int fd, const struct kd_buffer *data)
+{
+    for (size_t done = 0; done < data->size;) {
+        ssize_t n = write(fd, data->data + done, data->size - done);
+        if (n < 0 && errno != EINTR)
+            return false;
+        done += n > 0 ? (size_t)n : 0;
+    }
+    return true;
+}
+
+static bool replace(const char *path, const struct kd_buffer *data)
+{
+    char *temporary;
+    int fd = open_beside(path, &temporary);
+    if (fd < 0)
+        return false;
+    bool good = write_all(fd, data) && fsync(fd) == 0;
+    good = close(fd) == 0 && good;
+    good = good && rename(temporary, path) == 0;
+    if (!good) {
+        int cause = errno;
+        unlink(temporary);
+        errno = cause;
+    }
+    free(temporary);
+    return good;
+}
+
+static bool write_in_place(const char *path, const struct kd_buffer *data)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    if (fd < 0)
+        return false;
+    bool good = write_all(fd, data);
+    return close(fd) == 0 && good;
+}
+
+enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error)
+{
+    if (strcmp(path, "-") == 0)
+        return write_all(STDOUT_FILENO, data) ? KD_OK
+                                              : kd_error_set(error, KD_EIO, "cannot write to standard output: %s",
+                                                             strerror(errno));
+    struct target target;
+    enum kd_status status = find_target(path, &target, error);
+    if (status)
+        return status;
+    if (!(target.in_place ? write_in_place(target.path, data) : replace(target.path, data)))
+        status = kd_error_set(error, KD_EIO, "cannot write %s: %s", path, strerror(errno));
+    free(target.path);
+    return status;
+}

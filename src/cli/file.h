@@ -1,0 +1,17 @@
+/* Whole files in and out; "-" is standard input or output. Main thread only. */
+#ifndef KD_CLI_FILE_H
+#define KD_CLI_FILE_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+
+/* KD_EINVAL when there is no such file to read or it has more than `most` bytes. Finish *out in any case. */
+enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out, struct kd_error *error);
+
+/* Will kd_file_write be able to? Asked before a long render rather than after it. A terminal is refused. */
+enum kd_status kd_file_check(const char *path, struct kd_error *error);
+
+/* Under a temporary name, then renamed: nobody ever sees half a file. A device or a pipe is written as it is. */
+enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error);
+
+#endif

@@ -1,0 +1,62 @@
+/* kerrd plan: what a scene would cost on this device. */
+#include "cli/cli.h"
+#include "cli/scene_options.h"
+#include "render/render.h"
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device;
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    (void)text;
+    if (key != ARGP_KEY_INIT)
+        return ARGP_ERR_UNKNOWN;
+    state->child_inputs[0] = &arguments->scene;
+    state->child_inputs[1] = &arguments->device;
+    return 0;
+}
+
+static enum kd_status plan_scene(const struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_renderer *renderer = NULL;
+    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
+    if (!status)
+        status = kd_renderer_create(&(struct kd_renderer_params){ .device = arguments->device }, &renderer, error);
+    if (status)
+        return status;
+    kd_renderer_capacity(renderer, &capacity);
+    kd_renderer_destroy(renderer);
+    status = kd_plan_make(&scene, &capacity, &plan, error);
+    if (!status && (kd_plan_to_json(&plan, out) || kd_buffer_printf(out, "\n")))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the plan");
+    return status;
+}
+
+int kd_cli_plan(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
+                                                  { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        NULL, parse, KD_SCENE_ARGS_DOC,
+        "Print what rendering a scene takes: passes, rays, bytes, estimated time, approximations.", children, NULL,
+        NULL,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_buffer out = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = plan_scene(&arguments, &out, &error);
+    kd_scene_options_finish(&arguments.scene);
+    int code = status ? kd_cli_fail(&error) : kd_cli_print(out.data, out.size);
+    kd_buffer_finish(&out);
+    return code;
+}

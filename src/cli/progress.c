@@ -1,0 +1,74 @@
+#include "cli/progress.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define QUIET_S 0.5 /* a render shorter than this needs no bar */
+#define REDRAW_S 0.1
+#define CELLS 30
+
+static volatile sig_atomic_t caught;
+
+double kd_progress_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void kd_progress_init(struct kd_progress *progress)
+{
+    *progress = (struct kd_progress){ .started = kd_progress_clock(), .terminal = isatty(STDERR_FILENO) };
+}
+
+static void draw(double fraction, double elapsed)
+{
+    char bar[CELLS + 1];
+    int full = (int)(fraction * CELLS);
+    memset(bar, '.', CELLS);
+    memset(bar, '#', (size_t)full);
+    bar[CELLS] = 0;
+    fprintf(stderr, "\r\033[K[%s] %3.0f %%", bar, 100 * fraction);
+    if (fraction > 0.05) /* before that the guess is worth nothing */
+        fprintf(stderr, "  %.0f s left", elapsed * (1 - fraction) / fraction);
+    fflush(stderr);
+}
+
+bool kd_progress_update(void *user, double fraction)
+{
+    struct kd_progress *progress = user;
+    double now = kd_progress_clock();
+    if (progress->terminal && now - progress->started > QUIET_S && now - progress->drawn > REDRAW_S) {
+        draw(fraction < 0 ? 0 : fraction > 1 ? 1 : fraction, now - progress->started);
+        progress->drawn = now;
+        progress->visible = true;
+    }
+    return !caught;
+}
+
+void kd_progress_finish(struct kd_progress *progress)
+{
+    if (progress->visible)
+        fputs("\r\033[K", stderr);
+    progress->visible = false;
+}
+
+static void on_signal(int number) { caught = number; }
+
+void kd_progress_catch_signals(void)
+{
+    struct sigaction action = { .sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND };
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+void kd_progress_reraise(void)
+{
+    if (caught) {
+        signal(caught, SIG_DFL);
+        raise(caught);
+    }
+}

@@ -1,0 +1,141 @@
+/* kerrd render: a scene to a PNG file. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "cli/stats.h"
+#include "render/picture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define COMPRESSION 6 /* a file is written once and kept */
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device, *output;
+    bool stats;
+};
+
+static const struct argp_option table[] = {
+    { "output", 'o', "FILE", 0, "the PNG file to write, - for standard output (required)", 0 },
+    { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case 'o': arguments->output = text; return 0;
+    case 't': arguments->stats = true; return 0;
+    case ARGP_KEY_END:
+        if (!arguments->output)
+            argp_error(state, "-o FILE is missing: where should the picture go?");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* What the picture costs and holds, while it is being made. */
+struct work {
+    struct kd_renderer *renderer;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    struct kd_buffer png;
+    double render_ms, encode_ms;
+};
+
+static enum kd_status draw(struct work *work, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    kd_renderer_capacity(work->renderer, &capacity);
+    enum kd_status status = kd_plan_make(scene, &capacity, &work->plan, error);
+    if (status)
+        return status;
+    struct kd_progress progress;
+    kd_progress_init(&progress);
+    kd_progress_catch_signals();
+    status = kd_render(work->renderer, scene, &work->plan, kd_progress_update, &progress, &work->frame, error);
+    kd_progress_finish(&progress);
+    work->render_ms = 1e3 * (kd_progress_clock() - progress.started);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    return status;
+}
+
+static enum kd_status save(struct work *work, const struct kd_scene *scene, const char *path,
+                           struct kd_error *error)
+{
+    double started = kd_progress_clock();
+    enum kd_status status = kd_picture_encode(&work->frame, scene, &work->plan,
+                                              kd_renderer_device_name(work->renderer), COMPRESSION, &work->png, error);
+    work->encode_ms = 1e3 * (kd_progress_clock() - started);
+    return status ? status : kd_file_write(path, &work->png, error);
+}
+
+static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_stats stats = {
+        .device = kd_renderer_device_name(work->renderer), .scene = scene, .plan = &work->plan,
+        .frame = &work->frame, .render_ms = work->render_ms, .encode_ms = work->encode_ms, .bytes = work->png.size,
+    };
+    char *text = kd_stats_json(&stats);
+    if (!text)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for --stats");
+    fprintf(stderr, "%s\n", text);
+    free(text);
+    return KD_OK;
+}
+
+static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct work work = { 0 };
+    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
+    if (!status)
+        status = kd_file_check(arguments->output, error);
+    if (!status)
+        status = kd_renderer_create(&(struct kd_renderer_params){ .device = arguments->device }, &work.renderer, error);
+    if (!status)
+        status = draw(&work, &scene, error);
+    if (!status)
+        status = save(&work, &scene, arguments->output, error);
+    if (!status && arguments->stats)
+        status = print_stats(&work, &scene, error);
+    kd_frame_finish(&work.frame);
+    kd_buffer_finish(&work.png);
+    kd_renderer_destroy(work.renderer);
+    return status;
+}
+
+int kd_cli_render(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
+                                                  { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        table, parse, KD_SCENE_ARGS_DOC,
+        "Render a scene to a PNG file. Without a scene, the default one.\v"
+        "Merged in this order: defaults or --preset; SCENE.json, or the scene of --from; every --set. "
+        "The picture carries its scene: --from renders it again.",
+        children, NULL, NULL,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &error);
+    kd_scene_options_finish(&arguments.scene);
+    if (!status)
+        return KD_EXIT_OK;
+    int code = kd_cli_fail(&error);
+    if (status == KD_ECANCELLED)
+        kd_progress_reraise();
+    return code;
+}

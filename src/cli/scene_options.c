@@ -1,0 +1,120 @@
+#include "cli/scene_options.h"
+
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "render/picture.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PICTURE_MAX ((size_t)1 << 30)
+
+enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f' };
+
+static const struct argp_option options_table[] = {
+    { "preset", KEY_PRESET, "NAME", 0, "start from a preset (`kerrd presets` lists them)", 0 },
+    { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
+    { "from", KEY_FROM, "PICTURE.png", 0, "take the scene from inside a picture that kerrd made", 0 },
+    { 0 },
+};
+
+static void add_set(struct kd_scene_options *options, const char *text, struct argp_state *state)
+{
+    const char **set = realloc(options->set, (options->n_set + 1) * sizeof *set);
+    if (!set)
+        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--set");
+    options->set = set;
+    options->set[options->n_set++] = text;
+}
+
+static void check_sources(const struct kd_scene_options *options, struct argp_state *state)
+{
+    if (options->from && (options->document || options->preset))
+        argp_error(state, "a picture holds every field: --from excludes %s", options->document ? "SCENE" : "--preset");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct kd_scene_options *options = state->input;
+    switch (key) {
+    case KEY_PRESET: options->preset = text; return 0;
+    case KEY_FROM: options->from = text; return 0;
+    case KEY_SET:
+        if (!strchr(text, '=') || text[0] == '=')
+            argp_error(state, "--set %s: it takes PATH=VALUE, as in camera.inclination_deg=60", text);
+        add_set(options, text, state);
+        return 0;
+    case ARGP_KEY_ARG:
+        if (options->document)
+            argp_error(state, "%s: one scene at a time, and %s was given already", text, options->document);
+        options->document = text;
+        return 0;
+    case ARGP_KEY_END: check_sources(options, state); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+const struct argp kd_scene_options_argp = { .options = options_table, .parser = parse };
+
+static const char *shown(const char *path) { return strcmp(path, "-") ? path : "standard input"; }
+
+static enum kd_status merge_document(const char *path, struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_file_read(path, KD_SCENE_JSON_MAX, &text, error);
+    if (!status) {
+        const char *start = text.data ? (const char *)text.data : "";
+        if (text.size > 4 && memcmp(start, "\x89PNG", 4) == 0)
+            status = kd_error_set(error, KD_EINVAL, "this is a picture, not a scene: use --from");
+        else
+            status = kd_scene_from_json(scene, start, text.size, error);
+        if (status)
+            kd_cli_prefix(error, shown(path));
+    }
+    kd_buffer_finish(&text);
+    return status;
+}
+
+static enum kd_status take_picture(const char *path, struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_buffer file = { 0 };
+    enum kd_status status = kd_file_read(path, PICTURE_MAX, &file, error);
+    if (!status && (status = kd_picture_scene(file.data, file.size, scene, error)))
+        kd_cli_prefix(error, shown(path));
+    kd_buffer_finish(&file);
+    return status;
+}
+
+static enum kd_status apply_set(const char *text, struct kd_scene *scene, struct kd_error *error)
+{
+    const char *equals = strchr(text, '=');
+    char *path = strndup(text, (size_t)(equals - text));
+    if (!path)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    enum kd_status status = kd_scene_set(scene, path, equals + 1, error);
+    free(path);
+    return status;
+}
+
+enum kd_status kd_scene_options_load(const struct kd_scene_options *options, struct kd_scene *out,
+                                     struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    kd_scene_defaults(out);
+    if (options->preset)
+        status = kd_scene_preset(out, options->preset, error);
+    if (!status && options->document)
+        status = merge_document(options->document, out, error);
+    if (!status && options->from)
+        status = take_picture(options->from, out, error);
+    for (size_t i = 0; i < options->n_set && !status; i++)
+        status = apply_set(options->set[i], out, error);
+    return status ? status : kd_scene_validate(out, error);
+}
+
+void kd_scene_options_finish(struct kd_scene_options *options)
+{
+    free(options->set);
+    *options = (struct kd_scene_options){ 0 };
+}

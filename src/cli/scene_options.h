@@ -1,0 +1,29 @@
+/* The options that choose a scene, the same for render, plan and scene. Main thread only.
+ *
+ * Merged in this order, each over what came before: the defaults or --preset; the document SCENE, or
+ * the one inside the picture of --from; every --set as given. */
+#ifndef KD_CLI_SCENE_OPTIONS_H
+#define KD_CLI_SCENE_OPTIONS_H
+
+#include "scene/scene.h"
+
+#include <argp.h>
+
+struct kd_scene_options {
+    const char *document; /* a path or "-"; NULL: none */
+    const char *preset, *from;
+    const char **set; /* "path=value" */
+    size_t n_set;
+};
+
+#define KD_SCENE_ARGS_DOC "[SCENE.json|-]"
+
+/* An argp child; its input is a struct kd_scene_options that starts zeroed. Takes the positional argument. */
+extern const struct argp kd_scene_options_argp;
+
+/* The merged scene, valid. */
+enum kd_status kd_scene_options_load(const struct kd_scene_options *options, struct kd_scene *out,
+                                     struct kd_error *error);
+void kd_scene_options_finish(struct kd_scene_options *options);
+
+#endif

@@ -1,0 +1,113 @@
+/* kerrd serve: the HTTP service until a signal ends it. */
+#include "cli/cli.h"
+#include "server/server.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct arguments {
+    const char *device, *listen;
+    unsigned port, queue;
+    const char **hosts; /* NULL-terminated once there is one */
+    size_t n_hosts;
+};
+
+static const struct argp_option table[] = {
+    { "listen", 'a', "ADDRESS", 0, "numeric address to listen on (default 127.0.0.1)", 0 },
+    { "port", 'p', "PORT", 0, "TCP port, 0 for any free one (default 8080)", 0 },
+    { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
+    { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
+    { 0 },
+};
+
+static void add_host(struct arguments *arguments, const char *name, struct argp_state *state)
+{
+    const char **hosts = realloc(arguments->hosts, (arguments->n_hosts + 2) * sizeof *hosts);
+    if (!hosts)
+        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--host");
+    hosts[arguments->n_hosts++] = name;
+    hosts[arguments->n_hosts] = NULL;
+    arguments->hosts = hosts;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
+    case 'a': arguments->listen = text; return 0;
+    case 'p': arguments->port = kd_cli_number(state, "--port", text, 0, 65535); return 0;
+    case 'q': arguments->queue = kd_cli_number(state, "--queue", text, 1, 100000); return 0;
+    case 'H': add_host(arguments, text, state); return 0;
+    case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static struct kd_server *running; /* for the signal handler, which can be given nothing */
+
+static void on_signal(int number)
+{
+    (void)number;
+    kd_server_stop(running);
+}
+
+static void set_signals(void (*handler)(int))
+{
+    struct sigaction action = { .sa_handler = handler, .sa_flags = SA_RESTART };
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGINT, &action, NULL);
+}
+
+static void announce(const char *address, uint16_t port)
+{
+    bool six = strchr(address, ':'); /* an IPv6 address needs brackets in a URL */
+    printf("kerrd: listening on http://%s%s%s:%u/\n", six ? "[" : "", address, six ? "]" : "", port);
+    fflush(stdout); /* whoever started us may be waiting for this line in a pipe */
+}
+
+static enum kd_status serve(const struct arguments *arguments, struct kd_error *error)
+{
+    const struct kd_server_params params = {
+        .listen = arguments->listen,
+        .port = (uint16_t)arguments->port,
+        .hosts = arguments->hosts,
+        .queue = arguments->queue,
+        .renderer = { .device = arguments->device },
+    };
+    enum kd_status status = kd_server_create(&params, &running, error);
+    if (status)
+        return status;
+    set_signals(on_signal);
+    announce(arguments->listen, kd_server_port(running));
+    status = kd_server_wait(running, error);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    set_signals(SIG_IGN); /* nothing is left to stop; a second Ctrl-C must not cut the exit code short */
+    kd_server_destroy(running);
+    return status;
+}
+
+int kd_cli_serve(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        table, parse, NULL,
+        "Serve pictures over HTTP.\v"
+        "SIGTERM or SIGINT: /readyz fails at once, running and queued renders finish, then the exit code is 0. "
+        "It is 1 when the device was lost: start it again.",
+        children, NULL, NULL,
+    };
+    struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16 };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = serve(&arguments, &error);
+    free(arguments.hosts);
+    return status ? kd_cli_fail(&error) : KD_EXIT_OK;
+}

@@ -1,0 +1,19 @@
+/* What `kerrd render --stats` prints: one picture's times and accuracy. Any thread. */
+#ifndef KD_CLI_STATS_H
+#define KD_CLI_STATS_H
+
+#include "render/render.h"
+
+struct kd_stats {
+    const char *device;
+    const struct kd_scene *scene;
+    const struct kd_plan *plan;
+    const struct kd_frame *frame;
+    double render_ms, encode_ms; /* by the wall clock */
+    size_t bytes;                /* of the file */
+};
+
+/* One line of JSON, malloc'd; NULL when out of memory. */
+char *kd_stats_json(const struct kd_stats *stats);
+
+#endif

@@ -1,0 +1,73 @@
+/* The command line: finds the subcommand and hands over. */
+#include "cli/cli.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *argp_program_version = "kerrd " KD_VERSION;
+
+static const struct command {
+    const char *name;
+    int (*run)(int argc, char **argv);
+} commands[] = {
+    { "render", kd_cli_render }, { "plan", kd_cli_plan },   { "scene", kd_cli_scene },
+    { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
+};
+
+struct choice {
+    const struct command *command;
+    int index; /* of its name in argv */
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct choice *choice = state->input;
+    switch (key) {
+    case ARGP_KEY_ARG:
+        for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+            if (strcmp(text, commands[i].name) == 0)
+                choice->command = &commands[i];
+        if (!choice->command)
+            argp_error(state, "there is no command \"%s\"; known are render, plan, scene, presets, serve, doctor",
+                       text);
+        choice->index = state->next - 1;
+        state->next = state->argc; /* the rest is the command's */
+        return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "a command is missing"); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static const struct argp argp = {
+    .parser = parse,
+    .args_doc = "COMMAND [OPTION...]",
+    .doc = "Pictures of black holes: a Kerr renderer on a Vulkan device.\v"
+           "Commands (`kerrd COMMAND --help` says more):\n"
+           "  render    a scene to a PNG file\n"
+           "  plan      what a scene costs on this device\n"
+           "  scene     the merged scene, every field named\n"
+           "  presets   the scenes known by name\n"
+           "  serve     the HTTP service\n"
+           "  doctor    what this machine can do and what it lacks\n"
+           "\n"
+           "Exit codes: 0 done, 1 failed, 2 bad input or usage.",
+};
+
+int main(int argc, char **argv)
+{
+    static char zero[] = "kerrd";
+    struct choice choice = { 0 };
+    char name[32];
+
+    argp_err_exit_status = KD_EXIT_USAGE;
+    signal(SIGPIPE, SIG_IGN); /* a reader that went away is an error with a message, and no end for a server */
+    if (argc < 1)
+        return KD_EXIT_USAGE;
+    argv[0] = zero; /* as messages name the program, wherever it lies */
+    argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
+    snprintf(name, sizeof name, "kerrd %s", choice.command->name);
+    argv[choice.index] = name;
+    return choice.command->run(argc - choice.index, argv + choice.index);
+}
