@@ -41,10 +41,14 @@ struct kd_vk_params {
     uint32_t deadline_ms;  /* of one submission, then KD_EDEVICE; 0: 60000              */
 };
 
-/* Every device of this machine, whether usable or not, in the order of their indices. *out is malloc'd. */
+/* Every device of this machine, whether usable or not, in the order of their indices. *out is malloc'd.
+ * KD_EDEVICE, saying which, if there is no loader, no driver or no device: *count is never 0 on KD_OK. */
 enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_error *error);
 
 enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error);
+/* Waits for what is under way. A lost device is abandoned instead, memory and all: drivers crash when a
+ * device that hangs is torn down. End the process soon then, by _exit: exit handlers of the driver may hang.
+ */
 void kd_vk_destroy(struct kd_vk *vk);
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device */
@@ -55,6 +59,7 @@ uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and erro
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
 enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
                                    const char *name, struct kd_vk_buffer **out, struct kd_error *error);
+/* At any time: what the device still uses, of buffers and of pipelines, is freed once it has finished. */
 void kd_vk_buffer_destroy(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 void *kd_vk_buffer_map(struct kd_vk_buffer *buffer); /* NULL for KD_VK_DEVICE without host access */
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
@@ -113,7 +118,10 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
 /* Drop what was recorded and not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
-/* Device time by pass name since the last reset, of finished submissions. pass: the caller's string. */
+/* Device time by pass name since the last reset, of finished submissions (those that kd_vk_submit or
+ * kd_vk_wait has seen finish). pass: the caller's name, copied; valid while the device lives. A device knows
+ * KD_VK_MAX_PASSES names; if there are more, the last ones are summed as "other". Nothing without timestamps.
+ */
 struct kd_vk_time {
     const char *pass;
     double ms;

@@ -54,19 +54,19 @@ static void oversized(void **state)
           kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
     assert_null(none);
     assert_int_equal(kd_vk_allocated(vk), 0);
-    if (kd_vk_info(vk)->heap_bytes > UINT64_C(16) << 30) {
-        print_message("the heap is too large to fill here\n");
-        return;
-    }
-    /* A heap can be filled, says so, and is whole again afterwards. Nothing is touched, so nothing is paid
-     * for. */
-    uint64_t bytes = kd_vk_info(vk)->heap_bytes / 16;
+    /* A heap can be filled, says so, and is whole again afterwards. Pretend that it is small: the real one
+     * may be larger than this test should take. */
+    VkPhysicalDeviceMemoryProperties *memory = &vk->heap.properties;
+    VkMemoryHeap *heap = &memory->memoryHeaps[memory->memoryTypes[vk->heap.types[KD_VK_DEVICE]].heapIndex];
+    uint64_t truth = heap->size, bytes = UINT64_C(8) << 20;
+    heap->size = 16 * bytes;
     while (n < 64 && !kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, "part", &part[n], NULL))
         n++;
-    assert_in_range(n, 8, 16);
+    assert_int_equal(n, 16);
     FAILS(KD_ENOMEM, "are held", kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, "one more", &none, &error));
     while (n)
         kd_vk_buffer_destroy(vk, part[--n]);
+    heap->size = truth;
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
