@@ -55,10 +55,10 @@ static void counted(void **state)
     OK(kd_vk_copy(vk, "c", b[1], n * 2, b[0], n * 2, n * 2, &error)); /* the other half */
     assert_int_equal(barriers, 0);
     OK(kd_vk_submit(vk, NULL, &error));
-    OK(kd_vk_fill(vk, b[1], n * 2, 4, 0, &error)); /* against the submission before */
+    OK(kd_vk_copy(vk, "c", b[3], 0, b[1], 0, n * 4, &error)); /* against the submission before */
     assert_int_equal(barriers, 1);
     kd_vk_discard(vk);
-    OK(kd_vk_fill(vk, b[1], n * 2, 4, 0, &error)); /* the barrier went with what was discarded */
+    OK(kd_vk_copy(vk, "c", b[2], 0, b[1], 0, n * 4, &error)); /* the barrier went with what was discarded */
     assert_int_equal(barriers, 2);
 
     finish(vk);
