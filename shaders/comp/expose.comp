@@ -19,7 +19,7 @@ void main()
         float y = 0.2126729 * radiance[3 * i] + 0.7151522 * radiance[3 * i + 1] + 0.0721750 * radiance[3 * i + 2];
         uint bin = 0;
         if (y > 0.0)
-            bin = uint(clamp((log2(y) - KD_HISTOGRAM_MIN) * KD_HISTOGRAM_PER_STOP, 1.0, float(KD_HISTOGRAM_BINS - 1)));
+            bin = clamp(floatBitsToUint(y) >> 20, KD_HISTOGRAM_FIRST + 1, KD_HISTOGRAM_FIRST + KD_HISTOGRAM_BINS - 1) - KD_HISTOGRAM_FIRST;
         atomicAdd(local_bins[bin], 1);
     }
     barrier();

@@ -53,8 +53,10 @@ void main()
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses;
     float h = polar.first * (1.0 / float(STEPS));
+    for (uint n = 0; n < (PHI ? 2 * ORDERS : ORDERS); n++)
+        lens[at + n * cam.stride] = 0.0;
 
-    for (uint n = 0; n < ORDERS; n++) {
+    for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = y.w, sum = 0.0;
         if (PHI || SKY)
             sum = 7.0 * kd_drag(m, ray.e, cam.spin, y.w);
@@ -70,26 +72,24 @@ void main()
                     sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) * kd_drag(m, ray.e, cam.spin, y.w);
             }
         }
-        alive = alive && low >= 0.0 && high < cam.horizon && y.w > 0.0;
-        lens[at] = alive ? y.w : 0.0;
-        if (PHI || SKY)
+        alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
+        if (alive) {
             chi += sum * h * (2.0 / 45.0);
-        if (PHI)
-            lens[at + ORDERS * cam.stride] = alive ? -(psi + chi) : 0.0;
-        if (SKY && alive) {
-            above = -above;
-            last = kd_path_crossing(m, y, psi, chi, above);
+            lens[at + n * cam.stride] = y.w;
+            if (PHI)
+                lens[at + (ORDERS + n) * cam.stride] = -(psi + chi);
+            if (SKY) {
+                above = -above;
+                last = kd_path_crossing(m, y, psi, chi, above);
+            }
         }
-        at += cam.stride;
         psi += azimuth.half_;
         h = polar.half_ * (1.0 / float(STEPS));
-        if (!alive)
-            y.w = 0.0;
     }
 
     if (SKY) {
         kd_escape end = kd_path_escape(m, ray, last, cam.spin, cam.horizon);
-        at += (PHI ? ORDERS : 0) * cam.stride;
+        at += (PHI ? 2 * ORDERS : ORDERS) * cam.stride;
         lens[at] = end.u;
         lens[at + cam.stride] = -end.phi;
         lens[at + 2 * cam.stride] = end.fate;

@@ -29,14 +29,22 @@ void main()
     kd_radial radial = kd_radial_of(m, cam.horizon);
 
     uint at = (row - cam.band0) * cam.width + x;
-    bool alive = polar.crosses;
+    kd_radius r = kd_radial_at(radial, polar.first, 0);
+    bool alive = polar.crosses && r.valid;
+    lens[at] = alive ? r.w : 0.0;
     float tau = polar.first;
-    for (uint n = 0; n < ORDERS; n++) {
-        /* Series up to |A|^(1/2) z = pi/8; the direct crossing comes within a half period, each further one adds a half. */
-        kd_radius r = kd_radial_at(radial, tau, n == 0 ? 3 : n < 3 ? 4 : 5);
-        alive = alive && r.valid;
-        lens[at] = alive ? r.w : 0.0;
+    for (uint n = 1; n < min(ORDERS, 3); n++) {
         at += cam.stride;
         tau += polar.half_;
+        r = kd_radial_at(radial, tau, 1);
+        alive = alive && r.valid;
+        lens[at] = alive ? r.w : 0.0;
+    }
+    for (uint n = 3; n < ORDERS; n++) {
+        at += cam.stride;
+        tau += polar.half_;
+        r = kd_radial_at(radial, tau, 3);
+        alive = alive && r.valid;
+        lens[at] = alive ? r.w : 0.0;
     }
 }

@@ -47,10 +47,10 @@
     U(first)                 /* index of the band's first pixel in the picture */                              \
     U(pixels_x)
 
-/* Histogram of log2 luminance for auto exposure: bin 0 is black. */
+/* Histogram of luminance for auto exposure, eight bins a stop: a bin is the exponent and the first three bits of the
+ * fraction of the float. Bin 0 is black; bin FIRST stands for 2^-40. */
 #define KD_HISTOGRAM_BINS 512
-#define KD_HISTOGRAM_MIN -40.0
-#define KD_HISTOGRAM_PER_STOP 8.0
+#define KD_HISTOGRAM_FIRST 696 /* (127 - 40) * 8 */
 
 /* Values of the fate plane. */
 #define KD_FATE_ESCAPED 0.0

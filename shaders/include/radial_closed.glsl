@@ -49,28 +49,35 @@ KD_FN kd_radial kd_radial_of(kd_motion m, real horizon)
     return o;
 }
 
+KD_FN real kd_duplicate(kd_radial o, real q)
+{
+    real n = q * (KD_R(1) + q * (o.a2 + q * (KD_R(4) * o.d + q * o.g16)));
+    return KD_R(4) * n / (KD_R(1) + q * q * (KD_R(-8) * o.d + q * (o.m3 + q * o.m4)));
+}
+
 struct kd_radius { real w; bool valid; };
 
-/* w after Mino time tau, by `doublings` >= 1 duplications; valid while the ray is outside the horizon and has not escaped.
- * Beyond the horizon the closed form goes on, turns inside and comes back out, so w alone cannot tell: a captured
- * ray must still be falling, and within its bound of time. An escaped one has w < 0. */
-KD_FN kd_radius kd_radial_at(kd_radial o, real tau, int doublings)
+/* w after Mino time tau; valid while the ray is outside the horizon and has not escaped. The series starts at
+ * tau/2^(3 + extra), whose argument should stay below 0.6: |A|^(1/2) tau is at most about (n + 1) pi at order n, so that
+ * extra = 0, 1, 3 serve n = 0, up to 2, up to 8; a compile-time constant, for the loop to unroll. Beyond the horizon the closed form goes on, turns inside and comes back out, so that w
+ * alone cannot tell: a captured ray must still be falling, and within its bound of time. An escaped one has w < 0. */
+KD_FN kd_radius kd_radial_at(kd_radial o, real tau, int extra)
 {
     kd_radius r;
-    real z = tau;
-    for (int i = 0; i < doublings; i++)
-        z *= KD_R(0.5);
-    real z2 = z * z;
+    real z = tau * (KD_R(0.125) / KD_R(1 << extra)), z2 = z * z;
     real q = KD_R(0.25) * z2 / (KD_R(1) + z2 * (o.s1 + z2 * (o.s2 + z2 * (o.s3 + z2 * (o.s4 + z2 * o.s5)))));
     real low = q;
+    for (int i = 0; i < extra; i++) {
+        q = kd_duplicate(o, q);
+        low = min(low, q);
+    }
+    q = kd_duplicate(o, q);
+    low = min(low, q);
+    q = kd_duplicate(o, q);
+    low = min(low, q);
+    /* The last duplication with its derivative. */
     real n = q * (KD_R(1) + q * (o.a2 + q * (KD_R(4) * o.d + q * o.g16)));
     real mm = KD_R(1) + q * q * (KD_R(-8) * o.d + q * (o.m3 + q * o.m4));
-    for (int i = 1; i < doublings; i++) {
-        q = KD_R(4) * n / mm;
-        low = min(low, q);
-        n = q * (KD_R(1) + q * (o.a2 + q * (KD_R(4) * o.d + q * o.g16)));
-        mm = KD_R(1) + q * q * (KD_R(-8) * o.d + q * (o.m3 + q * o.m4));
-    }
     real nq = KD_R(1) + q * (KD_R(2) * o.a2 + q * (KD_R(12) * o.d + q * KD_R(4) * o.g16));
     real mq = q * (KD_R(-16) * o.d + q * (KD_R(3) * o.m3 + q * KD_R(4) * o.m4));
     real inv = KD_R(1) / mm;

@@ -109,6 +109,26 @@ static enum kd_status run_band(struct job *j, uint32_t band, const struct kd_vk_
     return KD_OK;
 }
 
+static enum kd_status trace_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
+{
+    const struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, band), 0, 0, true } }, NULL, { 0 } };
+    return run_band(j, band, &d, true, ns);
+}
+
+static enum kd_status transfer_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
+{
+    const struct kd_vk_dispatch d = {
+        "transfer",
+        pipeline,
+        { { lens_buffer(j, band), 0, 0, false },
+          { j->r->store.transfer, 0, 0, false },
+          { j->r->store.radiance.buffers[band], 0, 0, true } },
+        NULL,
+        { 0 },
+    };
+    return run_band(j, band, &d, false, ns);
+}
+
 static enum kd_status trace_and_transfer(struct job *j, bool reused, const struct kd_capacity *c)
 {
     const struct kd_plan *p = j->plan;
@@ -117,21 +137,10 @@ static enum kd_status trace_and_transfer(struct job *j, bool reused, const struc
     if (!status)
         status = transfer_kernel(j, &transfer);
     for (uint32_t band = 0; band < p->bands && !status; band++) {
-        struct kd_vk_buffer *lens = lens_buffer(j, band);
         if (trace)
-            status = run_band(j, band,
-                              &(struct kd_vk_dispatch){ "trace", trace, { { lens, 0, 0, true } }, 0, { 0 } }, true,
-                              p->radius_only ? c->ns_per_ray_radius : c->ns_per_ray_full);
+            status = trace_band(j, band, trace, p->radius_only ? c->ns_per_ray_radius : c->ns_per_ray_full);
         if (!status)
-            status = run_band(j, band,
-                              &(struct kd_vk_dispatch){ "transfer",
-                                                        transfer,
-                                                        { { lens, 0, 0, false },
-                                                          { j->r->store.transfer, 0, 0, false },
-                                                          { j->r->store.radiance.buffers[band], 0, 0, true } },
-                                                        0,
-                                                        { 0 } },
-                              false, c->ns_per_sample_transfer);
+            status = transfer_band(j, band, transfer, c->ns_per_sample_transfer);
     }
     return status;
 }
@@ -178,8 +187,8 @@ static double auto_exposure(const uint32_t *counts)
         if (above * 1000 > lit * 4)
             break;
     }
-    double log_y = KD_HISTOGRAM_MIN + (bin + 1) / KD_HISTOGRAM_PER_STOP;
-    return 0.8 - log_y;
+    int code = KD_HISTOGRAM_FIRST + bin + 1;
+    return 0.8 - log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
 }
 
 /* Post and read back, one band at a time. */
@@ -302,6 +311,58 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     kd_renderer_learn(renderer, plan, &frame);
     *out = frame;
     return KD_OK;
+}
+
+/* Copy one band of the lens map to its place in each plane. */
+static enum kd_status read_band(struct job *j, uint32_t band, struct kd_vk_buffer *host, float *planes)
+{
+    const struct kd_plan *p = j->plan;
+    struct kd_vk *vk = j->r->vk;
+    uint64_t row = (uint64_t)p->width * p->side * p->side, stride = row * p->band_rows;
+    uint64_t first = row * band_first(j, band), rays = row * band_rows(j, band);
+    for (uint32_t plane = 0; plane < p->planes; plane++) {
+        enum kd_status status = kd_vk_copy(vk, "readback", host, 0, lens_buffer(j, band), 4 * plane * stride, 4 * rays, j->error);
+        if (!status)
+            status = kd_vk_submit(vk, NULL, j->error);
+        if (!status)
+            status = kd_vk_wait(vk, 0, j->error);
+        if (status)
+            return status;
+        memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);
+    }
+    return KD_OK;
+}
+
+enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              float *planes, double *trace_ms, struct kd_error *error)
+{
+    struct job job = { .r = renderer, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1, .error = error };
+    const struct kd_vk_pipeline *trace;
+    struct kd_vk_buffer *host = NULL;
+    struct kd_capacity c;
+    bool reused;
+    kd_renderer_capacity(renderer, &c);
+    kd_vk_times_reset(renderer->vk);
+    enum kd_status status = kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error);
+    if (!status)
+        status = kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
+                                     KD_VK_READBACK, "lens map on the host", &host, error);
+    if (!status)
+        status = trace_kernel(&job, &trace);
+    for (uint32_t band = 0; band < plan->bands && !status; band++) {
+        status = trace_band(&job, band, trace, plan->radius_only ? c.ns_per_ray_radius : c.ns_per_ray_full);
+        if (!status)
+            status = read_band(&job, band, host, planes);
+    }
+    if (status)
+        kd_vk_discard(renderer->vk);
+    kd_vk_buffer_destroy(renderer->vk, host);
+    struct kd_vk_time times[KD_VK_MAX_PASSES];
+    size_t n = kd_vk_times(renderer->vk, times);
+    for (size_t i = 0; i < n && trace_ms; i++)
+        if (!strcmp(times[i].pass, "trace"))
+            *trace_ms = times[i].ms;
+    return status;
 }
 
 void kd_frame_finish(struct kd_frame *frame)

@@ -7,8 +7,8 @@
 /* Steps of the integrator a half period, by profile; docs/accuracy.md has the errors that go with them. */
 static const uint32_t profile_steps[] = {
     [KD_PROFILE_DRAFT] = 4,
-    [KD_PROFILE_INTERACTIVE] = 8,
-    [KD_PROFILE_BALANCED] = 12,
+    [KD_PROFILE_INTERACTIVE] = 4,
+    [KD_PROFILE_BALANCED] = 8,
     [KD_PROFILE_HIGH] = 16,
 };
 
@@ -106,21 +106,20 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     return KD_OK;
 }
 
-enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
-                            struct kd_error *error)
+enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan = { 0 };
-    bool disk = scene->disk.model != KD_DISK_NONE;
-
     plan.width = (uint32_t)scene->image.width;
     plan.height = (uint32_t)scene->image.height;
     plan.side = (uint32_t)scene->image.samples;
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
-    plan.sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0;
-    plan.radius_only = isinf(scene->camera.r) && !plan.sky;
-    /* A sky alone needs no crossing, but the closed-form start of the last half turn comes with the first. */
-    plan.orders = disk || plan.sky ? (uint32_t)scene->accuracy.orders : 0;
-    plan.steps = plan.radius_only ? 0 : profile_steps[scene->accuracy.profile];
+    plan.phi = needs->phi;
+    plan.sky = needs->sky;
+    plan.radius_only = isinf(scene->camera.r) && !plan.phi && !plan.sky && !needs->integrate;
+    /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
+    plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
+    plan.steps = plan.radius_only ? 0 : needs->steps ? needs->steps : profile_steps[scene->accuracy.profile];
     plan.planes = plan.orders + (plan.phi ? plan.orders : 0) + (plan.sky ? 3 : 0);
     plan.measured = capacity->measured;
 
@@ -133,4 +132,14 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
         return kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene");
     *out = plan;
     return KD_OK;
+}
+
+enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
+                            struct kd_error *error)
+{
+    struct kd_needs needs = {
+        .disk = scene->disk.model != KD_DISK_NONE,
+        .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
+    };
+    return kd_plan_make_for(scene, &needs, capacity, out, error);
 }

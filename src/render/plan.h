@@ -51,6 +51,15 @@ struct kd_plan {
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
                             struct kd_plan *out, struct kd_error *error);
 
+/* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
+struct kd_needs {
+    bool disk, phi, sky; /* crossing radii; their azimuths; directions of escape and fates */
+    bool integrate;      /* by steps even where the closed form would do */
+    uint32_t steps;      /* a half period, a multiple of 4 up to 64; 0: the profile's */
+};
+enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
+
 /* The plan as the JSON of POST /v1/plan. */
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);
 

@@ -53,4 +53,9 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          const struct kd_plan *plan, kd_progress_fn progress, void *user,
                          struct kd_frame *out, struct kd_error *error);
 
+/* The lens map alone: plan->planes planes of plan->rays floats each, rows from the top, in the order that
+ * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */
+enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              float *planes, double *trace_ms, struct kd_error *error);
+
 #endif

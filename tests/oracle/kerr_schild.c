@@ -1,0 +1,242 @@
+#include "kerr_schild.h"
+
+#include <math.h>
+#include <string.h>
+
+struct system { double a, energy; };
+typedef double state[6]; /* x, y, z, p_x, p_y, p_z */
+
+static double radius(double a, const double *x)
+{
+    double rho2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - a * a;
+    double root = sqrt(rho2 * rho2 + 4 * a * a * x[2] * x[2]);
+    /* The form without cancellation for either sign. */
+    return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
+}
+
+/* H = (p.p - E^2 - f (E + l.p)^2)/2, f = 2r^3/(r^4 + a^2 z^2), l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r). */
+static void derivative(const struct system *s, const double *y, double *d)
+{
+    double a = s->a, x = y[0], yy = y[1], z = y[2], px = y[3], py = y[4], pz = y[5];
+    double r = radius(a, y), r2 = r * r, q = r2 + a * a, den = r2 * r2 + a * a * z * z;
+    double rho2 = x * x + yy * yy + z * z - a * a, k = 1 / (2 * r2 * r - rho2 * r);
+    double dr[3] = { r2 * x * k, r2 * yy * k, (r2 + a * a) * z * k };
+    double f = 2 * r2 * r / den;
+    double l[3] = { (r * x + a * yy) / q, (r * yy - a * x) / q, z / r };
+    double along = l[0] * px + l[1] * py + l[2] * pz, sum = s->energy + along;
+    double in_plane = x * px + yy * py;
+    for (int i = 0; i < 3; i++) {
+        double df = (6 * r2 * dr[i] - f * (4 * r2 * r * dr[i] + (i == 2 ? 2 * a * a * z : 0))) / den;
+        double dl = dr[i] * in_plane / q - (l[0] * px + l[1] * py) * 2 * r * dr[i] / q - z * pz / r2 * dr[i];
+        dl += i == 0 ? (r * px - a * py) / q : i == 1 ? (r * py + a * px) / q : pz / r;
+        d[i] = y[3 + i] - f * sum * l[i];
+        d[3 + i] = 0.5 * sum * sum * df + f * sum * dl;
+    }
+}
+
+static void midpoint(const struct system *s, const double *y, double h, int n, double *out)
+{
+    state a, b, d;
+    double step = h / n;
+    derivative(s, y, d);
+    memcpy(a, y, sizeof a);
+    for (int i = 0; i < 6; i++)
+        b[i] = y[i] + step * d[i];
+    for (int k = 1; k < n; k++) {
+        derivative(s, b, d);
+        for (int i = 0; i < 6; i++) {
+            double t = a[i] + 2 * step * d[i];
+            a[i] = b[i];
+            b[i] = t;
+        }
+    }
+    derivative(s, b, d);
+    for (int i = 0; i < 6; i++)
+        out[i] = 0.5 * (a[i] + b[i] + step * d[i]);
+}
+
+/* One extrapolated step (Neville's table in h^2); returns the estimated relative error. */
+static double extrapolate(const struct system *s, const double *y, double h, double *out)
+{
+    enum { ROWS = 9 };
+    double table[ROWS][ROWS][6], error = INFINITY;
+    double x_scale = fabs(y[0]) + fabs(y[1]) + fabs(y[2]), p_scale = fabs(y[3]) + fabs(y[4]) + fabs(y[5]);
+    for (int k = 0; k < ROWS && !(error < 1e-15); k++) {
+        midpoint(s, y, h, 2 * (k + 1), table[k][0]);
+        for (int j = 1; j <= k; j++) {
+            double ratio = (double)(k + 1) / (k + 1 - j), weight = 1 / (ratio * ratio - 1);
+            for (int i = 0; i < 6; i++)
+                table[k][j][i] = table[k][j - 1][i] + weight * (table[k][j - 1][i] - table[k - 1][j - 1][i]);
+        }
+        error = k ? 0 : INFINITY;
+        for (int i = 0; i < 6 && k; i++)
+            error = fmax(error, fabs(table[k][k][i] - table[k][k - 1][i]) / (i < 3 ? x_scale : p_scale));
+        memcpy(out, table[k][k], sizeof(state));
+    }
+    return error;
+}
+
+/* Integral of a/Delta from r to infinity: Boyer-Lindquist against Kerr-Schild azimuth. */
+static double twist(double a, double r)
+{
+    double root = sqrt((1 - a) * (1 + a));
+    return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
+}
+
+static double azimuth(double a, const double *y)
+{
+    double r = radius(a, y);
+    return atan2(y[1], y[0]) - atan2(a, r) + twist(a, r);
+}
+
+static void start(const struct ks_photon *p, double *y)
+{
+    double a = p->a, r = p->r, u = p->u, s = sqrt((1 - u) * (1 + u));
+    double delta = r * r - 2 * r + a * a;
+    double p_r = -p->p_r + (2 * r * p->energy - a * p->momentum) / delta, p_t = -p->p_theta, p_f = p->momentum;
+    double phi = -p->phi - twist(a, r), c = cos(phi), d = sin(phi);
+    double x = (r * c - a * d) * s, yy = (r * d + a * c) * s;
+    /* p_i dx^i over (dr, dtheta, dphi): three equations for the Cartesian components. */
+    double m[3][4] = {
+        { s * c, s * d, u, p_r },
+        { (r * c - a * d) * u, (r * d + a * c) * u, -r * s, p_t },
+        { -yy, x, 0, p_f },
+    };
+    if (s == 0) /* on the axis any azimuth does: the third row is empty, momentum along e_phi comes from `phi` */
+        m[2][0] = -d, m[2][1] = c, m[2][3] = 0;
+    for (int i = 0; i < 3; i++) {
+        int pivot = i;
+        for (int k = i + 1; k < 3; k++)
+            if (fabs(m[k][i]) > fabs(m[pivot][i]))
+                pivot = k;
+        for (int j = 0; j < 4; j++) {
+            double t = m[i][j];
+            m[i][j] = m[pivot][j];
+            m[pivot][j] = t;
+        }
+        for (int k = 0; k < 3; k++)
+            for (int j = 3; k != i && j >= i; j--)
+                m[k][j] -= m[k][i] / m[i][i] * m[i][j];
+    }
+    y[0] = x, y[1] = yy, y[2] = r * u;
+    for (int i = 0; i < 3; i++)
+        y[3 + i] = m[i][3] / m[i][i];
+}
+
+/* The step from y that ends on z = 0, given that a step of h crosses it. */
+static void land(const struct system *s, const double *y, double h, double *out)
+{
+    double lo = 0, hi = h, z_lo = y[2], t = h;
+    state e;
+    extrapolate(s, y, h, e);
+    double z_hi = e[2];
+    for (int i = 0; i < 60; i++) {
+        t = lo + (hi - lo) * z_lo / (z_lo - z_hi);
+        if (i % 4 == 3)
+            t = 0.5 * (lo + hi);
+        extrapolate(s, y, t, out);
+        if (fabs(out[2]) < 1e-13 * radius(s->a, out) || hi - lo < 1e-15 * h)
+            return;
+        if ((out[2] > 0) == (z_lo > 0))
+            lo = t, z_lo = out[2];
+        else
+            hi = t, z_hi = out[2];
+    }
+}
+
+struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
+{
+    struct ks_path path = { .fate = KS_UNDECIDED };
+    struct system s = { photon.a, photon.energy };
+    double horizon = 1 + sqrt((1 - s.a) * (1 + s.a));
+    state y, next;
+    start(&photon, y);
+    double h = 0.05 * photon.r;
+    for (int step = 0; step < 20000; step++) {
+        double r = radius(s.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / r;
+        h = fmin(h, 0.25 * r / v); /* short enough that one step does not cross the plane twice */
+        double error = extrapolate(&s, y, h, next);
+        if (!(error < 1e-12) && h > 1e-9) {
+            h *= 0.5;
+            continue;
+        }
+        if (y[2] != 0 && (y[2] > 0) != (next[2] > 0) && path.crossings < 16) {
+            state hit;
+            land(&s, y, h, hit);
+            double hr = radius(s.a, hit);
+            if (hr <= horizon)
+                break;
+            path.r[path.crossings] = hr;
+            path.phi[path.crossings++] = -azimuth(s.a, hit);
+        }
+        memcpy(y, next, sizeof y);
+        r = radius(s.a, y);
+        if (r < horizon * (1 + 1e-9) || path.crossings >= max_crossings) {
+            path.fate = r < horizon * (1 + 1e-9) ? KS_CAPTURED : KS_UNDECIDED;
+            return path;
+        }
+        if (r > 1e8 && y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0) {
+            path.fate = KS_ESCAPED;
+            path.u = y[2] / r;
+            path.sky_phi = -azimuth(s.a, y);
+            return path;
+        }
+        h *= error < 1e-14 ? 2 : 1;
+    }
+    if (path.fate == KS_UNDECIDED && radius(s.a, y) < 1.1 * horizon)
+        path.fate = KS_CAPTURED;
+    return path;
+}
+
+struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
+{
+    double s = sqrt((1 - u) * (1 + u)), l = -alpha * s, r = 1e6;
+    double q = (alpha * alpha - a * a) * u * u + beta * beta;
+    /* From infinity to here by the first terms of the series in 1/r. */
+    double t = 1 / r, pull = a * a - l * l - q, here = u + s * beta * t + 0.5 * (pull - 2 * a * a * u * u) * u * t * t;
+    double delta = r * r - 2 * r + a * a, w = r * r + a * a - a * l;
+    double big = w * w - delta * (q + (l - a) * (l - a));
+    double angular = q + here * here * (a * a - l * l / ((1 - here) * (1 + here)));
+    struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l };
+    p.p_r = sqrt(big) / delta; /* it arrives outwards */
+    p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
+    p.phi = s > 0 ? -(l * t / (s * s) + l * u * beta * t * t / (s * s * s) + a * t * t) : 0;
+    return p;
+}
+
+static double dot(double g[4][4], const double *x, const double *y)
+{
+    double sum = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            sum += g[i][j] * x[i] * y[j];
+    return sum;
+}
+
+struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, const double k[3])
+{
+    double c = cos(theta), s = sin(theta), sigma = r * r + a * a * c * c, delta = r * r - 2 * r + a * a;
+    double g[4][4] = { { 0 } }; /* t, r, theta, phi */
+    g[0][0] = -(1 - 2 * r / sigma);
+    g[0][3] = g[3][0] = -2 * a * r * s * s / sigma;
+    g[1][1] = sigma / delta;
+    g[2][2] = sigma;
+    g[3][3] = (r * r + a * a + 2 * a * a * r * s * s / sigma) * s * s;
+    double u[4] = { 1, 0, 0, zamo ? -g[0][3] / g[3][3] : 0 }, e[4] = { 0, 0, 0, 1 };
+    double n = 1 / sqrt(-dot(g, u, u));
+    for (int i = 0; i < 4; i++)
+        u[i] *= n;
+    double along = dot(g, u, e);
+    for (int i = 0; i < 4; i++)
+        e[i] += along * u[i];
+    n = 1 / sqrt(dot(g, e, e));
+    double p[4], low[4] = { 0 };
+    for (int i = 0; i < 4; i++)
+        p[i] = u[i] - k[2] * n * e[i];
+    p[1] -= k[0] / sqrt(g[1][1]);
+    p[2] -= k[1] / sqrt(g[2][2]);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            low[i] += g[i][j] * p[j];
+    return (struct ks_photon){ a, r, c, -low[0], low[3], low[1], low[2], 0 };
+}

@@ -1,0 +1,37 @@
+/* An oracle for null geodesics: the Hamiltonian in ingoing Kerr-Schild coordinates, integrated in double precision by
+ * Gragg-Bulirsch-Stoer extrapolation to about 1e-12 a step. It shares no equation with what it judges: no Mino time, no
+ * separation of variables, no elliptic function, no Boyer-Lindquist motion.
+ *
+ * A ray traced back from an observer is a photon of the mirrored spacetime (t, phi) -> (-t, -phi), in which Kerr looks the
+ * same, flying away from the observer with the same E and L: it falls through the future horizon, where these
+ * coordinates are regular. Azimuths are mirrored back on return: source minus observer, Boyer-Lindquist. */
+#ifndef KD_TESTS_KERR_SCHILD_H
+#define KD_TESTS_KERR_SCHILD_H
+
+#include <stdbool.h>
+
+struct ks_photon { /* as it arrives at the observer, covariant Boyer-Lindquist components */
+    double a, r, u;  /* spin; radius and cos(theta) of the observer */
+    double energy, momentum, p_r, p_theta;
+    double phi; /* azimuth already covered, for a start that stands for infinity */
+};
+
+enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };
+
+struct ks_path {
+    int crossings;
+    double r[16], phi[16]; /* of each crossing of the equatorial plane after the start */
+    enum ks_fate fate;
+    double u, sky_phi; /* direction of escape */
+};
+
+/* The photon that reaches (alpha, beta) of an observer at infinity with cos(theta) = u, at r = 1e6. */
+struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta);
+
+/* The photon that reaches an observer at (r, theta), at rest (zamo: with zero angular momentum), from the direction k =
+ * (k_r, k_theta, k_phi) of its local frame; its energy there is 1. The tetrad is orthonormalised numerically. */
+struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, const double k[3]);
+
+struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
+
+#endif
