@@ -1,0 +1,213 @@
+#include "server/connections.h"
+
+#include "server/clock.h"
+#include "server/problem.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define IDLE_MS 60e3          /* past libmicrohttpd's idle timeout: only for those that trickle */
+#define CROWDED_MS 2e3        /* to say what it wants, for a connection accepted beyond the limit */
+#define REPLY_MS 30e3         /* to take an answer, and besides ... */
+#define REPLY_BYTES_PER_MS 32 /* ... the time it takes at 32 kB/s, a poor mobile line */
+
+#define LINGER_MS 2e3         /* round trips and a few MiB; then a client that goes on is reset after all */
+#define LINGER_BYTES ((size_t)16 << 20)
+#define LINGERING 64          /* at once */
+
+struct kd_connection {
+    struct kd_connection *previous, *next;
+    int socket;
+    bool linger;
+    size_t discarded;
+    enum kd_stage stage;
+    double deadline; /* on kd_clock_ms; 0: none */
+};
+
+struct kd_connections {
+    pthread_mutex_t lock;
+    struct kd_connection *first;
+    unsigned count, limit;
+    struct kd_connection *lingering; /* no longer connections; singly linked */
+    unsigned n_lingering;
+    double header_ms, body_ms;
+};
+
+struct kd_connections *kd_connections_create(unsigned limit, unsigned header_ms, unsigned body_ms)
+{
+    struct kd_connections *all = calloc(1, sizeof *all);
+    if (!all)
+        return NULL;
+    all->limit = limit;
+    all->header_ms = header_ms;
+    all->body_ms = body_ms;
+    pthread_mutex_init(&all->lock, NULL);
+    return all;
+}
+
+static void drop(struct kd_connections *all, struct kd_connection **link)
+{
+    struct kd_connection *one = *link;
+    *link = one->next;
+    all->n_lingering--;
+    close(one->socket);
+    free(one);
+}
+
+void kd_connections_destroy(struct kd_connections *all)
+{
+    if (!all)
+        return;
+    while (all->lingering)
+        drop(all, &all->lingering);
+    pthread_mutex_destroy(&all->lock);
+    free(all);
+}
+
+struct kd_connection *kd_connections_add(struct kd_connections *all, int socket)
+{
+    struct kd_connection *one = calloc(1, sizeof *one);
+    if (!one)
+        return NULL;
+    one->socket = socket;
+    pthread_mutex_lock(&all->lock);
+    one->next = all->first;
+    if (one->next)
+        one->next->previous = one;
+    all->first = one;
+    all->count++;
+    bool crowded = all->count > all->limit;
+    one->deadline = kd_clock_ms() + (crowded && all->header_ms > CROWDED_MS ? CROWDED_MS : all->header_ms);
+    pthread_mutex_unlock(&all->lock);
+    return one;
+}
+
+/* A descriptor of our own keeps the socket when the library closes its one. */
+static bool keep(struct kd_connections *all, struct kd_connection *one)
+{
+    int socket = all->n_lingering < LINGERING ? fcntl(one->socket, F_DUPFD_CLOEXEC, 0) : -1;
+    if (socket < 0)
+        return false;
+    shutdown(socket, SHUT_WR);
+    one->socket = socket;
+    one->deadline = kd_clock_ms() + LINGER_MS;
+    one->next = all->lingering;
+    all->lingering = one;
+    all->n_lingering++;
+    return true;
+}
+
+void kd_connections_remove(struct kd_connections *all, struct kd_connection *one)
+{
+    if (!one)
+        return;
+    pthread_mutex_lock(&all->lock);
+    if (one->previous)
+        one->previous->next = one->next;
+    else
+        all->first = one->next;
+    if (one->next)
+        one->next->previous = one->previous;
+    all->count--;
+    bool kept = one->linger && keep(all, one);
+    pthread_mutex_unlock(&all->lock);
+    if (!kept)
+        free(one);
+}
+
+void kd_connection_linger(struct kd_connection *one)
+{
+    if (one)
+        one->linger = true;
+}
+
+int kd_connection_socket(const struct kd_connection *one) { return one->socket; }
+
+static double allowance(const struct kd_connections *all, enum kd_stage stage, unsigned long bytes)
+{
+    switch (stage) {
+    case KD_STAGE_OPEN:
+    case KD_STAGE_HEADER: return all->header_ms;
+    case KD_STAGE_BODY: return all->body_ms;
+    case KD_STAGE_WORK: return 0;
+    case KD_STAGE_REPLY: return REPLY_MS + (double)bytes / REPLY_BYTES_PER_MS;
+    case KD_STAGE_IDLE: return IDLE_MS;
+    }
+    return 0;
+}
+
+void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
+                          unsigned long bytes)
+{
+    if (!one)
+        return;
+    pthread_mutex_lock(&all->lock);
+    double ms = allowance(all, stage, bytes);
+    one->stage = stage;
+    one->deadline = ms > 0 ? kd_clock_ms() + ms : 0;
+    pthread_mutex_unlock(&all->lock);
+}
+
+bool kd_connections_crowded(struct kd_connections *all)
+{
+    pthread_mutex_lock(&all->lock);
+    bool crowded = all->count > all->limit;
+    pthread_mutex_unlock(&all->lock);
+    return crowded;
+}
+
+/* Nothing of an answer is on the wire in these stages, so a whole one may be put there from outside. */
+static void answer_late(const struct kd_connection *one)
+{
+    if (one->stage == KD_STAGE_HEADER)
+        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's header took too long to arrive");
+    else if (one->stage == KD_STAGE_BODY)
+        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive");
+}
+
+/* Throw away what has arrived. False when there is no more to wait for. */
+static bool empty(struct kd_connection *one)
+{
+    char scrap[16384];
+    ssize_t n;
+    while ((n = recv(one->socket, scrap, sizeof scrap, MSG_DONTWAIT)) > 0)
+        if ((one->discarded += (size_t)n) > LINGER_BYTES)
+            return false;
+    return n < 0 && (errno == EAGAIN || errno == EINTR);
+}
+
+static void empty_lingering(struct kd_connections *all, double now)
+{
+    for (struct kd_connection **link = &all->lingering; *link;) {
+        if (now < (*link)->deadline && empty(*link))
+            link = &(*link)->next;
+        else
+            drop(all, link);
+    }
+}
+
+void kd_connections_sweep(struct kd_connections *all)
+{
+    pthread_mutex_lock(&all->lock);
+    double now = kd_clock_ms();
+    for (struct kd_connection *one = all->first; one; one = one->next) {
+        if (one->deadline <= 0 || now < one->deadline)
+            continue;
+        answer_late(one);
+        shutdown(one->socket, SHUT_RDWR);
+        one->deadline = 0;
+    }
+    empty_lingering(all, now);
+    pthread_mutex_unlock(&all->lock);
+}
+
+bool kd_socket_abandoned(int socket)
+{
+    struct pollfd p = { .fd = socket, .events = POLLRDHUP };
+    return poll(&p, 1, 0) > 0 && (p.revents & (POLLRDHUP | POLLHUP | POLLERR));
+}

@@ -1,0 +1,47 @@
+/* Open connections and their deadlines. libmicrohttpd's timeout counts idle time only, so that one byte every
+ * few seconds holds a connection for ever: each stage of a request has a deadline of its own here, and a sweep
+ * shuts down the sockets that missed it.
+ *
+ * A socket stays open until its connection is removed, which takes the same lock as the sweep. Any thread. */
+#ifndef KD_SERVER_CONNECTIONS_H
+#define KD_SERVER_CONNECTIONS_H
+
+#include <stdbool.h>
+
+struct kd_connections;
+struct kd_connection;
+
+enum kd_stage {
+    KD_STAGE_OPEN,   /* accepted, nothing understood yet */
+    KD_STAGE_HEADER, /* the request line has arrived */
+    KD_STAGE_BODY,
+    KD_STAGE_WORK,   /* ours to answer: no deadline */
+    KD_STAGE_REPLY,
+    KD_STAGE_IDLE,   /* kept alive between requests */
+};
+
+struct kd_connections *kd_connections_create(unsigned limit, unsigned header_ms, unsigned body_ms);
+void kd_connections_destroy(struct kd_connections *all);
+
+/* NULL when out of memory. */
+struct kd_connection *kd_connections_add(struct kd_connections *all, int socket);
+void kd_connections_remove(struct kd_connections *all, struct kd_connection *one);
+/* Its client is still sending what will not be read. Closed at once, the socket would answer that with a reset,
+ * and a reset makes the client lose the refusal it has not read yet; so it is emptied for a while after removal. */
+void kd_connection_linger(struct kd_connection *one);
+int kd_connection_socket(const struct kd_connection *one);
+
+/* bytes: of the reply about to be sent, else 0. */
+void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
+                          unsigned long bytes);
+
+/* Whether more are open than may be served. */
+bool kd_connections_crowded(struct kd_connections *all);
+
+/* Shut down what is overdue, with a 408 where a request had begun; empty what lingers. One thread, often. */
+void kd_connections_sweep(struct kd_connections *all);
+
+/* Whether the peer has closed, or half-closed, its end. The socket must be known to be open. */
+bool kd_socket_abandoned(int socket);
+
+#endif

@@ -1,0 +1,89 @@
+#include "server/keeper.h"
+
+#include "base/log.h"
+#include "server/clock.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#define TICK_MS 100           /* how late a deadline or a vanished client may be noticed */
+#define LAST_ANSWERS_MS 10e3  /* for clients to take the answers under way when nothing else is left */
+
+static void sleep_a_tick(struct kd_server *server)
+{
+    struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
+    /* Once readable it stays so: on the way down the tick is a plain sleep. */
+    if (atomic_load(&server->phase) == KD_SERVING)
+        poll(&p, 1, TICK_MS);
+    else
+        poll(NULL, 0, TICK_MS / 4);
+}
+
+static void enter(struct kd_server *server, enum kd_phase phase, double *since)
+{
+    atomic_store(&server->phase, phase);
+    *since = kd_clock_ms();
+}
+
+/* libmicrohttpd leaves the listening socket to us once it has let go of it. */
+static void stop_listening(struct kd_server *server)
+{
+    MHD_socket fd = MHD_quiesce_daemon(server->daemon);
+    if (fd != MHD_INVALID_SOCKET)
+        close(fd);
+}
+
+static bool cut_short(struct kd_server *server)
+{
+    return atomic_load(&server->abandon) || kd_render_queue_lost(server->renders, NULL);
+}
+
+/* One look; *since is when the present phase began. True when all is done. */
+static bool step_down(struct kd_server *server, double *since)
+{
+    double age = kd_clock_ms() - *since;
+
+    switch (atomic_load(&server->phase)) {
+    case KD_SERVING:
+        if (cut_short(server))
+            enter(server, KD_REFUSING, since);
+        *since = kd_clock_ms();
+        return false;
+    case KD_DRAINING:
+        if (age >= server->drain_ms || cut_short(server))
+            enter(server, KD_REFUSING, since);
+        return false;
+    case KD_REFUSING:
+        if (atomic_load(&server->abandon))
+            kd_render_queue_cancel(server->renders);
+        if (kd_render_queue_unfinished(server->renders))
+            return false;
+        stop_listening(server);
+        enter(server, KD_CLOSING, since);
+        return false;
+    default:
+        return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
+    }
+}
+
+void *kd_keeper_main(void *user)
+{
+    struct kd_server *server = user;
+    double since = kd_clock_ms();
+
+    do {
+        sleep_a_tick(server);
+        kd_connections_sweep(server->connections);
+        kd_render_queue_sweep(server->renders);
+    } while (!step_down(server, &since));
+    MHD_stop_daemon(server->daemon); /* nothing is suspended: the queue has finished, and takes no more */
+    server->daemon = NULL;
+    atomic_store(&server->phase, KD_STOPPED);
+    kd_log(KD_LOG_INFO, "stopped");
+
+    pthread_mutex_lock(&server->lock);
+    server->stopped = true;
+    pthread_cond_broadcast(&server->changed);
+    pthread_mutex_unlock(&server->lock);
+    return NULL;
+}

@@ -1,0 +1,363 @@
+#include "server/render_queue.h"
+
+#include "base/log.h"
+#include "render/picture.h"
+#include "server/clock.h"
+#include "server/connections.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#define ENCODERS 2
+#define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it */
+
+struct list { struct kd_render_job *first, **end; };
+
+struct kd_render_queue {
+    struct kd_renderer_params params;
+    struct kd_renderer *renderer;
+    struct kd_buffer device_json;
+    enum kd_status open_status;
+    struct kd_error open_error;
+
+    pthread_mutex_t lock;
+    pthread_cond_t changed; /* anything below; few threads wait, so one condition serves all */
+    bool opened, closing, running;
+    struct list waiting, encoding;
+    unsigned limit, n_waiting, unfinished;
+    size_t frame_bytes;
+    double waiting_ms, running_ms; /* estimates: of the waiting jobs, and what is left of the running one */
+    bool lost;
+    struct kd_error lost_error;
+    _Atomic bool cancel;
+
+    pthread_t render_thread, encoders[ENCODERS];
+    unsigned n_encoders;
+    bool render_thread_runs;
+};
+
+static void append(struct list *list, struct kd_render_job *job)
+{
+    job->next = NULL;
+    *list->end = job;
+    list->end = &job->next;
+}
+
+static struct kd_render_job *take_first(struct list *list)
+{
+    struct kd_render_job *job = list->first;
+    list->first = job->next;
+    if (!list->first)
+        list->end = &list->first;
+    return job;
+}
+
+/* The job, no longer in the list, stops counting as waiting. */
+static void leave(struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    queue->n_waiting--;
+    queue->waiting_ms = queue->n_waiting ? queue->waiting_ms - job->plan.estimate_ms : 0;
+}
+
+/* The job may be gone when done() returns; until `unfinished` falls, its connection counts as ours. */
+static void finish(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->done(job);
+    pthread_mutex_lock(&queue->lock);
+    queue->unfinished--;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+static size_t frame_bytes(const struct kd_render_job *job)
+{
+    return (size_t)job->plan.width * job->plan.height * 3 * (job->scene.image.bit_depth > 8 ? 2 : 1);
+}
+
+static bool progress(void *user, double fraction)
+{
+    struct kd_render_job *job = user;
+    struct kd_render_queue *queue = job->queue;
+
+    pthread_mutex_lock(&queue->lock);
+    queue->running_ms = job->plan.estimate_ms * (1 - fraction);
+    pthread_mutex_unlock(&queue->lock);
+    return !atomic_load(&queue->cancel) && !kd_socket_abandoned(job->socket);
+}
+
+static void mark_lost(struct kd_render_queue *queue, const struct kd_error *error)
+{
+    kd_log(KD_LOG_ERROR, "the device is lost: %s", error->message);
+    pthread_mutex_lock(&queue->lock);
+    queue->lost = true;
+    queue->lost_error = *error;
+    pthread_mutex_unlock(&queue->lock);
+}
+
+/* True when there is a frame to encode. */
+static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->queue_ms = kd_clock_ms() - job->submitted_ms;
+    if (kd_render_queue_lost(queue, &job->error)) {
+        job->status = KD_EDEVICE;
+        return false;
+    }
+    if (atomic_load(&queue->cancel) || kd_socket_abandoned(job->socket)) {
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
+        return false;
+    }
+    job->status = kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame, &job->error);
+    if (job->status == KD_EDEVICE)
+        mark_lost(queue, &job->error);
+    return job->status == KD_OK;
+}
+
+static void open_renderer(struct kd_render_queue *queue)
+{
+    enum kd_status status = kd_renderer_create(&queue->params, &queue->renderer, &queue->open_error);
+    if (!status) {
+        status = kd_renderer_device_json(queue->renderer, &queue->device_json);
+        if (status)
+            kd_error_set(&queue->open_error, status, "the device could not be described");
+    }
+    pthread_mutex_lock(&queue->lock);
+    queue->open_status = status;
+    queue->opened = true;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+static void render_one(struct kd_render_queue *queue) /* locked; unlocks while it works */
+{
+    struct kd_render_job *job = take_first(&queue->waiting);
+    size_t bytes = frame_bytes(job);
+    leave(queue, job);
+    queue->running = true;
+    queue->running_ms = job->plan.estimate_ms;
+    pthread_mutex_unlock(&queue->lock);
+
+    bool encode = render(queue, job);
+    if (!encode)
+        finish(queue, job);
+
+    pthread_mutex_lock(&queue->lock);
+    queue->running = false;
+    queue->running_ms = 0;
+    if (encode) {
+        append(&queue->encoding, job);
+        queue->frame_bytes += bytes;
+        pthread_cond_broadcast(&queue->changed);
+    }
+}
+
+static void *render_main(void *user)
+{
+    struct kd_render_queue *queue = user;
+
+    open_renderer(queue);
+    if (!queue->open_status) {
+        pthread_mutex_lock(&queue->lock);
+        while (!queue->closing || queue->waiting.first) {
+            if (queue->waiting.first && queue->frame_bytes <= FRAME_BYTES)
+                render_one(queue);
+            else
+                pthread_cond_wait(&queue->changed, &queue->lock);
+        }
+        pthread_mutex_unlock(&queue->lock);
+    }
+    if (!queue->lost)
+        kd_renderer_destroy(queue->renderer);
+    return NULL;
+}
+
+static void *encode_main(void *user)
+{
+    struct kd_render_queue *queue = user;
+
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->closing || queue->unfinished) {
+        if (!queue->encoding.first) {
+            pthread_cond_wait(&queue->changed, &queue->lock);
+            continue;
+        }
+        struct kd_render_job *job = take_first(&queue->encoding);
+        size_t bytes = frame_bytes(job);
+        pthread_mutex_unlock(&queue->lock);
+
+        double start = kd_clock_ms();
+        job->status = kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
+                                        job->compression, &job->png, &job->error);
+        job->encode_ms = kd_clock_ms() - start;
+        free(job->frame.pixels);
+        job->frame.pixels = NULL;
+
+        pthread_mutex_lock(&queue->lock);
+        queue->frame_bytes -= bytes;
+        pthread_mutex_unlock(&queue->lock);
+        finish(queue, job);
+        pthread_mutex_lock(&queue->lock);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return NULL;
+}
+
+static enum kd_status start(struct kd_render_queue *queue, struct kd_error *error)
+{
+    if (pthread_create(&queue->render_thread, NULL, render_main, queue))
+        return kd_error_set(error, KD_ENOMEM, "the render thread could not be started");
+    queue->render_thread_runs = true;
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->opened)
+        pthread_cond_wait(&queue->changed, &queue->lock);
+    pthread_mutex_unlock(&queue->lock);
+    if (queue->open_status) {
+        if (error)
+            *error = queue->open_error;
+        return queue->open_status;
+    }
+    for (; queue->n_encoders < ENCODERS; queue->n_encoders++)
+        if (pthread_create(&queue->encoders[queue->n_encoders], NULL, encode_main, queue))
+            return kd_error_set(error, KD_ENOMEM, "an encoder could not be started");
+    return KD_OK;
+}
+
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit,
+                                      struct kd_render_queue **out, struct kd_error *error)
+{
+    struct kd_render_queue *queue = calloc(1, sizeof *queue);
+    if (!queue)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    queue->params = *params;
+    queue->limit = limit;
+    queue->waiting.end = &queue->waiting.first;
+    queue->encoding.end = &queue->encoding.first;
+    pthread_mutex_init(&queue->lock, NULL);
+    pthread_cond_init(&queue->changed, NULL);
+    enum kd_status status = start(queue, error);
+    if (status) {
+        kd_render_queue_destroy(queue);
+        return status;
+    }
+    *out = queue;
+    return KD_OK;
+}
+
+void kd_render_queue_destroy(struct kd_render_queue *queue)
+{
+    if (!queue)
+        return;
+    kd_render_queue_cancel(queue);
+    pthread_mutex_lock(&queue->lock);
+    queue->closing = true;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+    if (queue->render_thread_runs)
+        pthread_join(queue->render_thread, NULL);
+    for (unsigned i = 0; i < queue->n_encoders; i++)
+        pthread_join(queue->encoders[i], NULL);
+    kd_buffer_finish(&queue->device_json);
+    pthread_cond_destroy(&queue->changed);
+    pthread_mutex_destroy(&queue->lock);
+    free(queue);
+}
+
+void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out)
+{
+    kd_renderer_capacity(queue->renderer, out);
+}
+
+const char *kd_render_queue_device_name(const struct kd_render_queue *queue)
+{
+    return kd_renderer_device_name(queue->renderer);
+}
+
+const char *kd_render_queue_device_json(const struct kd_render_queue *queue)
+{
+    return (const char *)queue->device_json.data;
+}
+
+bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)
+{
+    pthread_mutex_lock(&queue->lock);
+    bool lost = queue->lost;
+    if (lost && error)
+        *error = queue->lost_error;
+    pthread_mutex_unlock(&queue->lock);
+    return lost;
+}
+
+unsigned kd_render_queue_unfinished(struct kd_render_queue *queue)
+{
+    pthread_mutex_lock(&queue->lock);
+    unsigned n = queue->unfinished;
+    pthread_mutex_unlock(&queue->lock);
+    return n;
+}
+
+double kd_render_queue_backlog_ms(struct kd_render_queue *queue)
+{
+    pthread_mutex_lock(&queue->lock);
+    double ms = queue->waiting_ms + queue->running_ms;
+    pthread_mutex_unlock(&queue->lock);
+    return ms > 0 ? ms : 0;
+}
+
+enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, struct kd_error *error)
+{
+    if (kd_render_queue_lost(queue, error))
+        return KD_EDEVICE;
+    pthread_mutex_lock(&queue->lock);
+    unsigned n = queue->n_waiting;
+    bool full = n >= queue->limit + !queue->running; /* what an idle device is about to take does not wait */
+    pthread_mutex_unlock(&queue->lock);
+    if (full)
+        return kd_error_set(error, KD_EBUSY, "%u renders are waiting, as many as may", n);
+    return KD_OK;
+}
+
+void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->queue = queue;
+    job->submitted_ms = kd_clock_ms();
+    pthread_mutex_lock(&queue->lock);
+    append(&queue->waiting, job);
+    queue->n_waiting++;
+    queue->unfinished++;
+    queue->waiting_ms += job->plan.estimate_ms;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+void kd_render_queue_sweep(struct kd_render_queue *queue)
+{
+    struct list gone = { .end = &gone.first };
+
+    pthread_mutex_lock(&queue->lock);
+    for (struct kd_render_job **link = &queue->waiting.first; *link;) {
+        struct kd_render_job *job = *link;
+        if (!kd_socket_abandoned(job->socket)) {
+            link = &job->next;
+            continue;
+        }
+        *link = job->next;
+        if (queue->waiting.end == &job->next)
+            queue->waiting.end = link;
+        leave(queue, job);
+        append(&gone, job);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    while (gone.first) {
+        struct kd_render_job *job = take_first(&gone);
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the client has gone");
+        finish(queue, job);
+    }
+}
+
+void kd_render_queue_cancel(struct kd_render_queue *queue)
+{
+    atomic_store(&queue->cancel, true);
+    pthread_mutex_lock(&queue->lock);
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}

@@ -1,0 +1,59 @@
+/* The bounded queue in front of the renderer, the thread that owns the renderer, and the encoders behind it.
+ *
+ * waiting (bounded) -> render thread -> encoders (bounded by the bytes of their frames) -> done()
+ *
+ * One thread submits, which makes kd_render_queue_admit's answer hold until kd_render_queue_push. */
+#ifndef KD_SERVER_RENDER_QUEUE_H
+#define KD_SERVER_RENDER_QUEUE_H
+
+#include "base/buffer.h"
+#include "render/render.h"
+
+#include <stdbool.h>
+
+struct kd_render_queue;
+
+struct kd_render_job {
+    /* filled in by the submitter */
+    struct kd_scene scene;
+    struct kd_plan plan;
+    int compression;
+    int socket;                                 /* of the client; once it hangs up the job is dropped */
+    void (*done)(struct kd_render_job *job);    /* on a thread of the queue; may free the job */
+    void *user;
+    /* the outcome: KD_ECANCELLED when dropped */
+    enum kd_status status;
+    struct kd_error error;
+    struct kd_buffer png;
+    struct kd_frame frame; /* without its pixels */
+    double queue_ms, encode_ms;
+    /* the queue's own */
+    struct kd_render_job *next;
+    struct kd_render_queue *queue;
+    double submitted_ms;
+};
+
+/* Returns when the device is open, or with the error. */
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit,
+                                      struct kd_render_queue **out, struct kd_error *error);
+/* Cancels what is left and calls its done(). A lost device is left as it is. Accepts NULL. */
+void kd_render_queue_destroy(struct kd_render_queue *queue);
+
+/* Any thread. */
+void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
+const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
+const char *kd_render_queue_device_json(const struct kd_render_queue *queue);
+bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
+unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
+double kd_render_queue_backlog_ms(struct kd_render_queue *queue); /* estimated, of all that is accepted */
+
+/* Whether one more fits: KD_EBUSY, KD_EDEVICE, or KD_OK. The submitting thread. */
+enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, struct kd_error *error);
+void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);
+
+/* Drop waiting jobs whose clients have gone. Any thread. */
+void kd_render_queue_sweep(struct kd_render_queue *queue);
+/* Drop everything, what is running as soon as it can be stopped. Any thread. */
+void kd_render_queue_cancel(struct kd_render_queue *queue);
+
+#endif

@@ -1,0 +1,97 @@
+#include "server/reply.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
+{
+    struct MHD_Response *response = MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
+    if (!response)
+        free(body->data);
+    *body = (struct kd_buffer){ 0 };
+    if (response)
+        MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type)
+{
+    union { const void *in; void *out; } bytes = { data }; /* libmicrohttpd only reads them */
+    struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
+    if (response)
+        MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
+{
+    (void)cls, (void)position, (void)to, (void)size;
+    return MHD_CONTENT_READER_END_OF_STREAM;
+}
+
+struct MHD_Response *kd_reply_empty(const char *type)
+{
+    struct MHD_Response *response =
+        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
+    if (response && type)
+        MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
+{
+    struct kd_server *server = request->server;
+    if (!response)
+        return MHD_NO;
+    MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
+    if (!MHD_get_response_header(response, "Cache-Control"))
+        MHD_add_response_header(response, "Cache-Control", "no-store");
+    /* On the way down a kept-alive client should look for another server. */
+    if (request->close || atomic_load(&server->phase) != KD_SERVING)
+        MHD_add_response_header(response, "Connection", "close");
+    kd_connections_stage(server->connections, request->connection, KD_STAGE_REPLY, request->reply_bytes);
+    request->status = status;
+    enum MHD_Result result = MHD_queue_response(request->mhd, status, response);
+    MHD_destroy_response(response);
+    return result;
+}
+
+enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem)
+{
+    struct kd_buffer body = { 0 };
+    if (kd_problem_to_json(problem, &body)) {
+        kd_buffer_finish(&body);
+        return MHD_NO;
+    }
+    struct MHD_Response *response = kd_reply_take(&body, "application/problem+json");
+    if (!response)
+        return MHD_NO;
+    if (problem->allow)
+        MHD_add_response_header(response, "Allow", problem->allow);
+    if (problem->retry_after) {
+        char seconds[12];
+        snprintf(seconds, sizeof seconds, "%u", problem->retry_after);
+        MHD_add_response_header(response, "Retry-After", seconds);
+    }
+    request->close |= problem->close;
+    return kd_reply_send(request, kd_problem_status(problem->type), response);
+}
+
+enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    return kd_reply_problem(request, &problem);
+}
+
+enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
+                              const char *type)
+{
+    if (status) {
+        struct kd_error error;
+        kd_error_set(&error, status, "the document could not be made");
+        kd_buffer_finish(json);
+        return kd_reply_error(request, &error);
+    }
+    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_take(json, type));
+}

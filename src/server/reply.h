@@ -1,0 +1,28 @@
+/* Answers: the headers that all of them carry, the deadline for taking them. HTTP thread only.
+ *
+ * Functions that return an MHD_Result give MHD_NO when memory ran out, which closes the connection. */
+#ifndef KD_SERVER_REPLY_H
+#define KD_SERVER_REPLY_H
+
+#include "server/problem.h"
+#include "server/request.h"
+
+/* A response with the buffer's bytes, which it takes over (the buffer is empty afterwards, also on failure); NULL on failure. */
+struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
+/* One with bytes that outlive it. */
+struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
+/* One for HEAD and 304, where the length of what a GET would give is not known. */
+struct MHD_Response *kd_reply_empty(const char *type);
+
+/* Queue the response and give up the reference; NULL: MHD_NO. */
+enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
+
+enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
+/* kd_problem_from, sent. */
+enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
+
+/* A generated document, or the problem of not having generated it. Empties the buffer. */
+enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
+                              const char *type);
+
+#endif

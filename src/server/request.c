@@ -1,0 +1,195 @@
+#include "server/request.h"
+
+#include "base/log.h"
+#include "server/clock.h"
+#include "server/negotiate.h"
+#include "server/reply.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BODY_TOO_LARGE "a body may hold 1048576 bytes"
+#define BODIES_TOO_MANY "too many bodies are being received"
+
+static struct kd_connection *connection_of(struct MHD_Connection *mhd)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
+    return info ? info->socket_context : NULL;
+}
+
+void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_context,
+                           enum MHD_ConnectionNotificationCode what)
+{
+    struct kd_server *server = cls;
+    if (what == MHD_CONNECTION_NOTIFY_STARTED) {
+        const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
+        *socket_context = info ? kd_connections_add(server->connections, info->connect_fd) : NULL;
+    } else {
+        kd_connections_remove(server->connections, *socket_context);
+        *socket_context = NULL;
+    }
+}
+
+static void stage(struct kd_request *request, enum kd_stage to)
+{
+    kd_connections_stage(request->server->connections, request->connection, to, 0);
+}
+
+void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
+{
+    struct kd_server *server = cls;
+    struct kd_request *request = calloc(1, sizeof *request);
+    if (!request)
+        return NULL;
+    request->server = server;
+    request->mhd = mhd;
+    request->connection = connection_of(mhd);
+    request->raw = strdup(uri);
+    request->start_ms = kd_clock_ms();
+    atomic_fetch_add(&server->requests, 1);
+    stage(request, KD_STAGE_HEADER);
+    return request;
+}
+
+static void write_log(const struct kd_request *request, enum MHD_RequestTerminationCode why)
+{
+    char target[200];
+    size_t n = 0;
+    for (const char *p = request->raw ? request->raw : ""; *p && n + 1 < sizeof target; p++)
+        target[n++] = (char)(*p > ' ' && *p < 0x7f ? *p : '?'); /* no second line in the log */
+    target[n] = 0;
+    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s", request->method ? request->method : "-", target, request->status,
+           kd_clock_ms() - request->start_ms, why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");
+}
+
+void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
+                      enum MHD_RequestTerminationCode why)
+{
+    struct kd_server *server = cls;
+    struct kd_request *request = *state;
+    (void)mhd;
+    if (!request)
+        return;
+    write_log(request, why);
+    stage(request, KD_STAGE_IDLE);
+    atomic_fetch_sub(&server->body_bytes, request->body.size);
+    if (request->job) {
+        kd_buffer_finish(&request->job->png);
+        kd_frame_finish(&request->job->frame);
+        free(request->job);
+    }
+    kd_buffer_finish(&request->body);
+    kd_target_finish(&request->target);
+    free(request->raw);
+    free(request);
+    *state = NULL;
+    atomic_fetch_sub(&server->requests, 1);
+}
+
+static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
+{
+    if (strcmp(request->method, "POST")) {
+        *problem = (struct kd_problem){ .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
+        return request->body_announced;
+    }
+    if (!kd_media_type_is(request->header.content_type, "application/json")) {
+        *problem = (struct kd_problem){ .type = KD_PROBLEM_MEDIA_TYPE, .offered = "application/json",
+                                        .detail = "a body must say Content-Type: application/json" };
+        return true;
+    }
+    if (request->header.content_length > KD_BODY_MAX) {
+        *problem = (struct kd_problem){ .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = BODY_TOO_LARGE };
+        return true;
+    }
+    *problem = (struct kd_problem){ .type = KD_PROBLEM_CROWDED, .retry_after = 1, .detail = BODIES_TOO_MANY };
+    return atomic_load(&request->server->body_bytes) > KD_BODIES_MAX;
+}
+
+/* True when the request may go on; else *result is that of having refused it. */
+static bool choose(struct kd_request *request, enum MHD_Result *result)
+{
+    struct kd_problem problem;
+    struct kd_error error;
+
+    if (kd_target_parse(&request->target, request->raw, &error))
+        problem = (struct kd_problem){ .detail = error.message, .type = error.status == KD_ENOMEM
+                                                                            ? KD_PROBLEM_NO_MEMORY
+                                                                            : KD_PROBLEM_BAD_REQUEST };
+    else if (!kd_route_is_health(request->raw) && kd_connections_crowded(request->server->connections))
+        problem = (struct kd_problem){ .type = KD_PROBLEM_CROWDED, .retry_after = 1, .close = true,
+                                       .detail = "more connections are open than this server takes" };
+    else if (kd_route_find(request, &problem) && !body_fault(request, &problem))
+        return true;
+    *result = kd_reply_problem(request, &problem);
+    return false;
+}
+
+/* The header is complete. What announces a body is refused by its header where it can be. The library closes the
+ * connection after an answer at this point, so all else is answered at the next call. */
+static enum MHD_Result begin(struct kd_request *request, const char *version)
+{
+    struct kd_server *server = request->server;
+    struct kd_problem problem;
+    enum MHD_Result result;
+
+    if (!request->raw)
+        return MHD_NO;
+    if (!kd_guard_check(request->mhd, version, server->hosts, kd_route_is_health(request->raw),
+                        &request->header, &problem)) {
+        kd_connection_linger(request->connection);
+        return kd_reply_problem(request, &problem);
+    }
+    request->body_announced = request->header.content_length > 0 || request->header.chunked;
+    if (request->body_announced && !choose(request, &result)) {
+        kd_connection_linger(request->connection);
+        return result;
+    }
+    stage(request, KD_STAGE_BODY);
+    return MHD_YES;
+}
+
+/* libmicrohttpd takes no reply in the middle of a body, so this one goes round it and the connection ends. */
+static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type type, const char *detail)
+{
+    request->status = kd_problem_status(type);
+    kd_connection_linger(request->connection);
+    if (request->connection)
+        kd_problem_send_raw(kd_connection_socket(request->connection), type, detail);
+    return MHD_NO;
+}
+
+static enum MHD_Result receive(struct kd_request *request, const char *data, size_t *size)
+{
+    struct kd_server *server = request->server;
+
+    if (*size > KD_BODY_MAX - request->body.size)
+        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, BODY_TOO_LARGE);
+    if (kd_buffer_append(&request->body, data, *size))
+        return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
+    if (atomic_fetch_add(&server->body_bytes, *size) + *size > KD_BODIES_MAX)
+        return cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
+    *size = 0;
+    return MHD_YES;
+}
+
+enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const char *url, const char *method,
+                                  const char *version, const char *data, size_t *size, void **state)
+{
+    struct kd_request *request = *state;
+    (void)cls, (void)mhd, (void)url;
+    if (!request)
+        return MHD_NO; /* no memory for it */
+    if (!request->begun) {
+        request->begun = true;
+        request->method = method;
+        request->head = !strcmp(method, "HEAD");
+        return begin(request, version);
+    }
+    if (*size)
+        return receive(request, data, size);
+    stage(request, KD_STAGE_WORK);
+    enum MHD_Result result;
+    if (!request->route && !choose(request, &result))
+        return result;
+    return request->route->handle(request);
+}

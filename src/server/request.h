@@ -1,0 +1,37 @@
+/* One HTTP request from its first line to its last byte. HTTP thread only. */
+#ifndef KD_SERVER_REQUEST_H
+#define KD_SERVER_REQUEST_H
+
+#include "server/guard.h"
+#include "server/routes.h"
+#include "server/service.h"
+#include "server/target.h"
+
+struct kd_request {
+    struct kd_server *server;
+    struct MHD_Connection *mhd;
+    struct kd_connection *connection;
+    char *raw;                  /* the target as received */
+    struct kd_target target;
+    struct kd_header header;
+    const struct kd_route *route;
+    const char *method, *rest;  /* rest: of the path, behind a route that ends in "/" */
+    bool head, begun, body_announced, close;
+    struct kd_buffer body;
+    struct kd_render_job *job;  /* of a render under way; owned */
+    char etag[96];
+    size_t reply_bytes;         /* of a large reply, for its deadline */
+    double start_ms;
+    unsigned status;            /* of the reply, for the log */
+};
+
+/* The four callbacks libmicrohttpd is started with; cls is the struct kd_server. */
+void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd);
+enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const char *url, const char *method,
+                                  const char *version, const char *data, size_t *size, void **state);
+void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
+                      enum MHD_RequestTerminationCode why);
+void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_context,
+                           enum MHD_ConnectionNotificationCode what);
+
+#endif

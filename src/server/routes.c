@@ -1,0 +1,75 @@
+#include "server/routes.h"
+
+#include "server/request.h"
+
+#include <string.h>
+
+#define JSON "application/json"
+
+const struct kd_route kd_routes[] = {
+    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page that shows the default picture", false },
+    { "/app.js", KD_GET, kd_handle_page, "text/javascript; charset=utf-8", "The page's script", false },
+    { "/style.css", KD_GET, kd_handle_page, "text/css; charset=utf-8", "The page's style", false },
+    { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives", false },
+    { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down", false },
+    { "/openapi.json", KD_GET, kd_handle_openapi, JSON, "This description", false },
+    { "/v1/device", KD_GET, kd_handle_device, JSON, "Device, driver, precision, memory, versions", false },
+    { "/v1/presets", KD_GET, kd_handle_presets, JSON, "Names and titles of the presets", false },
+    { "/v1/presets/", KD_GET, kd_handle_preset, JSON, "The scene of a preset", false },
+    { "/v1/schema", KD_GET, kd_handle_schema, "application/schema+json", "JSON Schema of a scene", false },
+    { "/v1/plan", KD_POST, kd_handle_plan, JSON,
+      "What a scene requires: passes, rays, bytes, estimated time, approximations", true },
+    { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", true },
+};
+const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;
+
+static bool matches(const struct kd_route *route, const char *path, const char **rest)
+{
+    size_t n = strlen(route->path);
+    if (!strcmp(route->path, path)) {
+        *rest = "";
+        return n == 1 || route->path[n - 1] != '/';
+    }
+    if (n == 1 || route->path[n - 1] != '/' || strncmp(route->path, path, n))
+        return false;
+    *rest = path + n;
+    return !strchr(*rest, '/');
+}
+
+static bool permits(const struct kd_route *route, const char *method)
+{
+    if (!strcmp(method, "GET") || !strcmp(method, "HEAD"))
+        return route->methods & KD_GET;
+    return !strcmp(method, "POST") && (route->methods & KD_POST);
+}
+
+static const char *allow(unsigned methods)
+{
+    if (methods == KD_POST)
+        return "POST";
+    return methods == KD_GET ? "GET, HEAD" : "GET, HEAD, POST";
+}
+
+bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
+{
+    for (size_t i = 0; i < kd_n_routes; i++) {
+        const struct kd_route *route = &kd_routes[i];
+        if (!matches(route, request->target.path, &request->rest))
+            continue;
+        request->route = route;
+        if (permits(route, request->method))
+            return true;
+        *problem = (struct kd_problem){ .type = KD_PROBLEM_METHOD, .allow = allow(route->methods),
+                                        .detail = "the Allow header names the methods this address takes" };
+        return false;
+    }
+    *problem = (struct kd_problem){ .type = KD_PROBLEM_NOT_FOUND,
+                                    .detail = "there is no such path; /openapi.json lists those there are" };
+    return false;
+}
+
+bool kd_route_is_health(const char *raw)
+{
+    size_t n = strcspn(raw, "?");
+    return (n == 8 && !memcmp(raw, "/healthz", 8)) || (n == 7 && !memcmp(raw, "/readyz", 7));
+}

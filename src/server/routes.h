@@ -1,0 +1,43 @@
+/* What is served where. The table also is the source of /openapi.json and of the Allow header. */
+#ifndef KD_SERVER_ROUTES_H
+#define KD_SERVER_ROUTES_H
+
+#include "server/problem.h"
+
+#include <microhttpd.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+struct kd_request;
+
+enum { KD_GET = 1, KD_POST = 2 }; /* HEAD goes with GET */
+
+struct kd_route {
+    const char *path; /* one that ends in "/" and is longer takes any one further segment */
+    unsigned methods;
+    enum MHD_Result (*handle)(struct kd_request *request); /* called with the whole body received; again when a render is done */
+    const char *answer, *summary; /* media type, and a sentence for openapi.json */
+    bool scene;                   /* takes a scene: in the body, or with GET in the query */
+};
+
+extern const struct kd_route kd_routes[];
+extern const size_t kd_n_routes;
+
+/* Sets request->route and ->rest; false with *problem filled (404, 405). */
+bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
+/* Whether a raw target is one that is answered whatever else is the matter. */
+bool kd_route_is_health(const char *raw);
+
+/* handlers, by file */
+enum MHD_Result kd_handle_page(struct kd_request *request);    /* pages.c */
+enum MHD_Result kd_handle_health(struct kd_request *request);  /* reports.c */
+enum MHD_Result kd_handle_ready(struct kd_request *request);
+enum MHD_Result kd_handle_device(struct kd_request *request);
+enum MHD_Result kd_handle_presets(struct kd_request *request);
+enum MHD_Result kd_handle_preset(struct kd_request *request);
+enum MHD_Result kd_handle_schema(struct kd_request *request);
+enum MHD_Result kd_handle_openapi(struct kd_request *request); /* openapi.c */
+enum MHD_Result kd_handle_plan(struct kd_request *request);    /* renders.c */
+enum MHD_Result kd_handle_render(struct kd_request *request);
+
+#endif

@@ -1,0 +1,183 @@
+#include "server/server.h"
+
+#include "base/log.h"
+#include "server/keeper.h"
+#include "server/listen.h"
+#include "server/request.h"
+#include "server/service.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+static unsigned or_default(unsigned value, unsigned otherwise) { return value ? value : otherwise; }
+
+/* Loopback by name and number, the listening address if it is one address, and what the caller adds. */
+static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more,
+                                    struct kd_error *error)
+{
+    const char *names[4] = { "127.0.0.1", "localhost", "[::1]", listen };
+    char bracketed[80];
+    size_t n = 0, n_more = 0;
+
+    if (strchr(listen, ':') && *listen != '[') {
+        snprintf(bracketed, sizeof bracketed, "[%s]", listen);
+        names[3] = bracketed;
+    }
+    while (more && more[n_more])
+        n_more++;
+    server->hosts = calloc(4 + n_more + 1, sizeof *server->hosts);
+    if (!server->hosts)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    for (; n < 4 + n_more; n++)
+        if (!(server->hosts[n] = strdup(n < 4 ? names[n] : more[n - 4])))
+            return kd_error_set(error, KD_ENOMEM, "out of memory");
+    return KD_OK;
+}
+
+/* FNV-1a over what decides a picture besides its scene. */
+static void set_etag_tail(struct kd_server *server)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    const char *parts[] = { KD_VERSION, kd_render_queue_device_name(server->renders) };
+    for (size_t i = 0; i < 2; i++)
+        for (const char *p = parts[i]; ; p++) {
+            hash = (hash ^ (unsigned char)*p) * 0x100000001b3u;
+            if (!*p)
+                break;
+        }
+    snprintf(server->etag_tail, sizeof server->etag_tail, "%016llx", (unsigned long long)hash);
+}
+
+static void log_from_library(void *cls, const char *format, va_list args)
+{
+    char line[512];
+    (void)cls;
+    vsnprintf(line, sizeof line, format, args);
+    line[strcspn(line, "\r\n")] = 0;
+    kd_log(KD_LOG_DEBUG, "libmicrohttpd: %s", line);
+}
+
+static enum kd_status start_daemon(struct kd_server *server, int fd, unsigned connections,
+                                   struct kd_error *error)
+{
+    /* The library's own limit lies above ours: between the two a client is told why, and health is still answered. */
+    server->daemon = MHD_start_daemon(
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, NULL, NULL,
+        kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, log_from_library, NULL,
+        MHD_OPTION_LISTEN_SOCKET, fd,
+        MHD_OPTION_CONNECTION_LIMIT, connections + connections / 4 + 16,
+        MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL,
+        MHD_OPTION_URI_LOG_CALLBACK, kd_request_open, server,
+        MHD_OPTION_NOTIFY_COMPLETED, kd_request_close, server,
+        MHD_OPTION_NOTIFY_CONNECTION, kd_request_connection, server, MHD_OPTION_END);
+    if (server->daemon)
+        return KD_OK;
+    close(fd);
+    return kd_error_set(error, KD_EIO, "the HTTP service could not be started");
+}
+
+static enum kd_status start_keeper(struct kd_server *server, struct kd_error *error)
+{
+    if (pthread_create(&server->keeper, NULL, kd_keeper_main, server))
+        return kd_error_set(error, KD_ENOMEM, "the keeper thread could not be started");
+    server->keeper_runs = true;
+    return KD_OK;
+}
+
+static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
+                            struct kd_error *error)
+{
+    const char *address = params->listen ? params->listen : "127.0.0.1";
+    unsigned connections = or_default(params->connections, 512);
+    int fd = -1;
+
+    server->port = params->port;
+    server->drain_ms = params->drain_ms == UINT_MAX ? 0 : or_default(params->drain_ms, 1000);
+    server->longest_s = or_default(params->longest_s, 600);
+    server->stop_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    server->connections = kd_connections_create(connections, or_default(params->header_ms, 10000),
+                                                or_default(params->body_ms, 30000));
+    if (server->stop_fd < 0 || !server->connections)
+        return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
+    enum kd_status status = collect_hosts(server, address, params->hosts, error);
+    /* The socket first: opening a device takes long, and "address in use" is the commonest failure. */
+    if (!status)
+        status = kd_listen_open(address, &server->port, &fd, error);
+    if (!status)
+        status = kd_render_queue_create(&params->renderer, or_default(params->queue, 16), &server->renders, error);
+    if (status) {
+        if (fd >= 0)
+            close(fd);
+        return status;
+    }
+    set_etag_tail(server);
+    status = start_daemon(server, fd, connections, error);
+    return status ? status : start_keeper(server, error);
+}
+
+enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out,
+                                struct kd_error *error)
+{
+    struct kd_server *server = calloc(1, sizeof *server);
+    if (!server)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    server->stop_fd = -1;
+    pthread_mutex_init(&server->lock, NULL);
+    pthread_cond_init(&server->changed, NULL);
+    enum kd_status status = start(server, params, error);
+    if (status) {
+        kd_server_destroy(server);
+        return status;
+    }
+    *out = server;
+    return KD_OK;
+}
+
+uint16_t kd_server_port(const struct kd_server *server) { return server->port; }
+
+void kd_server_stop(struct kd_server *server)
+{
+    int serving = KD_SERVING;
+    uint64_t one = 1;
+    atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
+    if (write(server->stop_fd, &one, sizeof one) < 0) {
+        /* The counter is full: the keeper has been woken often enough. */
+    }
+}
+
+enum kd_status kd_server_wait(struct kd_server *server, struct kd_error *error)
+{
+    pthread_mutex_lock(&server->lock);
+    while (!server->stopped)
+        pthread_cond_wait(&server->changed, &server->lock);
+    pthread_mutex_unlock(&server->lock);
+    return kd_render_queue_lost(server->renders, error) ? KD_EDEVICE : KD_OK;
+}
+
+void kd_server_destroy(struct kd_server *server)
+{
+    if (!server)
+        return;
+    if (server->keeper_runs) {
+        atomic_store(&server->abandon, true);
+        kd_server_stop(server);
+        pthread_join(server->keeper, NULL);
+    } else if (server->daemon) {
+        MHD_stop_daemon(server->daemon);
+    }
+    kd_render_queue_destroy(server->renders);
+    kd_connections_destroy(server->connections);
+    for (size_t i = 0; server->hosts && server->hosts[i]; i++)
+        free((void *)server->hosts[i]);
+    free(server->hosts);
+    if (server->stop_fd >= 0)
+        close(server->stop_fd);
+    pthread_cond_destroy(&server->changed);
+    pthread_mutex_destroy(&server->lock);
+    free(server);
+}

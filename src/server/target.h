@@ -1,0 +1,24 @@
+/* A request target taken apart: the path and the query's pairs, percent-decoded. */
+#ifndef KD_SERVER_TARGET_H
+#define KD_SERVER_TARGET_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+#define KD_TARGET_PAIRS 64
+
+struct kd_target {
+    char *text; /* owns what the pointers below point into */
+    const char *path;
+    struct kd_target_pair { const char *name, *value; } pairs[KD_TARGET_PAIRS];
+    size_t n_pairs;
+};
+
+/* raw: "/v1/render?preset=NAME&camera.r=30" as received. KD_EINVAL for a bad escape, for what is not UTF-8,
+ * control characters or more than KD_TARGET_PAIRS pairs. "+" is a space in the query, as forms send it.
+ * Whatever the result, finish it. */
+enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
+void kd_target_finish(struct kd_target *target);
+
+#endif

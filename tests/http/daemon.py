@@ -1,0 +1,153 @@
+"""A server process under test and ways to talk to it, down to single bytes."""
+import http.client
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+import unittest
+
+COMMAND = []  # the server's command line, from ours; set by main()
+SMALL = 'image.width=64&image.height=36'
+
+
+class Answer:
+    """A parsed HTTP answer."""
+
+    def __init__(self, status, headers, body):
+        self.status, self.headers, self.body = status, headers, body
+
+    def header(self, name):
+        found = [v for k, v in self.headers if k.lower() == name.lower()]
+        return found[0] if found else None
+
+    def json(self):
+        return json.loads(self.body)
+
+
+class Daemon:
+    def __init__(self, *options):
+        self.process = subprocess.Popen([*COMMAND, '--port', '0', *map(str, options)], stdout=subprocess.PIPE)
+        line = self.process.stdout.readline().decode()
+        match = re.fullmatch(r'kerrd: listening on http://127\.0\.0\.1:(\d+)/\n', line)
+        if not match:
+            self.process.kill()
+            raise RuntimeError(f'no announcement but {line!r}')
+        self.port = int(match[1])
+
+    def connect(self, timeout=60):
+        return socket.create_connection(('127.0.0.1', self.port), timeout)
+
+    def request(self, method, target, body=None, headers=None, timeout=60):
+        connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout)
+        try:
+            connection.putrequest(method, target, skip_accept_encoding=True)
+            headers = dict(headers or {})
+            if body is not None:
+                body = body.encode() if isinstance(body, str) else body
+                headers.setdefault('Content-Type', 'application/json')
+                headers.setdefault('Content-Length', str(len(body)))
+            for name, value in headers.items():
+                connection.putheader(name, value)
+            connection.endheaders()
+            if body:
+                try:
+                    connection.send(body)
+                except OSError:
+                    pass  # refused before all of it was sent
+            got = connection.getresponse()
+            return Answer(got.status, got.getheaders(), got.read())
+        finally:
+            connection.close()
+
+    def get(self, target, **headers):
+        return self.request('GET', target, headers={k.replace('_', '-'): v for k, v in headers.items()})
+
+    def post(self, target, body, **headers):
+        body = body if isinstance(body, (str, bytes)) else json.dumps(body)
+        return self.request('POST', target, body, {k.replace('_', '-'): v for k, v in headers.items()})
+
+    def raw(self, data, timeout=60):
+        """Send bytes, read until the server closes or the answer is complete; None when there is no answer."""
+        with self.connect(timeout) as s:
+            try:
+                s.sendall(data)
+            except OSError:
+                pass  # it may close before it has read everything
+            return read_answer(s)
+
+    def open_files(self):
+        return len(os.listdir(f'/proc/{self.process.pid}/fd'))
+
+    def terminate(self):
+        self.process.send_signal(signal.SIGTERM)
+
+    def wait(self, timeout=60):
+        code = self.process.wait(timeout)
+        self.process.stdout.close()
+        return code
+
+    def stop(self):
+        self.terminate()
+        return self.wait()
+
+
+def read_answer(s):
+    response = http.client.HTTPResponse(s)
+    try:
+        response.begin()
+        return Answer(response.status, response.getheaders(), response.read())
+    except (http.client.HTTPException, OSError):
+        return None
+    finally:
+        response.close()
+
+
+def eventually(condition, timeout=10):
+    deadline = time.monotonic() + timeout
+    while time.monotonic() < deadline:
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
+
+
+class Case(unittest.TestCase):
+    """Tests that share one daemon, which must be alive after each and exit with 0 after all."""
+    options = ()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = Daemon('--drain-ms', 10, *cls.options)
+
+    @classmethod
+    def tearDownClass(cls):
+        code = cls.daemon.stop()
+        if code:
+            raise AssertionError(f'the daemon exited with {code}')
+
+    def tearDown(self):
+        self.assertEqual(self.daemon.get('/healthz').status, 200)
+
+    def assertProblem(self, answer, status, word=None, pointer=None):
+        self.assertIsNotNone(answer, 'no answer')
+        self.assertEqual(answer.status, status, answer.body)
+        self.assertEqual(answer.header('Content-Type'), 'application/problem+json')
+        problem = answer.json()
+        self.assertEqual(problem['status'], status)
+        self.assertTrue(problem['title'] and problem['detail'], problem)
+        if word:
+            self.assertEqual(problem['type'], 'urn:kerrd:problem:' + word, problem)
+        if pointer is not None:
+            self.assertEqual(problem.get('pointer'), pointer, problem)
+        return problem
+
+
+def main():
+    COMMAND.append(sys.argv.pop(1))
+    while len(sys.argv) > 1 and sys.argv[1] != '--':
+        COMMAND.append(sys.argv.pop(1))
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

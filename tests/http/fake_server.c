@@ -1,0 +1,63 @@
+/* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers of
+ * struct kd_server_params by name, --listen, --host (once) and --device. */
+#include "base/log.h"
+#include "server/server.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct kd_server *server;
+
+static void on_signal(int number)
+{
+    (void)number;
+    kd_server_stop(server);
+}
+
+static int set(struct kd_server_params *params, const char *hosts[2], const char *name, const char *value)
+{
+    struct { const char *name; unsigned *number; } numbers[] = {
+        { "--queue", &params->queue },         { "--drain-ms", &params->drain_ms },
+        { "--header-ms", &params->header_ms }, { "--body-ms", &params->body_ms },
+        { "--connections", &params->connections }, { "--longest-s", &params->longest_s },
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!strcmp(name, numbers[i].name))
+            return *numbers[i].number = (unsigned)strtoul(value, NULL, 10), 1;
+    if (!strcmp(name, "--port"))
+        return params->port = (uint16_t)atoi(value), 1;
+    if (!strcmp(name, "--listen"))
+        return params->listen = value, 1;
+    if (!strcmp(name, "--device"))
+        return params->renderer.device = value, 1;
+    if (!strcmp(name, "--host"))
+        return hosts[0] = value, params->hosts = hosts, 1;
+    return !strcmp(name, "--log") ? kd_log_set_level((enum kd_log_level)atoi(value)), 1 : 0;
+}
+
+int main(int argc, char **argv)
+{
+    struct kd_server_params params = { 0 };
+    struct kd_error error;
+    const char *hosts[2] = { NULL, NULL };
+
+    for (int i = 1; i + 1 < argc; i += 2)
+        if (!set(&params, hosts, argv[i], argv[i + 1]))
+            return fprintf(stderr, "fake_server: unknown option %s\n", argv[i]), 2;
+    if (kd_server_create(&params, &server, &error))
+        return fprintf(stderr, "fake_server: %s\n", error.message), 1;
+    signal(SIGTERM, on_signal);
+    signal(SIGINT, on_signal);
+    printf("kerrd: listening on http://127.0.0.1:%u/\n", kd_server_port(server));
+    fflush(stdout);
+    enum kd_status status = kd_server_wait(server, &error);
+    if (status) {
+        fprintf(stderr, "fake_server: %s\n", error.message);
+        _exit(1); /* as a process that has lost its device should */
+    }
+    kd_server_destroy(server);
+    return 0;
+}

@@ -1,0 +1,120 @@
+"""A full queue, clients that vanish, many at once, and nothing left behind."""
+import concurrent.futures
+import os
+import time
+import unittest
+
+import daemon
+
+RENDER = '/v1/render?' + daemon.SMALL
+
+
+def begin(server, ms):
+    s = server.connect()
+    s.sendall(f'GET {RENDER}&time={ms} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+    return s
+
+
+class Queue(daemon.Case):
+    options = ('--queue', 2)
+
+    def refused(self):
+        answer = self.daemon.get(RENDER)
+        if answer.status == 200:
+            return None
+        self.assertProblem(answer, 503, 'queue-full')
+        return int(answer.header('Retry-After'))
+
+    def test_full_queue(self):
+        held = [begin(self.daemon, 1000)]
+        time.sleep(0.2)
+        held += [begin(self.daemon, ms) for ms in (10, 10)]
+        time.sleep(0.2)
+        self.assertGreaterEqual(self.refused(), 1)
+        self.assertEqual(self.daemon.get('/readyz').status, 200)
+        self.assertEqual(self.daemon.post('/v1/plan', '{}').status, 200)
+        for s in held:
+            self.assertEqual(daemon.read_answer(s).status, 200)
+            s.close()
+        self.assertIsNone(self.refused())
+
+    def test_retry_after_is_the_estimated_backlog(self):
+        long = self.daemon.connect()  # 1 us a ray is what the renderer claims: 1280 x 1280 x 4 rays take 6.6 s
+        long.sendall(b'GET /v1/render?image.width=1280&image.height=1280&image.samples=2&time=100000 HTTP/1.1\r\n'
+                     b'Host: localhost\r\n\r\n')
+        time.sleep(0.2)
+        held = [begin(self.daemon, 10) for _ in range(2)]
+        time.sleep(0.2)
+        seconds = self.refused()
+        self.assertGreaterEqual(seconds, 5)
+        self.assertLessEqual(seconds, 9)
+        for s in (long, *held):
+            s.close()
+        self.assertTrue(daemon.eventually(lambda: self.refused() is None))
+
+    def test_vanished_clients_free_their_places(self):
+        running = begin(self.daemon, 100000)
+        time.sleep(0.1)
+        waiting = [begin(self.daemon, 100000) for _ in range(2)]
+        time.sleep(0.2)
+        self.assertIsNotNone(self.refused())
+        for s in waiting:
+            s.close()
+        self.assertTrue(daemon.eventually(lambda: self.probe_waits()), 'waiting jobs were not dropped')
+        running.close()
+        self.assertTrue(daemon.eventually(lambda: self.refused() is None), 'the running job was not cancelled')
+
+    def probe_waits(self):
+        """Whether a render is accepted, though the device is busy."""
+        with begin(self.daemon, 0) as s:
+            s.settimeout(0.3)
+            try:
+                return b' 503 ' not in s.recv(100)
+            except TimeoutError:
+                return True
+
+
+class Crowd(daemon.Case):
+    options = ('--queue', 300, '--header-ms', 2000)
+
+    def test_200_at_once_and_no_descriptor_left(self):
+        self.daemon.get(RENDER)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() > 0))
+        before = self.daemon.open_files()
+        targets = [f'{RENDER}&time={i % 20}' if i % 4 else '/v1/presets' for i in range(200)]
+        with concurrent.futures.ThreadPoolExecutor(200) as pool:
+            answers = list(pool.map(self.daemon.get, targets))
+        self.assertEqual({a.status for a in answers}, {200})
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))
+
+    def test_aborted_in_every_stage(self):
+        before = self.daemon.open_files()
+        for size in range(1, 160, 7):
+            with self.daemon.connect() as s:
+                s.sendall(f'GET {RENDER}&time=50 HTTP/1.1\r\nHost: localhost\r\nContent-Type: x\r\n\r\n'.encode()[:size])
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))
+
+
+class Connections(daemon.Case):
+    options = ('--connections', 20, '--header-ms', 3000)
+
+    def test_one_too_many_is_told_so(self):
+        held = [self.daemon.connect() for _ in range(20)]
+        time.sleep(0.1)
+        answer = self.daemon.get('/v1/device')
+        self.assertProblem(answer, 503, 'too-many-connections')
+        self.assertTrue(answer.header('Retry-After'))
+        self.assertEqual(self.daemon.get('/healthz').status, 200)
+        for s in held:
+            s.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/device').status == 200))
+
+    def test_silent_connections_do_not_block_health_for_long(self):
+        held = [self.daemon.connect() for _ in range(100)]
+        self.assertEqual(self.daemon.get('/healthz').status, 200)
+        for s in held:
+            s.close()
+
+
+if __name__ == '__main__':
+    daemon.main()

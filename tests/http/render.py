@@ -1,0 +1,78 @@
+"""What a picture comes with: size, tags, timings, and revalidation."""
+import re
+import struct
+import unittest
+import urllib.parse
+
+import daemon
+
+RENDER = '/v1/render?' + daemon.SMALL
+
+
+def size_of(png):
+    assert png[:8] == b'\x89PNG\r\n\x1a\n'
+    return struct.unpack('>II', png[16:24])
+
+
+class Render(daemon.Case):
+    def test_size(self):
+        self.assertEqual(size_of(self.daemon.get(RENDER).body), (64, 36))
+        self.assertEqual(size_of(self.daemon.post('/v1/render', {'image': {'width': 30, 'height': 20}}).body), (30, 20))
+
+    def test_headers(self):
+        answer = self.daemon.get(RENDER)
+        self.assertEqual(answer.header('Cache-Control'), 'private, no-cache')
+        self.assertEqual(answer.header('Vary'), 'Accept')
+        scene = answer.header('Kerrd-Scene-Hash')
+        self.assertRegex(scene, '^[0-9a-f]{64}$')
+        self.assertTrue(answer.header('ETag').startswith(f'"{scene}-'), answer.header('ETag'))
+        timing = dict(re.findall(r'([a-z]+)(?:;desc="reused")?;dur=([0-9.]+)', answer.header('Server-Timing')))
+        self.assertLessEqual({'queue', 'trace', 'encode', 'total'}, set(timing))
+        self.assertEqual(len(answer.body), int(answer.header('Content-Length')))
+
+    def test_approximations_are_those_of_the_plan(self):
+        sent = self.daemon.get(RENDER).header('Kerrd-Approximations')
+        told = [urllib.parse.unquote(item.strip('"')) for item in sent.split(', ')]
+        plan = self.daemon.post('/v1/plan', {'image': {'width': 64, 'height': 36}}).json()
+        self.assertEqual(told, plan['approximations'])
+
+    def test_query_and_body_agree(self):
+        by_query = self.daemon.get(RENDER + '&preset=gargantua&camera.inclination_deg=70')
+        by_body = self.daemon.post('/v1/render?preset=gargantua',
+                                   {'image': {'width': 64, 'height': 36}, 'camera': {'inclination_deg': 70}})
+        self.assertEqual(by_query.status, 200)
+        self.assertEqual(by_query.header('ETag'), by_body.header('ETag'))
+        self.assertEqual(by_query.body, by_body.body)
+
+    def test_the_lens_map_is_reused(self):
+        first = self.daemon.get(RENDER + '&spacetime.spin=0.123')
+        again = self.daemon.get(RENDER + '&spacetime.spin=0.123')
+        self.assertNotIn('reused', first.header('Server-Timing'))
+        self.assertIn('trace;desc="reused";dur=0', again.header('Server-Timing'))
+        self.assertEqual(first.body, again.body)
+
+    def test_revalidation(self):
+        target = RENDER + '&time=300'
+        tag = self.daemon.get(target).header('ETag')
+        for held in (tag, 'W/' + tag, f'"x,y", {tag}', '*', f'"a",{tag} , "b"'):
+            with self.subTest(held):
+                answer = self.daemon.get(target, If_None_Match=held)
+                self.assertEqual((answer.status, answer.body), (304, b''))
+                self.assertEqual(answer.header('ETag'), tag)
+                self.assertEqual(answer.header('Vary'), 'Accept')
+                self.assertEqual(answer.header('Cache-Control'), 'private, no-cache')
+        for held in ('"x"', tag.strip('"'), tag[:-2] + '"', ''):
+            with self.subTest(held):
+                self.assertEqual(self.daemon.get(target, If_None_Match=held).status, 200)
+        posted = self.daemon.post('/v1/render', {'image': {'width': 64, 'height': 36}, 'time': 300}, If_None_Match=tag)
+        self.assertEqual(posted.status, 304)
+
+    def test_head_renders_nothing(self):
+        answer = self.daemon.request('HEAD', RENDER + '&time=100000', timeout=5)
+        self.assertEqual(answer.status, 200)
+        self.assertTrue(answer.header('ETag'))
+        self.assertIsNone(answer.header('Content-Length'))
+
+
+if __name__ == '__main__':
+    daemon.main()

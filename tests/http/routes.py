@@ -1,0 +1,87 @@
+"""Every address, HEAD, and what is said of a wrong method or path."""
+import json
+import unittest
+
+import daemon
+
+GETS = {
+    '/': 'text/html; charset=utf-8', '/app.js': 'text/javascript; charset=utf-8',
+    '/style.css': 'text/css; charset=utf-8', '/healthz': 'application/json', '/readyz': 'application/json',
+    '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
+    '/v1/presets/gargantua': 'application/json', '/v1/schema': 'application/schema+json',
+    '/v1/render?' + daemon.SMALL: 'image/png',
+}
+
+
+class Routes(daemon.Case):
+    def test_get_and_head(self):
+        for target, kind in GETS.items():
+            with self.subTest(target):
+                got, head = self.daemon.get(target), self.daemon.request('HEAD', target)
+                self.assertEqual((got.status, head.status), (200, 200), got.body[:300])
+                self.assertEqual(got.header('Content-Type'), kind)
+                self.assertEqual(head.header('Content-Type'), kind)
+                self.assertEqual(got.header('X-Content-Type-Options'), 'nosniff')
+                self.assertTrue(got.body)
+                self.assertFalse(head.body)
+                if 'json' in kind:
+                    json.loads(got.body)
+
+    def test_page_forbids_foreign_content(self):
+        policy = self.daemon.get('/').header('Content-Security-Policy')
+        self.assertTrue(policy.startswith("default-src 'self';"), policy)
+        self.assertNotIn('unsafe', policy)
+
+    def test_presets_are_scenes(self):
+        for preset in self.daemon.get('/v1/presets').json()['presets']:
+            with self.subTest(preset['name']):
+                self.assertTrue(preset['title'])
+                scene = self.daemon.get('/v1/presets/' + preset['name'])
+                self.assertEqual(scene.status, 200)
+                self.assertEqual(self.daemon.post('/v1/plan', scene.body).status, 200)
+
+    def test_plan(self):
+        plan = self.daemon.post('/v1/plan', '{"image":{"width":100,"height":50,"samples":2}}').json()
+        self.assertEqual(plan['rays'], 100 * 50 * 4)
+        self.assertTrue(plan['approximations'])
+        preset = self.daemon.post('/v1/plan?preset=gargantua', '{}')
+        self.assertNotEqual(preset.json()['lens_map_key'], plan['lens_map_key'])
+
+    def test_openapi_lists_the_routes(self):
+        document = self.daemon.get('/openapi.json').json()
+        self.assertEqual(document['openapi'], '3.1.0')
+        self.assertEqual(set(document['paths']['/v1/render']), {'get', 'post'})
+        self.assertIn('/v1/presets/{name}', document['paths'])
+        names = [p['name'] for p in document['paths']['/v1/render']['get']['parameters']]
+        self.assertIn('camera.inclination_deg', names)
+
+    def test_unknown_path(self):
+        for path in ('/nothing', '/v1/presets/', '/v1/presets/nobody', '/v1/presets/a/b', '//', '/v1/render/',
+                     '/healthz/', '/..%2f', 'http://127.0.0.1/healthz', '*'):
+            with self.subTest(path):
+                self.assertProblem(self.daemon.raw(f'GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode()),
+                                   404, 'not-found')
+
+    def test_wrong_method(self):
+        for method, path, allow in (('POST', '/healthz', 'GET, HEAD'), ('GET', '/v1/plan', 'POST'),
+                                    ('DELETE', '/v1/render', 'GET, HEAD, POST'), ('PUT', '/', 'GET, HEAD'),
+                                    ('OPTIONS', '/v1/plan', 'POST'), ('BREW', '/v1/device', 'GET, HEAD')):
+            with self.subTest(method + path):
+                answer = self.daemon.request(method, path, '{}')
+                self.assertProblem(answer, 405, 'method-not-allowed')
+                self.assertEqual(answer.header('Allow'), allow)
+
+    def test_http_1_0_health_without_host(self):
+        self.assertEqual(self.daemon.raw(b'GET /readyz HTTP/1.0\r\n\r\n').status, 200)
+        self.assertProblem(self.daemon.raw(b'GET /v1/device HTTP/1.0\r\n\r\n'), 421, 'misdirected')
+
+    def test_keep_alive(self):
+        with self.daemon.connect() as s:
+            for path in ('/healthz', '/v1/device', '/nothing', '/v1/render?' + daemon.SMALL, '/healthz'):
+                s.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost:1\r\n\r\n'.encode())
+                answer = daemon.read_answer(s)
+                self.assertEqual(answer.status, 404 if path == '/nothing' else 200)
+
+
+if __name__ == '__main__':
+    daemon.main()

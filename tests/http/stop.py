@@ -1,0 +1,79 @@
+"""SIGTERM under load, a lost device, and starts that fail."""
+import subprocess
+import threading
+import time
+import unittest
+
+import daemon
+
+RENDER = '/v1/render?' + daemon.SMALL
+
+
+def in_background(function, *arguments):
+    result = []
+    thread = threading.Thread(target=lambda: result.append(function(*arguments)))
+    thread.start()
+    return lambda: (thread.join(), result[0] if result else None)[1]
+
+
+class Stop(unittest.TestCase):
+    def test_sequence(self):
+        server = daemon.Daemon('--drain-ms', 600, '--queue', 4)
+        running = in_background(server.get, RENDER + '&time=2000')
+        time.sleep(0.1)
+        queued = in_background(server.get, RENDER + '&time=100')
+        time.sleep(0.1)
+        self.assertEqual(server.get('/readyz').status, 200)
+        server.terminate()
+        self.assertTrue(daemon.eventually(lambda: server.get('/readyz').status == 503, 0.5))
+        self.assertEqual(server.get('/healthz').status, 200)
+        late = in_background(server.get, RENDER + '&time=1')  # still accepted while balancers notice
+        time.sleep(0.8)
+        refused = server.get(RENDER)
+        self.assertEqual(refused.status, 503)
+        self.assertEqual(refused.json()['type'], 'urn:kerrd:problem:stopping')
+        self.assertTrue(refused.header('Retry-After'))
+        self.assertEqual(server.get('/healthz').status, 200)
+        self.assertEqual([a().status for a in (running, queued, late)], [200, 200, 200])
+        self.assertEqual(server.wait(10), 0)
+
+    def test_idle(self):
+        server = daemon.Daemon('--drain-ms', 100)
+        with server.connect():  # nobody waits for a connection without a request
+            started = time.monotonic()
+            self.assertEqual(server.stop(), 0)
+            self.assertLess(time.monotonic() - started, 3)
+
+    def test_again_and_again(self):
+        server = daemon.Daemon('--drain-ms', 300)
+        for _ in range(20):
+            server.terminate()
+        self.assertEqual(server.wait(10), 0)
+
+    def test_lost_device(self):
+        server = daemon.Daemon('--drain-ms', 60000)
+        behind = None
+        ahead = in_background(server.get, RENDER + '&time=500')
+        time.sleep(0.1)
+        lost = in_background(server.get, RENDER + '&time=-1')
+        time.sleep(0.1)
+        behind = in_background(server.get, RENDER + '&time=100')
+        self.assertEqual(ahead().status, 200)
+        for answer in (lost(), behind()):
+            self.assertEqual(answer.status, 500)
+            self.assertEqual(answer.json()['type'], 'urn:kerrd:problem:device-lost')
+        self.assertEqual(server.wait(10), 1)
+
+    def test_starts_that_fail(self):
+        server = daemon.Daemon('--drain-ms', 10)
+        for options, said in ((('--port', server.port), 'cannot listen'), (('--listen', 'localhost'), 'not a numeric'),
+                              (('--listen', '203.0.113.1'), 'cannot listen'), (('--device', 'none'), 'no device')):
+            with self.subTest(options):
+                done = subprocess.run([*daemon.COMMAND, *map(str, options)], capture_output=True, timeout=20)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(said, done.stderr.decode())
+        self.assertEqual(server.stop(), 0)
+
+
+if __name__ == '__main__':
+    daemon.main()
