@@ -1,0 +1,107 @@
+"""Arguments and scenes, good and bad. Needs no device."""
+import json
+
+from support import Case, main
+
+COMMANDS = ["render", "plan", "scene", "presets", "serve", "doctor"]
+OPEN = '{"camera":'
+
+
+class Usage(Case):
+    def test_help_and_version_everywhere(self):
+        for command in [[]] + [[c] for c in COMMANDS]:
+            self.assertIn(b"Usage: " + " ".join(["kerrd", *command]).encode(), self.good(*command, "--help"))
+            self.assertRegex(self.good(*command, "--version"), rb"^kerrd \d+\.\d+\.\d+\n$")
+        for command in COMMANDS:
+            self.assertIn(command.encode(), self.good("--help"))
+
+    def test_wrong_usage(self):
+        self.bad(2, "a command is missing")
+        self.bad(2, 'no command "paint"', "paint")
+        self.bad(2, "--wrong", "--wrong")
+        self.bad(2, "--wrong", "render", "--wrong")
+        self.bad(2, "-o FILE is missing", "render")
+        self.bad(2, "one scene at a time", "scene", "a.json", "b.json")
+        self.bad(2, "no argument", "presets", "x")
+        self.bad(2, "no argument", "serve", "x")
+        self.bad(2, "no argument", "doctor", "x")
+        self.bad(2, "error, warn, info or debug", "scene", "--log-level", "loud")
+        for port in ["", "-1", "65536", "80x", " 80", "99999999999999999999"]:
+            self.bad(2, "0 to 65535", "serve", "--port", port)
+        self.bad(2, "--queue", "serve", "--queue", "0")
+        self.bad(2, "excludes SCENE", "scene", "--from", "a.png", "b.json")
+        self.bad(2, "excludes --preset", "scene", "--from", "a.png", "--preset", "m87")
+
+
+class Files(Case):
+    def test_no_such_thing(self):
+        self.bad(2, "No such file", "scene", self.path("absent.json"))
+        self.bad(2, "Is a directory", "scene", self.folder)
+        self.bad(2, "No such file", "scene", "--from", self.path("absent.png"))
+
+    def test_bad_documents(self):
+        for text, words in [("", "not valid JSON"), (OPEN, "not valid JSON"), ("{}{}", "follows"), ("[]", "object"),
+                            ('{"camera":{"zoom":2}}', "(at /camera/zoom)"),
+                            ('{"camera":{"inclination_deg":"x"}}', "(at /camera/inclination_deg)"),
+                            ('{"camera":{"inclination_deg":181}}', "0 to 180"),
+                            ('{"image":{"bit_depth":12}}', "(at /image/bit_depth)"),
+                            ("[" * 100000, ""), ("\0", ""), ("\xff\xfe", "")]:
+            path = self.write("scene.json", text)
+            self.bad(2, words, "scene", path)
+            self.bad(2, words, "scene", "-", stdin=text.encode())
+        self.bad(2, "scene.json:", "scene", self.write("scene.json", "{"))
+        self.bad(2, "standard input:", "scene", "-", stdin=b"{")
+        self.bad(2, "more than 1048576 bytes", "scene", "-", stdin=b" " * (1 << 20) + b"{}")
+
+    def test_not_pictures(self):
+        self.bad(2, "not a PNG file", "scene", "--from", self.write("a.png", "{}"))
+        self.bad(2, "not a PNG file", "scene", "--from", self.write("a.png", ""))
+        self.bad(2, "use --from", "scene", self.write("a.png", b"\x89PNG\r\n\x1a\n"))
+
+    def test_full_disk(self):
+        with open("/dev/full", "wb") as full:
+            self.bad(1, "No space left", "scene", stdout=full)
+
+
+class Scenes(Case):
+    def scene(self, *args, **kwargs):
+        return json.loads(self.good("scene", *args, **kwargs))
+
+    def test_set(self):
+        self.bad(2, "PATH=VALUE", "scene", "--set", "camera.r")
+        self.bad(2, "PATH=VALUE", "scene", "--set", "=1")
+        self.bad(2, "unknown field", "scene", "--set", "camera.zoom=1")
+        self.bad(2, "(at /camera/r)", "scene", "--set", "camera.r=")
+        self.bad(2, "(at /camera/r)", "scene", "--set", "camera.r=1=2")
+        self.bad(2, "(at /camera/r)", "scene", "--set", "camera.r=nan")
+        self.assertEqual(self.scene("--set", "camera.r=50")["camera"]["r"], 50)
+
+    def test_order_of_merging(self):
+        document = self.write("scene.json", '{"spacetime":{"spin":0.25},"image":{"width":10}}')
+        self.assertEqual(self.scene("--preset", "schwarzschild")["spacetime"]["spin"], 0)
+        merged = self.scene("--set", "image.width=20", "--preset", "schwarzschild", document, "--set", "image.width=30")
+        self.assertEqual((merged["spacetime"]["spin"], merged["image"]["width"]), (0.25, 30))
+        self.assertEqual(merged["camera"]["inclination_deg"], 80)
+
+    def test_rules_apply_to_the_whole(self):
+        # Each alone would do; together they put the edges of the disk in the wrong order.
+        document = self.write("scene.json", '{"disk":{"inner":30}}')
+        self.bad(2, "(at /disk/", "scene", document)
+        self.assertEqual(self.scene(document, "--set", "disk.outer=40")["disk"]["inner"], 30)
+
+    def test_presets(self):
+        self.bad(2, "there is no preset", "scene", "--preset", "nonsense")
+        names = [line.split()[0] for line in self.good("presets").decode().splitlines()]
+        self.assertGreater(len(names), 3)
+        hashes = {self.good("scene", "--hash", "--preset", name) for name in names}
+        self.assertEqual(len(hashes), len(names))
+
+    def test_canonical_form_is_its_own(self):
+        first = self.good("scene", "--preset", "gargantua")
+        self.assertEqual(self.good("scene", "-", stdin=first), first)
+        self.assertEqual(self.good("scene"), self.good("scene", "-", stdin=b"{}"))
+        self.assertRegex(self.good("scene", "--hash"), rb"^[0-9a-f]{64}\n$")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,207 @@
+"""Pictures from the command line, on a real device."""
+import json
+import os
+import pty
+import signal
+import socket
+import stat
+import struct
+import subprocess
+import time
+import unittest
+import urllib.request
+import zlib
+
+from support import KERRD, SMALL, Case, main, run
+
+
+def chunks(png):
+    """The chunks of a PNG file as (type, body), with their checksums checked."""
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    at, found = 8, []
+    while at < len(png):
+        length, = struct.unpack(">I", png[at:at + 4])
+        kind, body = png[at + 4:at + 8], png[at + 8:at + 8 + length]
+        assert struct.unpack(">I", png[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body)
+        found.append((kind, body))
+        at += 12 + length
+    return found
+
+
+def text(png):
+    return dict(body.split(b"\0", 1) for kind, body in chunks(png) if kind == b"tEXt")
+
+
+class Pictures(Case):
+    def test_file(self):
+        self.assertEqual(self.good("render", *SMALL, "-o", self.path("a.png")), b"")
+        png = self.read("a.png")
+        self.assertEqual(struct.unpack(">IIBB", chunks(png)[0][1][:10]), (64, 36, 8, 2))
+        self.assertIn(b"sRGB", [kind for kind, _ in chunks(png)])
+        self.assertEqual(text(png)[b"kerrd:scene"] + b"\n", self.good("scene", *SMALL))
+        self.assertEqual(text(png)[b"kerrd:hash"] + b"\n", self.good("scene", "--hash", *SMALL))
+        pixels = zlib.decompress(b"".join(body for kind, body in chunks(png) if kind == b"IDAT"))
+        self.assertGreater(len(set(pixels)), 20) # no black picture
+        self.assertEqual(os.listdir(self.folder), ["a.png"])
+        mask = os.umask(0)
+        os.umask(mask)
+        self.assertEqual(stat.S_IMODE(os.stat(self.path("a.png")).st_mode), 0o666 & ~mask)
+
+    def test_pipes_give_the_bytes_of_a_file(self):
+        scene = b'{"image":{"width":64,"height":36},"spacetime":{"spin":0.5}}'
+        self.good("render", self.write("scene.json", scene), "-o", self.path("a.png"))
+        self.assertEqual(self.good("render", "-", "-o", "-", stdin=scene), self.read("a.png"))
+
+    def test_a_picture_renders_itself_again(self):
+        for depth in "8", "16":
+            self.good("render", *SMALL, "--preset", "gargantua", "--set", "image.bit_depth=" + depth, "-o",
+                      self.path("a.png"))
+            self.good("render", "--from", self.path("a.png"), "-o", self.path("b.png"))
+            self.assertEqual(self.read("a.png"), self.read("b.png"))
+        self.assertEqual(self.good("render", "--from", "-", "-o", "-", stdin=self.read("a.png")), self.read("a.png"))
+        other = self.good("render", "--from", self.path("a.png"), "--set", "spacetime.spin=0.1", "-o", "-")
+        self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
+
+    def test_damaged_pictures(self):
+        self.good("render", *SMALL, "-o", self.path("a.png"))
+        png = self.read("a.png")
+        self.bad(2, "damaged", "scene", "--from", self.write("b.png", png[:len(png) // 2]))
+        self.bad(2, "damaged", "scene", "--from", self.write("b.png", png.replace(b"kerrd:scene", b"kerrd:acene")))
+        bare = png[:8] + b"".join(
+            struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+            for kind, body in chunks(png) if kind != b"tEXt")
+        self.bad(2, "holds no scene", "scene", "--from", self.write("b.png", bare))
+
+    def test_stats(self):
+        done = run("render", *SMALL, "--stats", "-o", self.path("a.png"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        stats = json.loads(done.stderr)
+        self.assertEqual(stats["rays"], 64 * 36)
+        self.assertEqual(stats["bytes"], len(self.read("a.png")))
+        self.assertIn("trace", stats["device_ms"])
+        self.assertEqual(stats["accuracy"]["profile"], "balanced")
+        self.assertTrue(stats["approximations"])
+
+    def test_plan(self):
+        plan = json.loads(self.good("plan", *SMALL, "--set", "image.samples=2"))
+        self.assertEqual(plan["rays"], 4 * 64 * 36)
+        self.bad(2, "lower image.width", "plan", "--set", "image.width=32768", "--set", "image.height=32768",
+                 "--set", "image.samples=8")
+
+    def test_every_preset(self):
+        for line in self.good("presets").decode().splitlines():
+            self.good("render", *SMALL, "--preset", line.split()[0], "-o", self.path("a.png"))
+
+
+class Outputs(Case):
+    def test_unwritable(self):
+        self.bad(1, "No such file", "render", *SMALL, "-o", self.path("absent/a.png"))
+        self.bad(2, "is a directory", "render", *SMALL, "-o", self.folder)
+        self.bad(1, "No space left", "render", *SMALL, "-o", "/dev/full")
+        with open("/dev/full", "wb") as full:
+            self.bad(1, "No space left", "render", *SMALL, "-o", "-", stdout=full)
+        self.bad(1, "Not a directory", "render", *SMALL, "-o", self.write("file", "") + "/a.png")
+        self.assertEqual(os.listdir(self.folder), ["file"])
+
+    @unittest.skipIf(os.geteuid() == 0, "root writes anywhere")
+    def test_forbidden(self):
+        os.chmod(self.folder, 0o500)
+        self.bad(1, "Permission denied", "render", *SMALL, "-o", self.path("a.png"))
+        os.chmod(self.folder, 0o700)
+
+    def test_a_bad_scene_leaves_the_old_picture(self):
+        self.write("a.png", "old")
+        self.bad(2, "unknown field", "render", "--set", "no.such=1", "-o", self.path("a.png"))
+        self.assertEqual(self.read("a.png"), b"old")
+
+    def test_links_and_devices_stay(self):
+        self.write("a.png", "old")
+        os.symlink("a.png", self.path("link.png"))
+        self.good("render", *SMALL, "-o", self.path("link.png"))
+        self.assertTrue(os.path.islink(self.path("link.png")))
+        self.assertEqual(self.read("a.png")[:4], b"\x89PNG")
+        self.good("render", *SMALL, "-o", "/dev/null")
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
+
+    def test_terminal(self):
+        master, slave = pty.openpty()
+        self.bad(2, "terminal", "render", *SMALL, "-o", "-", stdout=slave)
+        os.close(slave)
+        os.close(master)
+
+    def test_a_reader_that_leaves(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        self.bad(1, "Broken pipe", "render", *SMALL, "-o", "-", stdout=writer)
+        os.close(writer)
+
+    def test_interrupt(self):
+        big = ["--set", "image.width=8000", "--set", "image.height=6000", "--set", "image.samples=2"]
+        process = subprocess.Popen([KERRD, "render", *big, "-o", self.path("a.png")], stderr=subprocess.PIPE)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT, errors)
+        self.assertIn(b"cancelled", errors)
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+class Devices(Case):
+    def test_unknown_device(self):
+        self.bad(2, "nonesuch", "render", *SMALL, "--device", "nonesuch", "-o", self.path("a.png"))
+        environment = dict(os.environ, KERRD_DEVICE="nonesuch")
+        self.bad(2, "nonesuch", "plan", env=environment)
+        self.good("plan", "--device", "auto", env=environment) # the option wins
+        self.bad(2, "there is no device", "plan", "--device", "99")
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_no_device(self):
+        nowhere = dict(os.environ, VK_ICD_FILENAMES="/nonexistent", VK_DRIVER_FILES="/nonexistent")
+        self.bad(1, "no Vulkan device", "render", *SMALL, "-o", self.path("a.png"), env=nowhere)
+        doctor = run("doctor", env=nowhere)
+        self.assertEqual(doctor.returncode, 1)
+        self.assertIn(b"apt install mesa-vulkan-drivers", doctor.stdout)
+
+    def test_doctor(self):
+        report = self.good("doctor").decode()
+        for words in ["device 0:", "Vulkan 1.", "choice:", "kernel cache:", "validation layer:", "render: 64 x 36",
+                      "verdict: usable"]:
+            self.assertIn(words, report)
+
+
+class Serve(Case):
+    def start(self, *args):
+        process = subprocess.Popen([KERRD, "serve", "--port", "0", *args], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.kill)
+        line = process.stdout.readline().decode()
+        self.assertTrue(line.startswith("kerrd: listening on http://127.0.0.1:"), line)
+        return process, line.split()[-1]
+
+    def test_signals_end_it_with_0(self):
+        for number in signal.SIGTERM, signal.SIGINT:
+            process, url = self.start()
+            with urllib.request.urlopen(url + "healthz", timeout=20) as answer:
+                self.assertEqual(answer.status, 200)
+            process.send_signal(number)
+            self.assertEqual(process.wait(timeout=30), 0, process.stderr.read())
+
+    def test_the_same_picture_as_render(self):
+        process, url = self.start()
+        scene = self.good("scene", *SMALL)
+        request = urllib.request.Request(url + "v1/render", data=scene, headers={"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=20) as answer:
+            served = answer.read()
+        self.assertEqual(text(served)[b"kerrd:scene"] + b"\n", scene)
+        process.terminate()
+        self.assertEqual(process.wait(timeout=30), 0)
+
+    def test_cannot_listen(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            self.bad(1, "", "serve", "--port", str(taken.getsockname()[1]))
+
+
+if __name__ == "__main__":
+    main(needs_device=True)
