@@ -30,6 +30,12 @@ layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
 #include "camera.glsl"
 #include "escape.glsl"
 
+float fallen(float w, float w0)
+{
+    float g = kd_drag_fall(w, cam.spin, cam.r_plus, cam.r_minus);
+    return FINITE ? g - kd_drag_fall(w0, cam.spin, cam.r_plus, cam.r_minus) : g;
+}
+
 void main()
 {
     uint x = gl_GlobalInvocationID.x, row = cam.row0 + gl_WorkGroupID.y;
@@ -49,6 +55,7 @@ void main()
     kd_state y;
     y.w = ray.w;
     y.dw = ray.dw;
+    float falling = (PHI || SKY) && kd_falls_in(m, y, ray.e, cam.horizon) ? 1.0 : 0.0;
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses;
@@ -59,7 +66,7 @@ void main()
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = y.w, sum = 0.0;
         if (PHI || SKY)
-            sum = 7.0 * kd_drag(m, ray.e, cam.spin, y.w);
+            sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.r_plus, cam.r_minus, falling);
         for (uint i = 0; i < STEPS; i += 4) {
             /* Boole's rule on each four steps. */
             for (uint j = 0; j < 4; j++) {
@@ -69,7 +76,8 @@ void main()
                 low = min(low, y.w);
                 high = max(high, y.w);
                 if (PHI || SKY)
-                    sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) * kd_drag(m, ray.e, cam.spin, y.w);
+                    sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) *
+                           kd_drag(m, y, ray.e, cam.spin, cam.r_plus, cam.r_minus, falling);
             }
         }
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
@@ -77,10 +85,10 @@ void main()
             chi += sum * h * (2.0 / 45.0);
             lens[at + n * cam.stride] = y.w;
             if (PHI)
-                lens[at + (ORDERS + n) * cam.stride] = -(psi + chi);
+                lens[at + (ORDERS + n) * cam.stride] = -(psi + chi + (falling > 0.0 ? fallen(y.w, ray.w) : 0.0));
             if (SKY) {
                 above = -above;
-                last = kd_path_crossing(m, y, psi, chi, above);
+                last = kd_path_crossing(m, y, psi, chi + (falling > 0.0 ? fallen(y.w, ray.w) : 0.0), above);
             }
         }
         psi += azimuth.half_;
@@ -88,7 +96,7 @@ void main()
     }
 
     if (SKY) {
-        kd_escape end = kd_path_escape(m, ray, last, cam.spin, cam.horizon);
+        kd_escape end = kd_path_escape(m, ray, last);
         at += (PHI ? 2 * ORDERS : ORDERS) * cam.stride;
         lens[at] = end.u;
         lens[at + cam.stride] = -end.phi;

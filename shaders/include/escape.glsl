@@ -1,7 +1,7 @@
 /* The end of a ray: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
  * n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
  *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
- * Albrecht's method again, for w and n together. Needs the specialisation constant STEPS. */
+ * Albrecht's method again, for w and n together. Needs the camera's push constants and the specialisation constant STEPS. */
 #ifndef KD_ESCAPE_GLSL
 #define KD_ESCAPE_GLSL
 
@@ -58,14 +58,21 @@ kd_path kd_path_step(kd_motion m, kd_path p, float h)
 }
 
 /* The drag over one step: Simpson's rule, with the middle from the quintic that fits w, w' and w'' at both ends. */
-float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h, float a)
+float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h)
 {
-    float mid = 0.5 * (p.y.w + q.y.w) + h * (5.0 / 32.0) * (p.v.w - q.v.w) +
-                h * h * (1.0 / 64.0) * (kd_path_pull(m, p.y).w + kd_path_pull(m, q.y).w);
-    return h * (1.0 / 6.0) * (kd_drag(m, ray.e, a, p.y.w) + 4.0 * kd_drag(m, ray.e, a, mid) + kd_drag(m, ray.e, a, q.y.w));
+    kd_state a, b, c;
+    a.w = p.y.w;
+    b.w = 0.5 * (p.y.w + q.y.w) + h * (5.0 / 32.0) * (p.v.w - q.v.w) +
+          h * h * (1.0 / 64.0) * (kd_path_pull(m, p.y).w + kd_path_pull(m, q.y).w);
+    c.w = q.y.w;
+    a.dw = b.dw = c.dw = 0.0;
+    return h * (1.0 / 6.0) *
+           (kd_drag(m, a, ray.e, cam.spin, cam.r_plus, cam.r_minus, 0.0) +
+            4.0 * kd_drag(m, b, ray.e, cam.spin, cam.r_plus, cam.r_minus, 0.0) +
+            kd_drag(m, c, ray.e, cam.spin, cam.r_plus, cam.r_minus, 0.0));
 }
 
-kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p, float a, float horizon)
+kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
 {
     kd_escape o;
     o.fate = KD_FATE_UNDECIDED;
@@ -77,7 +84,7 @@ kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p, float a, float hori
     /* Twelve half periods: beyond them only rays within 1e-13 of the critical curve still circle. */
     for (uint i = 0; i < 12 * STEPS; i++) {
         kd_path q = kd_path_step(m, p, h);
-        if (q.y.w >= horizon || isnan(q.y.w)) {
+        if (q.y.w >= cam.horizon || isnan(q.y.w)) {
             o.fate = KD_FATE_CAPTURED;
             break;
         }
@@ -91,12 +98,12 @@ kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p, float a, float hori
             }
             q = kd_path_step(m, p, s * h);
             vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
-            o.phi = atan(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h, a);
+            o.phi = atan(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
             o.u = n.z * inversesqrt(dot(n, n));
             o.fate = KD_FATE_ESCAPED;
             break;
         }
-        q.chi = p.chi + kd_path_drag(m, ray, p, q, h, a);
+        q.chi = p.chi + kd_path_drag(m, ray, p, q, h);
         p = q;
     }
     return o;

@@ -21,10 +21,33 @@ KD_FN kd_state kd_radial_step(kd_motion m, kd_state y, real h)
     return o;
 }
 
-/* d(chi)/dtau, the azimuth by which the hole drags the ray: a (2 E w - a L w^2) / (1 - 2w + a^2 w^2). */
-KD_FN real kd_drag(kd_motion m, real e, real a, real w)
+/* The azimuth chi by which the hole drags a ray, chi' = a (2 E w - a L w^2) / ((1 - r+ w)(1 - r- w)).
+ *
+ * On the way into the horizon chi' diverges as 1/(1 - r+ w), and its quadrature with it. What a falling ray leaves regular is
+ * the azimuth of ingoing Kerr-Schild coordinates: less a w' over the same denominator, whose integral is elementary and
+ * is put back by kd_drag_fall. falling: 1 for a ray that goes straight in, else 0. */
+KD_FN real kd_drag(kd_motion m, kd_state y, real e, real a, real r_plus, real r_minus, real falling)
 {
-    return a * w * (KD_R(2) * e - a * m.momentum * w) / (KD_R(1) - w * (KD_R(2) - a * a * w));
+    return a * (y.w * (KD_R(2) * e - a * m.momentum * y.w) - falling * y.dw) /
+           ((KD_R(1) - r_plus * y.w) * (KD_R(1) - r_minus * y.w));
+}
+
+/* Integral from 0 to w of a dw / ((1 - r+ w)(1 - r- w)) = a/(r+ - r-) log(1 + x), x = (r+ - r-) w / (1 - r+ w); by its
+ * series where x is small, as for a hole that is nearly extremal. */
+KD_FN real kd_drag_fall(real w, real a, real r_plus, real r_minus)
+{
+    real first = w / (KD_R(1) - r_plus * w), x = (r_plus - r_minus) * first, y = x / (KD_R(2) + x), y2 = y * y;
+    real series = KD_R(2) * (KD_R(1) + y2 * (KD_R(1.0 / 3.0) + y2 * (KD_R(1.0 / 5.0) + y2 * KD_R(1.0 / 7.0)))) / (KD_R(2) + x);
+    return a * first * (x < KD_R(0.25) ? series : log(KD_R(1) + x) / x);
+}
+
+/* Whether a ray at w, falling (dw > 0), meets no turning point before the horizon: radial_closed.glsl has the argument. */
+KD_FN bool kd_falls_in(kd_motion m, kd_state y, real e, real horizon)
+{
+    real disc = sqrt(max(KD_R(9) * m.k * m.k + KD_R(8) * m.d * m.a2, KD_R(0)));
+    real wm = KD_R(-2) * m.a2 / (KD_R(3) * m.k + disc);
+    real rm = e * e + wm * wm * (m.a2 + wm * (KD_R(2) * m.k - m.d * wm));
+    return y.dw > KD_R(0) && (m.a2 >= KD_R(0) || wm >= horizon || y.w > wm || rm > KD_R(0));
 }
 
 #endif
