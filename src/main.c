@@ -12,7 +12,7 @@ static const struct command {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    { "render", kd_cli_render }, { "plan", kd_cli_plan },   { "scene", kd_cli_scene },
+    { "render", kd_cli_render },   { "plan", kd_cli_plan },   { "scene", kd_cli_scene },
     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
 };
 
@@ -30,7 +30,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
             if (strcmp(text, commands[i].name) == 0)
                 choice->command = &commands[i];
         if (!choice->command)
-            argp_error(state, "there is no command \"%s\"; known are render, plan, scene, presets, serve, doctor",
+            argp_error(state,
+                       "there is no command \"%s\"; known are render, plan, scene, presets, serve, doctor",
                        text);
         choice->index = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
@@ -62,7 +63,7 @@ int main(int argc, char **argv)
     char name[32];
 
     argp_err_exit_status = KD_EXIT_USAGE;
-    signal(SIGPIPE, SIG_IGN); /* a reader that went away is an error with a message, and no end for a server */
+    signal(SIGPIPE, SIG_IGN); /* a reader that left is an error with a message, and no end for a server */
     if (argc < 1)
         return KD_EXIT_USAGE;
     argv[0] = zero; /* as messages name the program, wherever it lies */

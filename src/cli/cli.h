@@ -1,7 +1,7 @@
 /* What the subcommands of kerrd share. Main thread only.
  *
- * A subcommand gets its own arguments, argv[0] being "kerrd NAME", and returns an exit code. Usage errors leave through
- * argp with KD_EXIT_USAGE. */
+ * A subcommand gets its own arguments, argv[0] being "kerrd NAME", and returns an exit code. Usage errors
+ * leave through argp with KD_EXIT_USAGE. */
 #ifndef KD_CLI_CLI_H
 #define KD_CLI_CLI_H
 

@@ -23,18 +23,22 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-static double mib(uint64_t bytes) { return (double)bytes / (1 << 20); }
+static double mib(uint64_t bytes)
+{
+    return (double)bytes / (1 << 20);
+}
 
 static void print_device(const struct kd_vk_info *info)
 {
     uint32_t v = info->api_version;
     printf("device %u: %s\n", info->index, info->name);
-    printf("  %s, Vulkan %u.%u.%u, driver %s %s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f, v >> 12 & 0x3ff,
-           v & 0xfff, info->driver, info->driver_info);
+    printf("  %s, Vulkan %u.%u.%u, driver %s %s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f,
+           v >> 12 & 0x3ff, v & 0xfff, info->driver, info->driver_info);
     printf("  memory %.0f MiB, one binding %.0f MiB, one allocation %.0f MiB\n", mib(info->heap_bytes),
            mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
-    printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n", info->subgroup_size,
-           info->max_workgroup, info->max_push_bytes, info->float64 ? "yes" : "no", info->timestamps ? "yes" : "no");
+    printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n",
+           info->subgroup_size, info->max_workgroup, info->max_push_bytes, info->float64 ? "yes" : "no",
+           info->timestamps ? "yes" : "no");
     printf("  %s%s\n", info->missing[0] ? "not usable: lacks " : "usable", info->missing);
 }
 
@@ -61,7 +65,8 @@ static bool print_devices(struct kd_error *error)
 static enum kd_status print_choice(const char *device, struct kd_error *error)
 {
     struct kd_vk *vk = NULL;
-    enum kd_status status = kd_vk_create(&(struct kd_vk_params){ .device = device, .cache_dir = "" }, &vk, error);
+    enum kd_status status =
+        kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "" }, &vk, error);
     if (!status)
         printf("choice: %s\n", kd_vk_choice(vk));
     kd_vk_destroy(vk);
@@ -77,7 +82,8 @@ static void print_cache(void)
             : home && *home      ? asprintf(&path, "%s/.cache/kerrd", home)
                                  : -1;
     if (n < 0)
-        printf("kernel cache: none, since neither XDG_CACHE_HOME nor HOME is set; each start compiles anew\n");
+        printf(
+            "kernel cache: none, since neither XDG_CACHE_HOME nor HOME is set; each start compiles anew\n");
     else if (access(path, F_OK) && errno == ENOENT)
         printf("kernel cache: %s, not there yet\n", path);
     else if (access(path, R_OK | W_OK | X_OK))
@@ -93,8 +99,10 @@ static void print_validation(const char *device)
 {
     struct kd_vk *vk = NULL;
     struct kd_error error = { 0 };
-    if (kd_vk_create(&(struct kd_vk_params){ .device = device, .cache_dir = "", .validate = true }, &vk, &error))
-        printf("validation layer: no (%s); it is for developers: apt install vulkan-validationlayers\n", error.message);
+    if (kd_vk_create(&(struct kd_vk_params) { .device = device, .cache_dir = "", .validate = true }, &vk,
+                     &error))
+        printf("validation layer: no (%s); it is for developers: apt install vulkan-validationlayers\n",
+               error.message);
     else
         printf("validation layer: present (KERRD_VALIDATE=1 turns it on)\n");
     kd_vk_destroy(vk);
@@ -117,8 +125,8 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
         double started = kd_progress_clock();
         status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error);
         if (!status)
-            printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n", 1e3 * (kd_progress_clock() - started),
-                   i ? "" : ", kernels made on the way");
+            printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n",
+                   1e3 * (kd_progress_clock() - started), i ? "" : ", kernels made on the way");
         kd_frame_finish(&frame);
     }
     return status;
@@ -127,7 +135,8 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
 static enum kd_status try_render(const char *device, struct kd_error *error)
 {
     struct kd_renderer *renderer = NULL;
-    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params){ .device = device }, &renderer, error);
+    enum kd_status status =
+        kd_renderer_create(&(struct kd_renderer_params) { .device = device }, &renderer, error);
     if (status)
         return status;
     status = draw(renderer, error);
@@ -143,10 +152,10 @@ int kd_cli_doctor(int argc, char **argv)
                                                   { &kd_cli_log_argp, 0, NULL, 0 },
                                                   { 0 } };
     static const struct argp argp = {
-        NULL, parse, NULL,
-        "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
-        "The exit code is 0 if kerrd can work here and 1 if it cannot.",
-        children, NULL, NULL,
+        .parser = parse,
+        .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
+               "The exit code is 0 if kerrd can work here and 1 if it cannot.",
+        .children = children,
     };
     const char *device = NULL;
     struct kd_error error = { 0 };

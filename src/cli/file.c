@@ -9,7 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static enum kd_status read_fd(int fd, const char *name, size_t most, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status read_fd(int fd, const char *name, size_t most, struct kd_buffer *out,
+                              struct kd_error *error)
 {
     uint8_t chunk[64 * 1024];
     for (;;) {
@@ -42,14 +43,14 @@ enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out
 
 /* Where the bytes go in the end: the file behind symbolic links, since rename would replace the link. */
 struct target {
-    char *path;     /* malloc'd */
-    bool in_place;  /* exists and is no regular file: must not be renamed over */
+    char *path;    /* malloc'd */
+    bool in_place; /* exists and is no regular file: must not be renamed over */
 };
 
 static enum kd_status find_target(const char *path, struct target *out, struct kd_error *error)
 {
     struct stat info;
-    *out = (struct target){ 0 };
+    *out = (struct target) { 0 };
     if (stat(path, &info) == 0) {
         if (S_ISDIR(info.st_mode))
             return kd_error_set(error, KD_EINVAL, "cannot write %s: it is a directory", path);
@@ -90,8 +91,9 @@ enum kd_status kd_file_check(const char *path, struct kd_error *error)
 {
     if (strcmp(path, "-") == 0) {
         if (isatty(STDOUT_FILENO))
-            return kd_error_set(error, KD_EINVAL, "-o - would write a picture to the terminal: redirect it, or "
-                                                  "name a file");
+            return kd_error_set(error, KD_EINVAL,
+                                "-o - would write a picture to the terminal: redirect it, or "
+                                "name a file");
         return KD_OK;
     }
     struct target target;
@@ -155,9 +157,9 @@ static bool write_in_place(const char *path, const struct kd_buffer *data)
 enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error)
 {
     if (strcmp(path, "-") == 0)
-        return write_all(STDOUT_FILENO, data) ? KD_OK
-                                              : kd_error_set(error, KD_EIO, "cannot write to standard output: %s",
-                                                             strerror(errno));
+        return write_all(STDOUT_FILENO, data)
+                   ? KD_OK
+                   : kd_error_set(error, KD_EIO, "cannot write to standard output: %s", strerror(errno));
     struct target target;
     enum kd_status status = find_target(path, &target, error);
     if (status)

@@ -11,7 +11,7 @@ enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out
 /* Will kd_file_write be able to? Asked before a long render rather than after it. A terminal is refused. */
 enum kd_status kd_file_check(const char *path, struct kd_error *error);
 
-/* Under a temporary name, then renamed: nobody ever sees half a file. A device or a pipe is written as it is. */
+/* Under a temporary name, then renamed: nobody ever sees half a file. A device or a pipe is written to. */
 enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error);
 
 #endif

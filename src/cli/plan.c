@@ -19,7 +19,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static enum kd_status plan_scene(const struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status plan_scene(const struct arguments *arguments, struct kd_buffer *out,
+                                 struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_capacity capacity;
@@ -27,7 +28,8 @@ static enum kd_status plan_scene(const struct arguments *arguments, struct kd_bu
     struct kd_renderer *renderer = NULL;
     enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
     if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params){ .device = arguments->device }, &renderer, error);
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer,
+                                    error);
     if (status)
         return status;
     kd_renderer_capacity(renderer, &capacity);
@@ -45,9 +47,10 @@ int kd_cli_plan(int argc, char **argv)
                                                   { &kd_cli_log_argp, 0, NULL, 0 },
                                                   { 0 } };
     static const struct argp argp = {
-        NULL, parse, KD_SCENE_ARGS_DOC,
-        "Print what rendering a scene takes: passes, rays, bytes, estimated time, approximations.", children, NULL,
-        NULL,
+        .parser = parse,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Print what rendering a scene takes: passes, rays, bytes, estimated time, approximations.",
+        .children = children,
     };
     struct arguments arguments = { 0 };
     struct kd_buffer out = { 0 };

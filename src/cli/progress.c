@@ -21,7 +21,7 @@ double kd_progress_clock(void)
 
 void kd_progress_init(struct kd_progress *progress)
 {
-    *progress = (struct kd_progress){ .started = kd_progress_clock(), .terminal = isatty(STDERR_FILENO) };
+    *progress = (struct kd_progress) { .started = kd_progress_clock(), .terminal = isatty(STDERR_FILENO) };
 }
 
 static void draw(double fraction, double elapsed)
@@ -56,7 +56,10 @@ void kd_progress_finish(struct kd_progress *progress)
     progress->visible = false;
 }
 
-static void on_signal(int number) { caught = number; }
+static void on_signal(int number)
+{
+    caught = number;
+}
 
 void kd_progress_catch_signals(void)
 {

@@ -18,7 +18,7 @@ void kd_progress_finish(struct kd_progress *progress);    /* clears the bar */
 
 double kd_progress_clock(void); /* seconds, monotonic */
 
-/* From now on the first SIGINT or SIGTERM stops the render by way of kd_progress_update; a second one kills. */
+/* From now on the first SIGINT or SIGTERM stops the render through kd_progress_update; a second one kills. */
 void kd_progress_catch_signals(void);
 /* Die of the signal that was caught, as the shell expects; returns if there was none. */
 void kd_progress_reraise(void);

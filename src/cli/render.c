@@ -60,7 +60,8 @@ static enum kd_status draw(struct work *work, const struct kd_scene *scene, stru
     struct kd_progress progress;
     kd_progress_init(&progress);
     kd_progress_catch_signals();
-    status = kd_render(work->renderer, scene, &work->plan, kd_progress_update, &progress, &work->frame, error);
+    status =
+        kd_render(work->renderer, scene, &work->plan, kd_progress_update, &progress, &work->frame, error);
     kd_progress_finish(&progress);
     work->render_ms = 1e3 * (kd_progress_clock() - progress.started);
     if (status == KD_EDEVICE)
@@ -72,17 +73,24 @@ static enum kd_status save(struct work *work, const struct kd_scene *scene, cons
                            struct kd_error *error)
 {
     double started = kd_progress_clock();
-    enum kd_status status = kd_picture_encode(&work->frame, scene, &work->plan,
-                                              kd_renderer_device_name(work->renderer), COMPRESSION, &work->png, error);
+    enum kd_status status =
+        kd_picture_encode(&work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer),
+                          COMPRESSION, &work->png, error);
     work->encode_ms = 1e3 * (kd_progress_clock() - started);
     return status ? status : kd_file_write(path, &work->png, error);
 }
 
-static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene,
+                                  struct kd_error *error)
 {
     const struct kd_stats stats = {
-        .device = kd_renderer_device_name(work->renderer), .scene = scene, .plan = &work->plan,
-        .frame = &work->frame, .render_ms = work->render_ms, .encode_ms = work->encode_ms, .bytes = work->png.size,
+        .device = kd_renderer_device_name(work->renderer),
+        .scene = scene,
+        .plan = &work->plan,
+        .frame = &work->frame,
+        .render_ms = work->render_ms,
+        .encode_ms = work->encode_ms,
+        .bytes = work->png.size,
     };
     char *text = kd_stats_json(&stats);
     if (!text)
@@ -100,7 +108,8 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     if (!status)
         status = kd_file_check(arguments->output, error);
     if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params){ .device = arguments->device }, &work.renderer, error);
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device },
+                                    &work.renderer, error);
     if (!status)
         status = draw(&work, &scene, error);
     if (!status)
@@ -120,11 +129,13 @@ int kd_cli_render(int argc, char **argv)
                                                   { &kd_cli_log_argp, 0, NULL, 0 },
                                                   { 0 } };
     static const struct argp argp = {
-        table, parse, KD_SCENE_ARGS_DOC,
-        "Render a scene to a PNG file. Without a scene, the default one.\v"
-        "Merged in this order: defaults or --preset; SCENE.json, or the scene of --from; every --set. "
-        "The picture carries its scene: --from renders it again.",
-        children, NULL, NULL,
+        .options = table,
+        .parser = parse,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Render a scene to a PNG file. Without a scene, the default one.\v"
+               "Merged in this order: defaults or --preset; SCENE.json, or the scene of --from; every --set. "
+               "The picture carries its scene: --from renders it again.",
+        .children = children,
     };
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };

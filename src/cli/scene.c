@@ -41,8 +41,11 @@ int kd_cli_scene(int argc, char **argv)
                                                   { &kd_cli_log_argp, 0, NULL, 0 },
                                                   { 0 } };
     static const struct argp argp = {
-        scene_table, parse_scene, KD_SCENE_ARGS_DOC,
-        "Print the merged scene in canonical form, every field named.", children, NULL, NULL,
+        .options = scene_table,
+        .parser = parse_scene,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Print the merged scene in canonical form, every field named.",
+        .children = children,
     };
     struct arguments arguments = { 0 };
     struct kd_scene scene;
@@ -75,8 +78,11 @@ static error_t parse_presets(int key, char *text, struct argp_state *state)
 int kd_cli_presets(int argc, char **argv)
 {
     static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
-    static const struct argp argp = { NULL, parse_presets, NULL, "List the scenes that kerrd knows by name.",
-                                      children, NULL, NULL };
+    static const struct argp argp = {
+        .parser = parse_presets,
+        .doc = "List the scenes that kerrd knows by name.",
+        .children = children,
+    };
     argp_parse(&argp, argc, argv, 0, NULL, NULL);
     for (size_t i = 0; i < kd_scene_preset_count(); i++)
         printf("%-16s %s\n", kd_scene_preset_name(i), kd_scene_preset_title(i));

@@ -31,7 +31,8 @@ static void add_set(struct kd_scene_options *options, const char *text, struct a
 static void check_sources(const struct kd_scene_options *options, struct argp_state *state)
 {
     if (options->from && (options->document || options->preset))
-        argp_error(state, "a picture holds every field: --from excludes %s", options->document ? "SCENE" : "--preset");
+        argp_error(state, "a picture holds every field: --from excludes %s",
+                   options->document ? "SCENE" : "--preset");
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -57,7 +58,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 const struct argp kd_scene_options_argp = { .options = options_table, .parser = parse };
 
-static const char *shown(const char *path) { return strcmp(path, "-") ? path : "standard input"; }
+static const char *shown(const char *path)
+{
+    return strcmp(path, "-") ? path : "standard input";
+}
 
 static enum kd_status merge_document(const char *path, struct kd_scene *scene, struct kd_error *error)
 {
@@ -116,5 +120,5 @@ enum kd_status kd_scene_options_load(const struct kd_scene_options *options, str
 void kd_scene_options_finish(struct kd_scene_options *options)
 {
     free(options->set);
-    *options = (struct kd_scene_options){ 0 };
+    *options = (struct kd_scene_options) { 0 };
 }

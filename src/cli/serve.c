@@ -97,11 +97,13 @@ int kd_cli_serve(int argc, char **argv)
                                                   { &kd_cli_log_argp, 0, NULL, 0 },
                                                   { 0 } };
     static const struct argp argp = {
-        table, parse, NULL,
-        "Serve pictures over HTTP.\v"
-        "SIGTERM or SIGINT: /readyz fails at once, running and queued renders finish, then the exit code is 0. "
-        "It is 1 when the device was lost: start it again.",
-        children, NULL, NULL,
+        .options = table,
+        .parser = parse,
+        .doc =
+            "Serve pictures over HTTP.\v"
+            "SIGTERM or SIGINT: /readyz fails at once, running and queued renders finish, then the exit code "
+            "is 0. It is 1 when the device was lost: start it again.",
+        .children = children,
     };
     struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16 };
     struct kd_error error = { 0 };

@@ -12,15 +12,15 @@
 #define MAX_TEXT (1u << 20)
 #define MAX_CHUNKS 100 /* of text: a compressed one of 1 KiB can still unfold to MAX_TEXT */
 
-/* libpng leaves a failing call by longjmp. All that such a call changes lives here, in the frame of the function
- * that cleans up, so neither a clobbered register nor a skipped free can follow from a jump. */
+/* libpng leaves a failing call by longjmp. All that such a call changes lives here, in the frame of the
+ * function that cleans up, so neither a clobbered register nor a skipped free can follow from a jump. */
 struct job {
     png_structp png;
     png_infop info;
     bool no_memory;
     char message[160];
-    struct kd_buffer *sink;              /* encoding */
-    const uint8_t *source;               /* decoding */
+    struct kd_buffer *sink; /* encoding */
+    const uint8_t *source;  /* decoding */
     size_t left, size;
     struct kd_png *picture;
 };
@@ -64,7 +64,10 @@ static void sink_write(png_structp png, png_bytep data, size_t size)
     }
 }
 
-static void sink_flush(png_structp png) { (void)png; }
+static void sink_flush(png_structp png)
+{
+    (void)png;
+}
 
 static bool key_ok(const char *key)
 {
@@ -90,8 +93,8 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
     for (size_t i = 0; i < params->n_text; i++) {
         const struct kd_png_text *text = &params->text[i];
         if (!key_ok(text->key))
-            return kd_error_set(error, KD_EINVAL, "PNG text key \"%.80s\": 1 to 79 printable ASCII characters",
-                                text->key);
+            return kd_error_set(error, KD_EINVAL,
+                                "PNG text key \"%.80s\": 1 to 79 printable ASCII characters", text->key);
         if (!kd_utf8_valid(text->value))
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
@@ -143,18 +146,20 @@ static bool encode(struct job *job, const struct kd_png_params *params)
     return true;
 }
 
-enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out,
+                             struct kd_error *error)
 {
     enum kd_status status = check_params(params, error);
     if (status)
         return status;
     size_t start = out->size;
     struct job job = { .sink = out };
-    job.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
+    job.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
+                                        job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     if (!job.info)
         status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG encoder");
-    else if (!encode(&job, params))
+    else if (!encode(&job, params) || job.no_memory)
         status = job.no_memory ? kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels",
                                               params->width, params->height)
                                : kd_error_set(error, KD_EINVAL, "cannot encode the PNG: %s", job.message);
@@ -185,7 +190,8 @@ static enum kd_status take_text(struct job *job)
     size_t total = 0;
     for (int i = 0; i < n; i++) {
         bool utf8 = text[i].compression >= PNG_ITXT_COMPRESSION_NONE;
-        total += kd_latin1_size(text[i].key) + (utf8 ? strlen(text[i].text) + 1 : kd_latin1_size(text[i].text));
+        total +=
+            kd_latin1_size(text[i].key) + (utf8 ? strlen(text[i].text) + 1 : kd_latin1_size(text[i].text));
         if (total > MAX_TEXT + 2u * MAX_CHUNKS || (utf8 && !kd_utf8_valid(text[i].text)))
             return KD_EINVAL;
     }
@@ -225,8 +231,8 @@ static int set_transforms(struct job *job)
 static void read_pixels(struct job *job)
 {
     struct kd_png *picture = job->picture;
-    /* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused before
-     * it costs memory. */
+    /* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused
+     * before it costs memory. */
     uint64_t packed = (uint64_t)png_get_rowbytes(job->png, job->info) * picture->height;
     if (packed / 1032 > job->size)
         png_error(job->png, "the file is too short for its width and height");
@@ -240,7 +246,8 @@ static void read_pixels(struct job *job)
         job->no_memory = true;
         png_error(job->png, "out of memory");
     }
-    memset(picture->pixels, 0, stride * picture->height); /* interlaced passes read what is there before they write */
+    /* Interlaced passes read what is there before they write. */
+    memset(picture->pixels, 0, stride * picture->height);
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < picture->height; y++)
             png_read_row(job->png, (png_bytep)picture->pixels + y * stride, NULL);
@@ -268,8 +275,8 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Before libpng sees it: for the sake of a sentence that names what is wrong, and because libpng 1.6 allocates
- * what a text chunk's length field says, up to 2 GiB, before it looks whether that much follows. */
+/* Before libpng sees it: for the sake of a sentence that names what is wrong, and because libpng 1.6
+ * allocates what a text chunk's length field says, up to 2 GiB, before it looks whether that much follows. */
 static enum kd_status check_header(const uint8_t *data, size_t size, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
@@ -278,13 +285,15 @@ static enum kd_status check_header(const uint8_t *data, size_t size, struct kd_e
     if (size < 33)
         return kd_error_set(error, KD_EINVAL, "the PNG file ends inside its header");
     uint32_t width = big_endian(data + 16), height = big_endian(data + 20);
-    if (memcmp(data + 12, "IHDR", 4) == 0 && (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE))
+    if (memcmp(data + 12, "IHDR", 4) == 0 &&
+        (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE))
         return kd_error_set(error, KD_EINVAL, "a PNG of %u x %u pixels: each side is 1 to %u", width, height,
                             MAX_SIDE);
     for (size_t at = 8; at < size;) {
         size_t room = size - at;
         if (room < 12 || big_endian(data + at) > room - 12)
-            return kd_error_set(error, KD_EINVAL, "damaged PNG file: the chunk at byte %zu ends past the file", at);
+            return kd_error_set(error, KD_EINVAL,
+                                "damaged PNG file: the chunk at byte %zu ends past the file", at);
         if (memcmp(data + at + 4, "IEND", 4) == 0)
             break;
         at += 12 + (size_t)big_endian(data + at);
@@ -294,16 +303,18 @@ static enum kd_status check_header(const uint8_t *data, size_t size, struct kd_e
 
 enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error)
 {
-    *out = (struct kd_png){ 0 };
+    *out = (struct kd_png) { 0 };
     enum kd_status status = check_header(data, size, error);
     if (status)
         return status;
     struct job job = { .source = data, .left = size, .size = size, .picture = out };
-    job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
+    job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
+                                       job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool done = job.info && decode(&job);
-    if (!job.info || (!done && job.no_memory))
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels", out->width, out->height);
+    if (!job.info || job.no_memory) /* though libpng carries on without a text that it cannot hold */
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels", out->width,
+                              out->height);
     else if (!done)
         status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %s", job.message);
     else if ((status = take_text(&job)) == KD_EINVAL)
@@ -328,5 +339,5 @@ void kd_png_finish(struct kd_png *png)
 {
     free(png->pixels);
     free(png->text);
-    *png = (struct kd_png){ 0 };
+    *png = (struct kd_png) { 0 };
 }

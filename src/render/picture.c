@@ -25,7 +25,8 @@ enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_s
     if (!status)
         status = join_approximations(plan, &approximations);
     if (status) {
-        kd_error_set(error, status, "cannot describe the scene inside its picture: %s", kd_status_name(status));
+        kd_error_set(error, status, "cannot describe the scene inside its picture: %s",
+                     kd_status_name(status));
         goto done;
     }
     const struct kd_png_text text[] = {
@@ -66,8 +67,9 @@ enum kd_status kd_picture_scene(const void *png, size_t size, struct kd_scene *o
         if (!status)
             *out = scene;
     } else {
-        status = kd_error_set(error, KD_EINVAL, "the picture holds no scene: it was not made by kerrd, or its text "
-                                                "was stripped");
+        status = kd_error_set(error, KD_EINVAL,
+                              "the picture holds no scene: it was not made by kerrd, or its text "
+                              "was stripped");
     }
     kd_png_finish(&picture);
     return status;

@@ -28,7 +28,7 @@ static void the_scene_comes_back(void **state)
     kd_scene_defaults(&scene);
     assert_int_equal(kd_scene_set(&scene, "spacetime.spin", "0.123456789012345678", &error), KD_OK);
     assert_int_equal(kd_scene_set(&scene, "camera.r", "50", &error), KD_OK);
-    encode(&scene, &(struct kd_plan){ 0 }, &file);
+    encode(&scene, &(struct kd_plan) { 0 }, &file);
     if (kd_picture_scene(file.data, file.size, &back, &error))
         fail_msg("%s", error.message);
     assert_int_equal(kd_scene_hash(&scene, before), KD_OK);
@@ -65,7 +65,12 @@ static void refuse(const char *key, const char *value, const char *word)
     static const uint8_t pixels[3];
     const struct kd_png_text text = { key, value };
     const struct kd_png_params params = {
-        .width = 1, .height = 1, .bit_depth = 8, .pixels = pixels, .text = &text, .n_text = 1,
+        .width = 1,
+        .height = 1,
+        .bit_depth = 8,
+        .pixels = pixels,
+        .text = &text,
+        .n_text = 1,
     };
     struct kd_buffer file = { 0 };
     struct kd_error error = { 0 };

@@ -11,7 +11,10 @@
 #include <zlib.h>
 
 static uint32_t seed = 99;
-static uint32_t random_bits(void) { return (seed = seed * 1664525u + 1013904223u) >> 8; }
+static uint32_t random_bits(void)
+{
+    return (seed = seed * 1664525u + 1013904223u) >> 8;
+}
 
 static void sample(struct kd_buffer *file, int depth)
 {
@@ -20,7 +23,13 @@ static void sample(struct kd_buffer *file, int depth)
         pixels[i] = (uint8_t)random_bits();
     const struct kd_png_text text[] = { { "kerrd:scene", "{}" }, { "Title", "\xe2\x88\x9e" } };
     struct kd_png_params params = {
-        .width = 8, .height = 6, .bit_depth = depth, .compression = 6, .pixels = pixels, .text = text, .n_text = 2,
+        .width = 8,
+        .height = 6,
+        .bit_depth = depth,
+        .compression = 6,
+        .pixels = pixels,
+        .text = text,
+        .n_text = 2,
     };
     assert_int_equal(kd_png_encode(&params, file, NULL), KD_OK);
 }

@@ -1,4 +1,5 @@
-/* What kd_png_encode writes, kd_png_decode reads back; other colour types, written by libpng itself, come as RGB. */
+/* What kd_png_encode writes, kd_png_decode reads back; other colour types, written by libpng itself, come as
+ * RGB. */
 #include "image/png.h"
 
 #include <setjmp.h>
@@ -13,7 +14,10 @@
 #include <png.h>
 
 static uint32_t seed = 12345;
-static uint32_t random_bits(void) { return seed = seed * 1664525u + 1013904223u; }
+static uint32_t random_bits(void)
+{
+    return seed = seed * 1664525u + 1013904223u;
+}
 
 static void fill_random(void *to, size_t size)
 {
@@ -32,7 +36,11 @@ static void round_trip(uint32_t width, uint32_t height, int depth, int level)
     assert_non_null(pixels);
     fill_random(pixels, size);
     struct kd_png_params params = {
-        .width = width, .height = height, .bit_depth = depth, .compression = level, .pixels = pixels,
+        .width = width,
+        .height = height,
+        .bit_depth = depth,
+        .compression = level,
+        .pixels = pixels,
     };
     assert_int_equal(kd_png_encode(&params, &file, &error), KD_OK);
     assert_int_equal(kd_png_decode(file.data, file.size, &png, &error), KD_OK);
@@ -74,7 +82,13 @@ static void text_survives(void **state)
         { "lines", "one\ntwo\n" },
     };
     struct kd_png_params params = {
-        .width = 2, .height = 2, .bit_depth = 8, .compression = 6, .pixels = pixels, .text = text, .n_text = 5,
+        .width = 2,
+        .height = 2,
+        .bit_depth = 8,
+        .compression = 6,
+        .pixels = pixels,
+        .text = text,
+        .n_text = 5,
     };
     struct kd_buffer file = { 0 };
     struct kd_png png;
@@ -92,13 +106,27 @@ static void text_survives(void **state)
     kd_buffer_finish(&file);
 }
 
+/* A round trip cannot see bytes swapped both ways; an uncompressed file shows them. */
+static void sixteen_bits_are_big_endian(void **state)
+{
+    (void)state;
+    static const uint16_t pixel[3] = { 0x0102, 0x0304, 0x0506 };
+    const struct kd_png_params params = { .width = 1, .height = 1, .bit_depth = 16, .pixels = pixel };
+    struct kd_buffer file = { 0 };
+    assert_int_equal(kd_png_encode(&params, &file, NULL), KD_OK);
+    assert_non_null(memmem(file.data, file.size, "\0\1\2\3\4\5\6", 7));
+    kd_buffer_finish(&file);
+}
+
 /* Same input, same bytes; and a buffer that held something keeps it, also when encoding fails. */
 static void appends_the_same_bytes(void **state)
 {
     (void)state;
     uint8_t pixels[3 * 16 * 9];
     fill_random(pixels, sizeof pixels);
-    struct kd_png_params params = { .width = 16, .height = 9, .bit_depth = 8, .compression = 1, .pixels = pixels };
+    struct kd_png_params params = {
+        .width = 16, .height = 9, .bit_depth = 8, .compression = 1, .pixels = pixels
+    };
     struct kd_buffer a = { 0 }, b = { 0 };
     struct kd_error error = { 0 };
 
@@ -129,7 +157,8 @@ static void bad_parameters_are_refused(void **state)
 {
     (void)state;
     static const uint8_t pixels[12];
-#define WITH(...) ((struct kd_png_params){ .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels, __VA_ARGS__ })
+#define WITH(...)                                                                                            \
+    ((struct kd_png_params) { .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels, __VA_ARGS__ })
     refused(WITH(.width = 0), "0 x 2");
     refused(WITH(.height = 0), "2 x 0");
     refused(WITH(.width = 32769), "32769");
@@ -168,7 +197,8 @@ static void write_other(struct kd_buffer *file, int type, int depth, int interla
     png_infop info = png_create_info_struct(png);
     assert_false(setjmp(png_jmpbuf(png)));
     png_init_io(png, stream);
-    png_set_IHDR(png, info, 13, 11, depth, type, interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, 13, 11, depth, type, interlace, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_color palette[2] = { { 10, 20, 30 }, { 200, 210, 220 } };
     if (type == PNG_COLOR_TYPE_PALETTE)
         png_set_PLTE(png, info, palette, 2);
@@ -245,7 +275,11 @@ static void time_of_a_live_frame(void **state)
             pixels[3 * i + c] = (uint8_t)(255 / (1 + (x * x + y * y) / (5000 << c)));
     }
     struct kd_png_params params = {
-        .width = WIDTH, .height = HEIGHT, .bit_depth = 8, .compression = 1, .pixels = pixels,
+        .width = WIDTH,
+        .height = HEIGHT,
+        .bit_depth = 8,
+        .compression = 1,
+        .pixels = pixels,
     };
     double best = 1e9;
     size_t size = 0;
@@ -269,6 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_survive),
         cmocka_unit_test(text_survives),
+        cmocka_unit_test(sixteen_bits_are_big_endian),
         cmocka_unit_test(appends_the_same_bytes),
         cmocka_unit_test(bad_parameters_are_refused),
         cmocka_unit_test(every_colour_type_is_read),

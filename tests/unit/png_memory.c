@@ -1,0 +1,115 @@
+/* Each allocation fails in turn: KD_ENOMEM, the output buffer as it was, nothing leaked. */
+#include "image/png.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* The linker sends the module's own calls here (--wrap); libpng allocates through the module. */
+void *__real_malloc(size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_realloc(void *old, size_t size);
+
+static int countdown = -1; /* allocations until the one that fails; negative: none does */
+
+static int fails(void)
+{
+    return countdown >= 0 && countdown-- == 0;
+}
+void *__wrap_malloc(size_t size)
+{
+    return fails() ? NULL : __real_malloc(size);
+}
+void *__wrap_realloc(void *old, size_t size)
+{
+    return fails() ? NULL : __real_realloc(old, size);
+}
+
+enum { SIDE = 64 };
+
+static enum kd_status encode(struct kd_buffer *out, struct kd_error *error)
+{
+    static uint16_t pixels[3 * SIDE * SIDE];
+    for (uint32_t i = 0; i < 3 * SIDE * SIDE; i++)
+        pixels[i] = (uint16_t)(i * 2654435761u >> 16);
+    const struct kd_png_text text[] = { { "one", "1" }, { "two", "\xe2\x88\x9e" } };
+    const struct kd_png_params params = {
+        .width = SIDE,
+        .height = SIDE,
+        .bit_depth = 16,
+        .compression = 6,
+        .pixels = pixels,
+        .text = text,
+        .n_text = 2,
+    };
+    return kd_png_encode(&params, out, error);
+}
+
+static void encoding(void **state)
+{
+    (void)state;
+    int n = 0;
+    for (;; n++) {
+        struct kd_buffer out = { 0 };
+        struct kd_error error = { 0 };
+        countdown = -1;
+        assert_int_equal(kd_buffer_append(&out, "head", 4), KD_OK);
+        countdown = n;
+        enum kd_status status = encode(&out, &error);
+        int reached = countdown < 0;
+        countdown = -1;
+        if (!reached) {
+            assert_int_equal(status, KD_OK);
+            kd_buffer_finish(&out);
+            break;
+        }
+        assert_int_equal(status, KD_ENOMEM);
+        assert_true(error.message[0]);
+        assert_int_equal(out.size, 4);
+        assert_memory_equal(out.data, "head", 4);
+        kd_buffer_finish(&out);
+    }
+    print_message("%d allocations\n", n);
+    assert_true(n > 5);
+}
+
+static void decoding(void **state)
+{
+    (void)state;
+    struct kd_buffer file = { 0 };
+    int n = 0;
+    assert_int_equal(encode(&file, NULL), KD_OK);
+    for (;; n++) {
+        struct kd_png png;
+        struct kd_error error = { 0 };
+        countdown = n;
+        enum kd_status status = kd_png_decode(file.data, file.size, &png, &error);
+        int reached = countdown < 0;
+        countdown = -1;
+        if (!reached) {
+            assert_int_equal(status, KD_OK);
+            kd_png_finish(&png);
+            break;
+        }
+        if (status != KD_ENOMEM)
+            fail_msg("allocation %d failed: status %d, \"%s\"", n, status, error.message);
+        assert_null(png.pixels);
+        assert_null(png.text);
+    }
+    kd_buffer_finish(&file);
+    print_message("%d allocations\n", n);
+    assert_true(n > 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(encoding),
+        cmocka_unit_test(decoding),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
