@@ -173,22 +173,30 @@ static enum kd_status measure(struct job *j)
     return status ? status : kd_vk_wait(vk, 0, j->error);
 }
 
-/* Stops that bring the brightest thousandth of the lit pixels to the shoulder of the curve. */
-static double auto_exposure(const uint32_t *counts)
+/* log2 luminance below which lie all but `share` of the lit pixels. */
+static double luminance_quantile(const uint32_t *counts, double share)
 {
     uint64_t lit = 0, above = 0;
     for (int i = 1; i < KD_HISTOGRAM_BINS; i++)
         lit += counts[i];
-    if (!lit)
-        return 0;
     int bin = KD_HISTOGRAM_BINS - 1;
     for (; bin > 1; bin--) {
         above += counts[bin];
-        if (above * 1000 > lit * 4)
+        if ((double)above > share * (double)lit)
             break;
     }
     int code = KD_HISTOGRAM_FIRST + bin + 1;
-    return 0.8 - log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
+    return log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
+}
+
+/* sRGB clips at 1: bring the brightest lit pixels (all but four in a thousand) there. The film-like curve has a long
+ * shoulder: the wider the range from the median up, the further over white the brightest may go, so that a beamed disk
+ * keeps its dim side. */
+static double auto_exposure(const uint32_t *counts, int tone_map)
+{
+    double white = luminance_quantile(counts, 0.004), median = luminance_quantile(counts, 0.5);
+    double over = tone_map == KD_TONE_ACES ? fmin(fmax(0.45 * (white - median), 0.75), 4) : 0;
+    return over - white;
 }
 
 /* Post and read back, one band at a time. */
@@ -276,7 +284,7 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     if (!status && isinf(frame->exposure)) {
         status = measure(j);
         if (!status)
-            frame->exposure = auto_exposure(kd_vk_buffer_map(r->store.counts));
+            frame->exposure = auto_exposure(kd_vk_buffer_map(r->store.counts), j->scene->style.tone_map);
     }
     if (!status)
         status = finish_pixels(j, frame);

@@ -65,10 +65,12 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
                                  bool *reused, struct kd_error *error)
 {
     struct kd_lens_map *oldest = &store->maps[0];
+    uint64_t row = 4ull * plan->planes * plan->width * plan->side * plan->side, bytes = row * plan->band_rows + 16;
     *reused = false;
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
         struct kd_lens_map *m = &store->maps[i];
-        if (plan->cacheable && !strcmp(m->key, plan->lens_key)) {
+        if (plan->cacheable && !strcmp(m->key, plan->lens_key) && m->bands.count == plan->bands &&
+            m->bands.band_bytes == bytes) {
             m->used = ++store->clock;
             *out = m;
             *reused = true;
@@ -79,9 +81,8 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
             oldest = m;
     }
     make_room(store, plan, oldest);
-    uint64_t row = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    enum kd_status status = bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1,
-                                       row * plan->band_rows + 16, "lens map", error);
+    enum kd_status status =
+        bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error);
     oldest->key[0] = 0;
     oldest->used = ++store->clock;
     *out = oldest;

@@ -15,14 +15,14 @@
 #define KD_SCENE_FIELDS_H
 
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                      \
-    REAL(spacetime, spin, 0.9, -0.999999999999, 0.999999999999, "M",                                          \
+    REAL(spacetime, spin, 0.7, -0.999999999999, 0.999999999999, "M",                                          \
          "spin parameter a; a < 0 is a disk retrograde to its hole")                                          \
     REAL(spacetime, mass_msun, 1e8, 1e-3, 1e12, "solar masses",                                               \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"")
 
 #define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                         \
     WORD(camera, r, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")            \
-    REAL(camera, inclination_deg, 80.0, 0.0, 180.0, "degrees",                                                \
+    REAL(camera, inclination_deg, 82.0, 0.0, 180.0, "degrees",                                                \
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")              \
     REAL(camera, azimuth_deg, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer")       \
     ENUM(camera, observer, KD_OBSERVER_STATIC,                                                                \
@@ -45,14 +45,14 @@
          "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO",     \
          "none|novikov-thorne|shakura-sunyaev")                                                               \
     WORD(disk, inner, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco")                   \
-    REAL(disk, outer, 20.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                           \
-    REAL(disk, taper, 0.25, 0.0, 1.0, "1",                                                                    \
+    REAL(disk, outer, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                           \
+    REAL(disk, taper, 0.7, 0.0, 1.0, "1",                                                                    \
          "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                 \
     REAL(disk, opacity, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")                  \
     ENUM(disk, colour, KD_COLOUR_PEAK,                                                                        \
          "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",       \
          "peak|accretion")                                                                                    \
-    REAL(disk, peak_temperature_k, 7000.0, 300.0, 1e9, "K",                                                   \
+    REAL(disk, peak_temperature_k, 5600.0, 300.0, 1e9, "K",                                                   \
          "largest effective temperature of the disk, in its own frame (colour: peak)")                        \
     REAL(disk, mdot_edd, 0.1, 1e-12, 1e3, "Eddington rates",                                                  \
          "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin")        \
@@ -66,7 +66,7 @@
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     ENUM(sky, model, KD_SKY_NONE,                                                                             \
          "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")           \
-    REAL(sky, brightness, 0.2, 0.0, 100.0, "1", "brightness of the sky against a white of 1 after exposure")  \
+    REAL(sky, brightness, 0.2, 0.0, 100.0, "1", "brightness of the sky in units of the disk's brightest surface brightness at g = 1")  \
     REAL(sky, grid_deg, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
 
 #define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \

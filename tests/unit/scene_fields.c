@@ -185,7 +185,7 @@ static void defaults_are_valid(void **state)
     struct kd_error error;
     kd_scene_defaults(&scene);
     assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
-    assert_true(scene.spacetime.spin == 0.9);
+    assert_true(scene.spacetime.spin == 0.7);
     assert_true(isinf(scene.camera.r));
     assert_int_equal(scene.disk.model, KD_DISK_NOVIKOV_THORNE);
     assert_int_equal(scene.image.width, 1280);

@@ -1,0 +1,296 @@
+/* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits, cancelling. */
+#include "render/render.h"
+
+#include "support.h"
+
+#include <math.h>
+
+static struct kd_renderer *renderer;
+
+static struct kd_scene small_scene(void)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = 160;
+    scene.image.height = 90;
+    return scene;
+}
+
+static struct kd_capacity capacity(void)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(renderer, &c);
+    return c;
+}
+
+static struct kd_frame render_with(const struct kd_scene *scene, const struct kd_capacity *c, struct kd_plan *plan)
+{
+    struct kd_frame frame;
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, c, plan, &error));
+    OK(kd_render(renderer, scene, plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+static struct kd_frame render(const struct kd_scene *scene)
+{
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    return render_with(scene, &c, &plan);
+}
+
+static size_t bytes(const struct kd_frame *f) { return (size_t)f->width * f->height * (f->bit_depth == 16 ? 6 : 3); }
+
+static bool ran(const struct kd_frame *frame, const char *pass)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, pass))
+            return true;
+    return false;
+}
+
+static void assert_same(struct kd_frame *a, struct kd_frame *b)
+{
+    assert_int_equal(bytes(a), bytes(b));
+    assert_memory_equal(a->pixels, b->pixels, bytes(a));
+    kd_frame_finish(a);
+    kd_frame_finish(b);
+}
+
+/* A scene that differs only in what the lens map does not depend on finds it again. */
+static void test_reuse(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    scene.camera.inclination_deg = 61.5; /* nobody has asked for this one before */
+    struct kd_frame first = render(&scene), again = render(&scene);
+    assert_false(first.lens_reused);
+    assert_true(again.lens_reused && ran(&first, "trace") && !ran(&again, "trace"));
+    assert_same(&first, &again);
+
+    scene.disk.peak_temperature_k = 12000;
+    scene.camera.azimuth_deg = 40;
+    scene.style.exposure = 1;
+    scene.image.bit_depth = 16;
+    first = render(&scene);
+    assert_true(first.lens_reused);
+    kd_frame_finish(&first);
+
+    double *const geometry[] = { &scene.spacetime.spin, &scene.camera.inclination_deg, &scene.camera.field_m, &scene.camera.roll_deg,
+                                 &scene.camera.centre_beta };
+    for (size_t i = 0; i < sizeof geometry / sizeof *geometry; i++) {
+        *geometry[i] += 0.01;
+        first = render(&scene);
+        assert_false(first.lens_reused);
+        kd_frame_finish(&first);
+    }
+}
+
+/* Many bands, with and without a cache, give the bytes of one. Both kernels, supersampled, 16 bits, an odd width. */
+static void test_bands(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        struct kd_scene scene = small_scene();
+        scene.image.width = 157;
+        scene.image.samples = k & 1 ? 2 : 1;
+        scene.image.bit_depth = k & 2 ? 16 : 8;
+        scene.sky.model = k & 4 ? KD_SKY_GRID : KD_SKY_NONE;
+        struct kd_capacity c = capacity();
+        struct kd_plan plan;
+        struct kd_frame whole = render_with(&scene, &c, &plan);
+        assert_int_equal(plan.bands, 1);
+
+        c.max_binding_bytes = 4ull * plan.planes * 157 * plan.side * plan.side * 7 + 64;
+        struct kd_frame banded = render_with(&scene, &c, &plan);
+        assert_true(plan.bands >= 12 && plan.cacheable);
+        assert_same(&whole, &banded);
+
+        whole = render(&scene);
+        c.memory_bytes = plan.device_bytes - 1; /* room for one band of the lens map only */
+        banded = render_with(&scene, &c, &plan);
+        assert_false(plan.cacheable);
+        assert_same(&whole, &banded);
+    }
+}
+
+/* A larger picture that needs several slices and is the same when rendered twice. */
+static void test_slices(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    scene.image.width = 900;
+    scene.image.height = 700;
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    c.ns_per_ray_radius = c.ns_per_ray_full = c.ns_per_sample_transfer = 1e5;
+    struct kd_frame a = render_with(&scene, &c, &plan);
+    scene.camera.azimuth_deg = 1;
+    struct kd_frame b = render(&scene);
+    assert_same(&a, &b);
+}
+
+static void test_sizes(void **state)
+{
+    (void)state;
+    const int sizes[][2] = { { 1, 1 }, { 1, 64 }, { 64, 1 }, { 3, 5 }, { 65, 63 }, { 4096, 2 }, { 2, 4096 } };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        for (int depth = 8; depth <= 16; depth += 8) {
+            struct kd_scene scene = small_scene();
+            scene.image.width = sizes[i][0];
+            scene.image.height = sizes[i][1];
+            scene.image.bit_depth = depth;
+            struct kd_frame f = render(&scene);
+            assert_int_equal(f.width, sizes[i][0]);
+            assert_int_equal(f.height, sizes[i][1]);
+            kd_frame_finish(&f);
+        }
+    }
+}
+
+/* Every number of the lens map is finite, every radius outside the horizon, every fate decided. */
+static void check_lens(const struct kd_scene *scene)
+{
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
+    OK(kd_render_lens(renderer, scene, &plan, planes, NULL, &error));
+    double horizon = 1 / (1 + sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin)));
+    for (size_t k = 0; k < plan.planes * plan.rays; k++) {
+        assert_true(isfinite(planes[k]));
+        if (k < plan.orders * plan.rays)
+            assert_true(planes[k] >= 0 && planes[k] <= horizon * (1 + 1e-6));
+    }
+    for (size_t k = 0; plan.sky && k < plan.rays; k++)
+        assert_true(planes[(plan.planes - 1) * plan.rays + k] < 1.5);
+    test_free(planes);
+}
+
+/* Cameras and holes at the ends of their ranges. */
+static void test_extremes(void **state)
+{
+    (void)state;
+    static const double spins[] = { 0, 1e-12, 0.5, 0.999999999999, -0.999999999999 };
+    static const double angles[] = { 0, 1e-9, 45, 89.999999, 90, 90.000001, 180 };
+    static const double radii[] = { INFINITY, 2.0001, 3, 50, 1e7 };
+    for (size_t a = 0; a < 5; a++)
+        for (size_t i = 0; i < 7; i++)
+            for (size_t r = 0; r < 5; r++)
+                for (int sky = 0; sky < 2; sky++) {
+                    struct kd_scene scene = small_scene();
+                    scene.image.width = 48, scene.image.height = 32;
+                    scene.spacetime.spin = spins[a];
+                    scene.camera.inclination_deg = angles[i];
+                    scene.camera.r = radii[r];
+                    scene.camera.observer = KD_OBSERVER_ZAMO;
+                    scene.sky.model = sky;
+                    scene.accuracy.orders = sky ? 8 : 3;
+                    struct kd_frame f = render(&scene);
+                    kd_frame_finish(&f);
+                    check_lens(&scene);
+                }
+}
+
+static bool stop_at_once(void *user, double fraction)
+{
+    (void)fraction;
+    ++*(int *)user;
+    return false;
+}
+
+static bool count_up(void *user, double fraction)
+{
+    double *last = user;
+    assert_true(fraction >= *last && fraction <= 1);
+    *last = fraction;
+    return true;
+}
+
+static void test_progress(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    struct kd_frame frame;
+    int calls = 0;
+    double last = 0;
+    scene.spacetime.spin = 0.123; /* a lens map that no test has left behind */
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    FAILS(KD_ECANCELLED, "cancelled", kd_render(renderer, &scene, &plan, stop_at_once, &calls, &frame, &error));
+    assert_int_equal(calls, 1);
+    /* What was cancelled has left no half-made lens map. */
+    OK(kd_render(renderer, &scene, &plan, count_up, &last, &frame, &error));
+    assert_false(frame.lens_reused);
+    assert_true(last == 1);
+    kd_frame_finish(&frame);
+}
+
+static void test_too_big(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    scene.image.width = scene.image.height = 32768;
+    scene.image.samples = 8;
+    FAILS(KD_ETOOBIG, "GiB", kd_plan_make(&scene, &c, &plan, &error));
+    c.max_binding_bytes = 65536;
+    FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));
+}
+
+/* What a scene does not use is not in its plan. */
+static void test_plan(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.radius_only && !plan.phi && !plan.sky && plan.planes == 3 && plan.steps == 0);
+    assert_string_equal(plan.passes[2].name, "expose");
+    scene.style.exposure = 0;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_string_equal(plan.passes[2].name, "post");
+    scene.camera.r = 30;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(!plan.radius_only && plan.steps > 0 && plan.planes == 3);
+    scene.sky.model = KD_SKY_GRID;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.sky && plan.planes == 6);
+    scene.sky.model = KD_SKY_NONE;
+    scene.disk.model = KD_DISK_NONE;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_int_equal(plan.planes, 0);
+    assert_string_equal(plan.passes[0].name, "transfer");
+    struct kd_frame f = render(&scene);
+    for (size_t i = 0; i < bytes(&f); i++)
+        assert_int_equal(((uint8_t *)f.pixels)[i], 0);
+    kd_frame_finish(&f);
+}
+
+int main(void)
+{
+    int skip = skip_without_device();
+    if (skip)
+        return skip;
+    struct kd_error error = { 0 };
+    const char *device = getenv("KERRD_TEST_DEVICE");
+    if (kd_renderer_create(&(struct kd_renderer_params){ .device = device ? device : "auto", .validate = true }, &renderer, &error)) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_plan),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    if (kd_renderer_validation_messages(renderer)) {
+        fprintf(stderr, "the validation layer spoke\n");
+        failed++;
+    }
+    kd_renderer_destroy(renderer);
+    return failed;
+}
