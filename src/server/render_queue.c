@@ -95,6 +95,23 @@ static void mark_lost(struct kd_render_queue *queue, const struct kd_error *erro
     pthread_mutex_unlock(&queue->lock);
 }
 
+/* Only this thread may ask the renderer, and what it says of its speed changes as it measures itself. */
+static enum kd_status describe_device(struct kd_render_queue *queue)
+{
+    struct kd_buffer json = { 0 }, old = { 0 };
+    enum kd_status status = kd_renderer_device_json(queue->renderer, &json);
+    if (status) {
+        kd_buffer_finish(&json);
+        return status;
+    }
+    pthread_mutex_lock(&queue->lock);
+    old = queue->device_json;
+    queue->device_json = json;
+    pthread_mutex_unlock(&queue->lock);
+    kd_buffer_finish(&old);
+    return KD_OK;
+}
+
 /* True when there is a frame to encode. */
 static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
 {
@@ -110,6 +127,8 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
     job->status = kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
         mark_lost(queue, &job->error);
+    else
+        describe_device(queue);
     return job->status == KD_OK;
 }
 
@@ -117,7 +136,7 @@ static void open_renderer(struct kd_render_queue *queue)
 {
     enum kd_status status = kd_renderer_create(&queue->params, &queue->renderer, &queue->open_error);
     if (!status) {
-        status = kd_renderer_device_json(queue->renderer, &queue->device_json);
+        status = describe_device(queue);
         if (status)
             kd_error_set(&queue->open_error, status, "the device could not be described");
     }
@@ -272,9 +291,12 @@ const char *kd_render_queue_device_name(const struct kd_render_queue *queue)
     return kd_renderer_device_name(queue->renderer);
 }
 
-const char *kd_render_queue_device_json(const struct kd_render_queue *queue)
+enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out)
 {
-    return (const char *)queue->device_json.data;
+    pthread_mutex_lock(&queue->lock);
+    enum kd_status status = kd_buffer_append(out, queue->device_json.data, queue->device_json.size);
+    pthread_mutex_unlock(&queue->lock);
+    return status;
 }
 
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)

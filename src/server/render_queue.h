@@ -42,7 +42,8 @@ void kd_render_queue_destroy(struct kd_render_queue *queue);
 /* Any thread. */
 void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
-const char *kd_render_queue_device_json(const struct kd_render_queue *queue);
+/* As after the latest render. */
+enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue); /* estimated, of all that is accepted */

@@ -3,7 +3,6 @@
 #include "server/request.h"
 
 #include <cjson/cJSON.h>
-#include <string.h>
 
 enum MHD_Result kd_handle_health(struct kd_request *request)
 {
@@ -28,8 +27,9 @@ enum MHD_Result kd_handle_ready(struct kd_request *request)
 
 enum MHD_Result kd_handle_device(struct kd_request *request)
 {
-    const char *json = kd_render_queue_device_json(request->server->renders);
-    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_static(json, strlen(json), request->route->answer));
+    struct kd_buffer json = { 0 };
+    enum kd_status status = kd_render_queue_device_json(request->server->renders, &json);
+    return kd_reply_json(request, status, &json, request->route->answer);
 }
 
 enum MHD_Result kd_handle_presets(struct kd_request *request)

@@ -35,6 +35,7 @@ class Daemon:
         match = re.fullmatch(r'kerrd: listening on http://127\.0\.0\.1:(\d+)/\n', line)
         if not match:
             self.process.kill()
+            self.wait()
             raise RuntimeError(f'no announcement but {line!r}')
         self.port = int(match[1])
 

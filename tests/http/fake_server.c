@@ -56,6 +56,7 @@ int main(int argc, char **argv)
     enum kd_status status = kd_server_wait(server, &error);
     if (status) {
         fprintf(stderr, "fake_server: %s\n", error.message);
+        kd_server_destroy(server);
         _exit(1); /* as a process that has lost its device should */
     }
     kd_server_destroy(server);

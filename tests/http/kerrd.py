@@ -1,0 +1,89 @@
+"""The program itself, in front of a Vulkan device; skipped where there is none."""
+import concurrent.futures
+import struct
+import subprocess
+import sys
+import time
+import unittest
+import zlib
+
+import daemon
+
+TARGET = '/v1/render?image.width=320&image.height=180'
+
+
+def chunks(png):
+    at = 8
+    while at < len(png):
+        size, kind = struct.unpack('>I4s', png[at:at + 8])
+        yield kind, png[at + 8:at + 8 + size]
+        at += 12 + size
+
+
+def pixels(png):
+    return zlib.decompress(b''.join(data for kind, data in chunks(png) if kind == b'IDAT'))
+
+
+class Kerrd(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon()
+
+    @classmethod
+    def tearDownClass(cls):
+        code = cls.daemon.stop()
+        if code:
+            raise AssertionError(f'kerrd exited with {code}')
+
+    def test_a_picture(self):
+        answer = self.daemon.get(TARGET)
+        self.assertEqual(answer.status, 200, answer.body[:300])
+        self.assertEqual(struct.unpack('>II', answer.body[16:24]), (320, 180))
+        self.assertGreater(len(set(pixels(answer.body))), 50, 'a picture has more than a few brightnesses')
+        self.assertIn(answer.header('Kerrd-Scene-Hash').encode(), answer.body)
+
+    def test_the_same_again(self):
+        target = TARGET + '&spacetime.spin=0.77'
+        first, again = self.daemon.get(target), self.daemon.get(target)
+        self.assertNotIn('reused', first.header('Server-Timing'))
+        self.assertIn('trace;desc="reused";dur=0', again.header('Server-Timing'))
+        self.assertEqual(first.body, again.body)
+        self.assertEqual(first.header('ETag'), again.header('ETag'))
+
+    def test_every_preset(self):
+        for preset in self.daemon.get('/v1/presets').json()['presets']:
+            with self.subTest(preset['name']):
+                self.assertEqual(self.daemon.get(f'{TARGET}&preset={preset["name"]}').status, 200)
+
+    def test_16_bits(self):
+        answer = self.daemon.get(TARGET + '&image.bit_depth=16')
+        self.assertEqual((answer.status, answer.body[24]), (200, 16))
+
+    def test_device(self):
+        self.assertEqual(self.daemon.get('/v1/device').status, 200)
+        self.daemon.get(TARGET)
+        self.assertEqual(self.daemon.get('/v1/device').json()['ns_per_item']['basis'], 'measured')
+
+    def test_pictures_at_once_are_those_in_turn(self):
+        targets = [f'{TARGET}&spacetime.spin={i / 20}' for i in range(10)]
+        with concurrent.futures.ThreadPoolExecutor(10) as pool:
+            together = [a.body for a in pool.map(self.daemon.get, targets)]
+        self.assertEqual(together, [self.daemon.get(t).body for t in targets])
+
+    def test_a_vanished_client_stops_its_render(self):
+        for _ in range(3):
+            with self.daemon.connect() as s:
+                s.sendall(b'GET /v1/render?image.width=4000&image.height=4000&image.samples=2&accuracy.profile=high '
+                          b'HTTP/1.1\r\nHost: localhost\r\n\r\n')
+                time.sleep(0.3)
+        begun = time.monotonic()
+        self.assertEqual(self.daemon.get(TARGET).status, 200)
+        self.assertLess(time.monotonic() - begun, 10)
+
+
+if __name__ == '__main__':
+    doctor = subprocess.run([sys.argv[1], 'doctor'], capture_output=True, text=True, timeout=60)
+    if 'devices: none' in doctor.stdout:
+        print('skipped:', doctor.stdout)
+        sys.exit(77)
+    daemon.main()
