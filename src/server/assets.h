@@ -4,7 +4,11 @@
 
 #include <stddef.h>
 
-struct kd_asset { const char *path; const unsigned char *data; size_t size; };
+struct kd_asset {
+    const char *path;
+    const unsigned char *data;
+    size_t size;
+};
 extern const struct kd_asset kd_assets[];
 extern const size_t kd_n_assets;
 

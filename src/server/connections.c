@@ -16,9 +16,9 @@
 #define REPLY_MS 30e3         /* to take an answer, and besides ... */
 #define REPLY_BYTES_PER_MS 32 /* ... the time it takes at 32 kB/s, a poor mobile line */
 
-#define LINGER_MS 2e3         /* round trips and a few MiB; then a client that goes on is reset after all */
+#define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
 #define LINGER_BYTES ((size_t)16 << 20)
-#define LINGERING 64          /* at once */
+#define LINGERING 64 /* at once */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
@@ -126,7 +126,10 @@ void kd_connection_linger(struct kd_connection *one)
         one->linger = true;
 }
 
-int kd_connection_socket(const struct kd_connection *one) { return one->socket; }
+int kd_connection_socket(const struct kd_connection *one)
+{
+    return one->socket;
+}
 
 static double allowance(const struct kd_connections *all, enum kd_stage stage, unsigned long bytes)
 {

@@ -1,6 +1,6 @@
 /* Open connections and their deadlines. libmicrohttpd's timeout counts idle time only, so that one byte every
- * few seconds holds a connection for ever: each stage of a request has a deadline of its own here, and a sweep
- * shuts down the sockets that missed it.
+ * few seconds holds a connection for ever: each stage of a request has a deadline of its own here, and a
+ * sweep shuts down the sockets that missed it.
  *
  * A socket stays open until its connection is removed, which takes the same lock as the sweep. Any thread. */
 #ifndef KD_SERVER_CONNECTIONS_H
@@ -15,9 +15,9 @@ enum kd_stage {
     KD_STAGE_OPEN,   /* accepted, nothing understood yet */
     KD_STAGE_HEADER, /* the request line has arrived */
     KD_STAGE_BODY,
-    KD_STAGE_WORK,   /* ours to answer: no deadline */
+    KD_STAGE_WORK, /* ours to answer: no deadline */
     KD_STAGE_REPLY,
-    KD_STAGE_IDLE,   /* kept alive between requests */
+    KD_STAGE_IDLE, /* kept alive between requests */
 };
 
 struct kd_connections *kd_connections_create(unsigned limit, unsigned header_ms, unsigned body_ms);
@@ -26,8 +26,9 @@ void kd_connections_destroy(struct kd_connections *all);
 /* NULL when out of memory. */
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket);
 void kd_connections_remove(struct kd_connections *all, struct kd_connection *one);
-/* Its client is still sending what will not be read. Closed at once, the socket would answer that with a reset,
- * and a reset makes the client lose the refusal it has not read yet; so it is emptied for a while after removal. */
+/* Its client is still sending what will not be read. Closed at once, the socket would answer that with a
+ * reset, and a reset makes the client lose the refusal it has not read yet; so it is emptied for a while
+ * after removal. */
 void kd_connection_linger(struct kd_connection *one);
 int kd_connection_socket(const struct kd_connection *one);
 

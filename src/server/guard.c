@@ -79,7 +79,7 @@ static const char *framing_fault(const struct scan *scan, bool http10)
 
 static bool refuse(struct kd_problem *problem, enum kd_problem_type type, const char *detail)
 {
-    *problem = (struct kd_problem){ .type = type, .detail = detail, .close = true };
+    *problem = (struct kd_problem) { .type = type, .detail = detail, .close = true };
     return false;
 }
 
@@ -89,7 +89,7 @@ bool kd_guard_check(struct MHD_Connection *connection, const char *version, cons
     struct scan scan = { .header = header };
     bool http10 = !strcmp(version, "HTTP/1.0");
 
-    *header = (struct kd_header){ 0 };
+    *header = (struct kd_header) { 0 };
     if (!http10 && strcmp(version, "HTTP/1.1"))
         return refuse(problem, KD_PROBLEM_HTTP_VERSION, version);
     MHD_get_connection_values_n(connection, MHD_HEADER_KIND, look, &scan);

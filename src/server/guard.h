@@ -15,8 +15,8 @@ struct kd_header {
     bool has_length, chunked;
 };
 
-/* hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers ask for health. True when
- * sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
+/* hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers ask for
+ * health. True when sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
 bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts,
                     bool hostless, struct kd_header *header, struct kd_problem *problem);
 

@@ -6,8 +6,8 @@
 #include <poll.h>
 #include <unistd.h>
 
-#define TICK_MS 100           /* how late a deadline or a vanished client may be noticed */
-#define LAST_ANSWERS_MS 10e3  /* for clients to take the answers under way when nothing else is left */
+#define TICK_MS 100          /* how late a deadline or a vanished client may be noticed */
+#define LAST_ANSWERS_MS 10e3 /* for clients to take the answers under way when nothing else is left */
 
 static void sleep_a_tick(struct kd_server *server)
 {

@@ -4,9 +4,15 @@
 #include <string.h>
 #include <strings.h>
 
-struct span { const char *at; size_t size; };
+struct span {
+    const char *at;
+    size_t size;
+};
 
-static bool blank(char c) { return c == ' ' || c == '\t'; }
+static bool blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
 
 static struct span trim(struct span s)
 {
@@ -35,7 +41,7 @@ static struct span take(const char **rest, char separator)
             p++;
     }
     *rest = *p ? p + 1 : NULL;
-    return trim((struct span){ start, (size_t)(p - start) });
+    return trim((struct span) { start, (size_t)(p - start) });
 }
 
 /* The weight in thousandths, -1 when it is none: 0, 0.5, 1.000 (RFC 9110, 12.4.2). */
@@ -69,7 +75,7 @@ static int entry_weight(const char *parameters)
     while (parameters) {
         struct span parameter = take(&parameters, ';');
         if (parameter.size >= 2 && (parameter.at[0] | 0x20) == 'q' && parameter.at[1] == '=')
-            q = weight((struct span){ parameter.at + 2, parameter.size - 2 });
+            q = weight((struct span) { parameter.at + 2, parameter.size - 2 });
     }
     return q;
 }
@@ -125,7 +131,7 @@ bool kd_host_listed(const char *host, const char *const *names)
     if (*port && (*port != ':' || strlen(port) > 6 || port[1 + strspn(port + 1, "0123456789")]))
         return false;
     for (; *names; names++)
-        if (equals((struct span){ host, size }, *names))
+        if (equals((struct span) { host, size }, *names))
             return true;
     return false;
 }

@@ -1,4 +1,5 @@
-/* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem table. */
+/* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
+ * table. */
 #include "server/reply.h"
 #include "server/request.h"
 
@@ -42,7 +43,8 @@ static cJSON *string_type(void)
 static void add_fields(cJSON *list, const cJSON *schema, const char *prefix)
 {
     const cJSON *property;
-    cJSON_ArrayForEach(property, cJSON_GetObjectItemCaseSensitive(schema, "properties")) {
+    cJSON_ArrayForEach(property, cJSON_GetObjectItemCaseSensitive(schema, "properties"))
+    {
         char name[128];
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", property->string);
         if (cJSON_GetObjectItemCaseSensitive(property, "properties"))
@@ -81,7 +83,8 @@ static cJSON *operation(const struct kd_route *route, bool post, const cJSON *sc
         cJSON_AddItemToObject(body, "content",
                               content("application/json", reference("#/components/schemas/Scene")));
     }
-    cJSON *responses = cJSON_AddObjectToObject(o, "responses"), *ok = cJSON_AddObjectToObject(responses, "200");
+    cJSON *responses = cJSON_AddObjectToObject(o, "responses"),
+          *ok = cJSON_AddObjectToObject(responses, "200");
     cJSON_AddStringToObject(ok, "description", route->summary);
     char type[64];
     snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);

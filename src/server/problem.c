@@ -7,15 +7,27 @@
 #include <string.h>
 #include <sys/socket.h>
 
-static const struct { unsigned status; const char *word, *title; } table[] = {
+static const struct {
+    unsigned status;
+    const char *word, *title;
+} table[] = {
 #define ROW(name, status, word, title) { status, word, title },
     KD_PROBLEMS(ROW)
 #undef ROW
 };
 
-unsigned kd_problem_status(enum kd_problem_type type) { return table[type].status; }
-const char *kd_problem_title(enum kd_problem_type type) { return table[type].title; }
-size_t kd_problem_count(void) { return sizeof table / sizeof *table; }
+unsigned kd_problem_status(enum kd_problem_type type)
+{
+    return table[type].status;
+}
+const char *kd_problem_title(enum kd_problem_type type)
+{
+    return table[type].title;
+}
+size_t kd_problem_count(void)
+{
+    return sizeof table / sizeof *table;
+}
 
 struct kd_problem kd_problem_from(const struct kd_error *error)
 {
@@ -72,9 +84,10 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
     struct kd_buffer body = { 0 }, reply = { 0 };
 
     if (!kd_problem_to_json(&problem, &body) &&
-        !kd_buffer_printf(&reply, "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
-                                  "X-Content-Type-Options: nosniff\r\nCache-Control: no-store\r\n"
-                                  "Connection: close\r\nContent-Length: %zu\r\n\r\n%s",
+        !kd_buffer_printf(&reply,
+                          "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
+                          "X-Content-Type-Options: nosniff\r\nCache-Control: no-store\r\n"
+                          "Connection: close\r\nContent-Length: %zu\r\n\r\n%s",
                           table[type].status, body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
             /* The peer is gone or does not read: it is about to be cut off in any case. */

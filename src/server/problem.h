@@ -9,24 +9,24 @@
 #include <stddef.h>
 
 /* name, HTTP status, word in the type's URI, title */
-#define KD_PROBLEMS(X)                                                                           \
-    X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP")                          \
-    X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object")          \
-    X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                        \
-    X(METHOD, 405, "method-not-allowed", "This address does not take this method")               \
-    X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")              \
-    X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                            \
-    X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                            \
-    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body must be application/json")            \
-    X(MISDIRECTED, 421, "misdirected", "This host name is not served here")                      \
-    X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid")                             \
-    X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")               \
-    X(INTERNAL, 500, "internal", "The server failed")                                            \
-    X(DEVICE_LOST, 500, "device-lost", "The device failed")                                      \
-    X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                         \
-    X(QUEUE_FULL, 503, "queue-full", "Too many renders are waiting")                             \
-    X(CROWDED, 503, "too-many-connections", "Too many connections are open")                     \
-    X(STOPPING, 503, "stopping", "The server is stopping")                                       \
+#define KD_PROBLEMS(X)                                                                                       \
+    X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP")                                      \
+    X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object")                     \
+    X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                                    \
+    X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
+    X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \
+    X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
+    X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
+    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body must be application/json")                        \
+    X(MISDIRECTED, 421, "misdirected", "This host name is not served here")                                  \
+    X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid")                                         \
+    X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
+    X(INTERNAL, 500, "internal", "The server failed")                                                        \
+    X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
+    X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \
+    X(QUEUE_FULL, 503, "queue-full", "Too many renders are waiting")                                         \
+    X(CROWDED, 503, "too-many-connections", "Too many connections are open")                                 \
+    X(STOPPING, 503, "stopping", "The server is stopping")                                                   \
     X(HTTP_VERSION, 505, "http-version", "Only HTTP/1.1 and HTTP/1.0 are spoken here")
 
 enum kd_problem_type {
@@ -55,7 +55,8 @@ size_t kd_problem_count(void);
 /* The document, application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);
 
-/* A whole HTTP answer straight to a socket, for where libmicrohttpd cannot send one any more. Does not block. */
+/* A whole HTTP answer straight to a socket, for where libmicrohttpd cannot send one any more. Never blocks.
+ */
 void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail);
 
 #endif

@@ -12,7 +12,9 @@
 #define ENCODERS 2
 #define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it */
 
-struct list { struct kd_render_job *first, **end; };
+struct list {
+    struct kd_render_job *first, **end;
+};
 
 struct kd_render_queue {
     struct kd_renderer_params params;
@@ -124,7 +126,8 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
         return false;
     }
-    job->status = kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame, &job->error);
+    job->status =
+        kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
         mark_lost(queue, &job->error);
     else
@@ -205,8 +208,9 @@ static void *encode_main(void *user)
         pthread_mutex_unlock(&queue->lock);
 
         double start = kd_clock_ms();
-        job->status = kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
-                                        job->compression, &job->png, &job->error);
+        job->status =
+            kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
+                              job->compression, &job->png, &job->error);
         job->encode_ms = kd_clock_ms() - start;
         free(job->frame.pixels);
         job->frame.pixels = NULL;

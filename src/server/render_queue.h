@@ -18,8 +18,8 @@ struct kd_render_job {
     struct kd_scene scene;
     struct kd_plan plan;
     int compression;
-    int socket;                                 /* of the client; once it hangs up the job is dropped */
-    void (*done)(struct kd_render_job *job);    /* on a thread of the queue; may free the job */
+    int socket;                              /* of the client; once it hangs up the job is dropped */
+    void (*done)(struct kd_render_job *job); /* on a thread of the queue; may free the job */
     void *user;
     /* the outcome: KD_ECANCELLED when dropped */
     enum kd_status status;

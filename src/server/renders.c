@@ -39,7 +39,11 @@ enum MHD_Result kd_handle_plan(struct kd_request *request)
 }
 
 /* All values of a header that is a list, joined; no text when it is absent. */
-struct joined { const char *name; struct kd_buffer text; bool failed; };
+struct joined {
+    const char *name;
+    struct kd_buffer text;
+    bool failed;
+};
 
 static enum MHD_Result join(void *cls, enum MHD_ValueKind kind, const char *key, const char *value)
 {
@@ -119,7 +123,8 @@ static void add_timings(struct MHD_Response *response, const struct kd_render_jo
     if (job->frame.lens_reused && !status)
         status = kd_buffer_printf(&list, ", trace;desc=\"reused\";dur=0");
     for (size_t i = 0; i < job->frame.n_timings && !status; i++)
-        status = kd_buffer_printf(&list, ", %s;dur=%.3f", job->frame.timings[i].name, job->frame.timings[i].ms);
+        status =
+            kd_buffer_printf(&list, ", %s;dur=%.3f", job->frame.timings[i].name, job->frame.timings[i].ms);
     if (!status)
         status = kd_buffer_printf(&list, ", encode;dur=%.3f", job->encode_ms);
     if (!status)
@@ -127,7 +132,11 @@ static void add_timings(struct MHD_Response *response, const struct kd_render_jo
     kd_buffer_finish(&list);
 }
 
-struct picture { struct kd_server *server; void *data; size_t size; };
+struct picture {
+    struct kd_server *server;
+    void *data;
+    size_t size;
+};
 
 static void release_picture(void *cls)
 {
@@ -143,7 +152,7 @@ static struct MHD_Response *picture_response(struct kd_request *request)
     struct picture *picture = malloc(sizeof *picture);
     if (!picture)
         return NULL;
-    *picture = (struct picture){ request->server, png->data, png->size };
+    *picture = (struct picture) { request->server, png->data, png->size };
     struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
         png->size, png->data, release_picture, picture);
     if (!response) {
@@ -152,7 +161,7 @@ static struct MHD_Response *picture_response(struct kd_request *request)
     }
     atomic_fetch_add(&request->server->reply_bytes, png->size);
     request->reply_bytes = png->size;
-    *png = (struct kd_buffer){ 0 };
+    *png = (struct kd_buffer) { 0 };
     MHD_add_response_header(response, "Content-Type", OFFERED);
     return response;
 }
@@ -191,14 +200,16 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     struct kd_server *server = request->server;
 
     if (plan->estimate_ms > server->longest_s * 1e3) {
-        kd_error_set(error, KD_ETOOBIG, "this picture would take about %.0f s, more than the %u s a render may take",
+        kd_error_set(error, KD_ETOOBIG,
+                     "this picture would take about %.0f s, more than the %u s a render may take",
                      plan->estimate_ms * 1e-3, server->longest_s);
         *problem = kd_problem_from(error);
         return false;
     }
     if (atomic_load(&server->phase) >= KD_REFUSING) {
-        *problem = (struct kd_problem){ .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                        .detail = "the server is stopping and takes no new renders" };
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                         .retry_after = 1,
+                                         .detail = "the server is stopping and takes no new renders" };
         return false;
     }
     enum kd_status status = kd_render_queue_admit(server->renders, error);
@@ -218,7 +229,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
     struct kd_render_job *job = calloc(1, sizeof *job);
     if (!job || !request->connection) {
         free(job);
-        return kd_reply_problem(request, &(struct kd_problem){ .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     job->scene = *scene;
     job->plan = *plan;
@@ -252,12 +264,15 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (request->job)
         return deliver(request);
     if (!accepts(request))
-        return kd_reply_problem(request, &(struct kd_problem){ .type = KD_PROBLEM_NOT_ACCEPTABLE,
-            .offered = OFFERED, .detail = "pictures are offered as " OFFERED " only" });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                            .offered = OFFERED,
+                                            .detail = "pictures are offered as " OFFERED " only" });
     if (!make_plan(request, &scene, &plan, &problem, &error))
         return kd_reply_problem(request, &problem);
     if (tag(request, &scene))
-        return kd_reply_problem(request, &(struct kd_problem){ .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
         return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), &plan));
     if (request->head)

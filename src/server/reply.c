@@ -6,10 +6,11 @@
 
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
 {
-    struct MHD_Response *response = MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
     if (!response)
         free(body->data);
-    *body = (struct kd_buffer){ 0 };
+    *body = (struct kd_buffer) { 0 };
     if (response)
         MHD_add_response_header(response, "Content-Type", type);
     return response;
@@ -17,7 +18,10 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
 
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type)
 {
-    union { const void *in; void *out; } bytes = { data }; /* libmicrohttpd only reads them */
+    union {
+        const void *in;
+        void *out;
+    } bytes = { data }; /* libmicrohttpd only reads them */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
     if (response)
         MHD_add_response_header(response, "Content-Type", type);

@@ -7,7 +7,8 @@
 #include "server/problem.h"
 #include "server/request.h"
 
-/* A response with the buffer's bytes, which it takes over (the buffer is empty afterwards, also on failure); NULL on failure. */
+/* A response with the buffer's bytes, which it takes over (the buffer is empty afterwards, also on failure);
+ * NULL on failure. */
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 /* One with bytes that outlive it. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);

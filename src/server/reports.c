@@ -16,11 +16,13 @@ enum MHD_Result kd_handle_ready(struct kd_request *request)
     static const char ready[] = "{\"status\":\"ready\"}\n";
     struct kd_error error;
     if (kd_render_queue_lost(request->server->renders, &error))
-        return kd_reply_problem(request, &(struct kd_problem){ .type = KD_PROBLEM_STOPPING,
-                                                               .detail = error.message });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .detail = error.message });
     if (atomic_load(&request->server->phase) != KD_SERVING)
-        return kd_reply_problem(request, &(struct kd_problem){ .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                                               .detail = "the server has been asked to stop" });
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                                       .retry_after = 1,
+                                                       .detail = "the server has been asked to stop" });
     return kd_reply_send(request, MHD_HTTP_OK,
                          kd_reply_static(ready, sizeof ready - 1, request->route->answer));
 }
@@ -57,8 +59,8 @@ enum MHD_Result kd_handle_preset(struct kd_request *request)
     struct kd_buffer json = { 0 };
 
     if (kd_scene_preset(&scene, request->rest, &error))
-        return kd_reply_problem(request,
-                                &(struct kd_problem){ .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     return kd_reply_json(request, kd_scene_to_json(&scene, &json), &json, request->route->answer);
 }
 

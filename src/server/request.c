@@ -22,7 +22,8 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
 {
     struct kd_server *server = cls;
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
-        const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
+        const union MHD_ConnectionInfo *info =
+            MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
         *socket_context = info ? kd_connections_add(server->connections, info->connect_fd) : NULL;
     } else {
         kd_connections_remove(server->connections, *socket_context);
@@ -58,8 +59,9 @@ static void write_log(const struct kd_request *request, enum MHD_RequestTerminat
     for (const char *p = request->raw ? request->raw : ""; *p && n + 1 < sizeof target; p++)
         target[n++] = (char)(*p > ' ' && *p < 0x7f ? *p : '?'); /* no second line in the log */
     target[n] = 0;
-    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s", request->method ? request->method : "-", target, request->status,
-           kd_clock_ms() - request->start_ms, why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");
+    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s", request->method ? request->method : "-", target,
+           request->status, kd_clock_ms() - request->start_ms,
+           why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");
 }
 
 void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
@@ -89,19 +91,22 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
 static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
 {
     if (strcmp(request->method, "POST")) {
-        *problem = (struct kd_problem){ .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
+        *problem =
+            (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;
     }
     if (!kd_media_type_is(request->header.content_type, "application/json")) {
-        *problem = (struct kd_problem){ .type = KD_PROBLEM_MEDIA_TYPE, .offered = "application/json",
-                                        .detail = "a body must say Content-Type: application/json" };
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE,
+                                         .offered = "application/json",
+                                         .detail = "a body must say Content-Type: application/json" };
         return true;
     }
     if (request->header.content_length > KD_BODY_MAX) {
-        *problem = (struct kd_problem){ .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = BODY_TOO_LARGE };
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = BODY_TOO_LARGE };
         return true;
     }
-    *problem = (struct kd_problem){ .type = KD_PROBLEM_CROWDED, .retry_after = 1, .detail = BODIES_TOO_MANY };
+    *problem =
+        (struct kd_problem) { .type = KD_PROBLEM_CROWDED, .retry_after = 1, .detail = BODIES_TOO_MANY };
     return atomic_load(&request->server->body_bytes) > KD_BODIES_MAX;
 }
 
@@ -112,20 +117,22 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     struct kd_error error;
 
     if (kd_target_parse(&request->target, request->raw, &error))
-        problem = (struct kd_problem){ .detail = error.message, .type = error.status == KD_ENOMEM
-                                                                            ? KD_PROBLEM_NO_MEMORY
-                                                                            : KD_PROBLEM_BAD_REQUEST };
+        problem = (struct kd_problem) { .detail = error.message,
+                                        .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY
+                                                                          : KD_PROBLEM_BAD_REQUEST };
     else if (!kd_route_is_health(request->raw) && kd_connections_crowded(request->server->connections))
-        problem = (struct kd_problem){ .type = KD_PROBLEM_CROWDED, .retry_after = 1, .close = true,
-                                       .detail = "more connections are open than this server takes" };
+        problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
+                                        .retry_after = 1,
+                                        .close = true,
+                                        .detail = "more connections are open than this server takes" };
     else if (kd_route_find(request, &problem) && !body_fault(request, &problem))
         return true;
     *result = kd_reply_problem(request, &problem);
     return false;
 }
 
-/* The header is complete. What announces a body is refused by its header where it can be. The library closes the
- * connection after an answer at this point, so all else is answered at the next call. */
+/* The header is complete. What announces a body is refused by its header where it can be. The library closes
+ * the connection after an answer at this point, so all else is answered at the next call. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;

@@ -11,18 +11,18 @@ struct kd_request {
     struct kd_server *server;
     struct MHD_Connection *mhd;
     struct kd_connection *connection;
-    char *raw;                  /* the target as received */
+    char *raw; /* the target as received */
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;
-    const char *method, *rest;  /* rest: of the path, behind a route that ends in "/" */
+    const char *method, *rest; /* rest: of the path, behind a route that ends in "/" */
     bool head, begun, body_announced, close;
     struct kd_buffer body;
-    struct kd_render_job *job;  /* of a render under way; owned */
+    struct kd_render_job *job; /* of a render under way; owned */
     char etag[96];
-    size_t reply_bytes;         /* of a large reply, for its deadline */
+    size_t reply_bytes; /* of a large reply, for its deadline */
     double start_ms;
-    unsigned status;            /* of the reply, for the log */
+    unsigned status; /* of the reply, for the log */
 };
 
 /* The four callbacks libmicrohttpd is started with; cls is the struct kd_server. */

@@ -7,7 +7,8 @@
 #define JSON "application/json"
 
 const struct kd_route kd_routes[] = {
-    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page that shows the default picture", false },
+    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page that shows the default picture",
+      false },
     { "/app.js", KD_GET, kd_handle_page, "text/javascript; charset=utf-8", "The page's script", false },
     { "/style.css", KD_GET, kd_handle_page, "text/css; charset=utf-8", "The page's style", false },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives", false },
@@ -59,12 +60,13 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
         request->route = route;
         if (permits(route, request->method))
             return true;
-        *problem = (struct kd_problem){ .type = KD_PROBLEM_METHOD, .allow = allow(route->methods),
-                                        .detail = "the Allow header names the methods this address takes" };
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_METHOD,
+                                         .allow = allow(route->methods),
+                                         .detail = "the Allow header names the methods this address takes" };
         return false;
     }
-    *problem = (struct kd_problem){ .type = KD_PROBLEM_NOT_FOUND,
-                                    .detail = "there is no such path; /openapi.json lists those there are" };
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                     .detail = "there is no such path; /openapi.json lists those there are" };
     return false;
 }
 

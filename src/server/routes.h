@@ -15,7 +15,8 @@ enum { KD_GET = 1, KD_POST = 2 }; /* HEAD goes with GET */
 struct kd_route {
     const char *path; /* one that ends in "/" and is longer takes any one further segment */
     unsigned methods;
-    enum MHD_Result (*handle)(struct kd_request *request); /* called with the whole body received; again when a render is done */
+    /* Called when the whole body is there, and again when the render it has asked for is done. */
+    enum MHD_Result (*handle)(struct kd_request *request);
     const char *answer, *summary; /* media type, and a sentence for openapi.json */
     bool scene;                   /* takes a scene: in the body, or with GET in the query */
 };
@@ -29,8 +30,8 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 bool kd_route_is_health(const char *raw);
 
 /* handlers, by file */
-enum MHD_Result kd_handle_page(struct kd_request *request);    /* pages.c */
-enum MHD_Result kd_handle_health(struct kd_request *request);  /* reports.c */
+enum MHD_Result kd_handle_page(struct kd_request *request);   /* pages.c */
+enum MHD_Result kd_handle_health(struct kd_request *request); /* reports.c */
 enum MHD_Result kd_handle_ready(struct kd_request *request);
 enum MHD_Result kd_handle_device(struct kd_request *request);
 enum MHD_Result kd_handle_presets(struct kd_request *request);

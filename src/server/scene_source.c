@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The JSON pointer of a parameter: "camera.r" is /camera/r. A name may be anything, so ~ and / are escaped. */
+/* The JSON pointer of a parameter: "camera.r" is /camera/r. A name may be anything: ~ and / are escaped. */
 static void pointer_of(const char *name, char *out, size_t size)
 {
     size_t n = 0;

@@ -13,7 +13,10 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-static unsigned or_default(unsigned value, unsigned otherwise) { return value ? value : otherwise; }
+static unsigned or_default(unsigned value, unsigned otherwise)
+{
+    return value ? value : otherwise;
+}
 
 /* Loopback by name and number, the listening address if it is one address, and what the caller adds. */
 static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more,
@@ -44,7 +47,7 @@ static void set_etag_tail(struct kd_server *server)
     uint64_t hash = 0xcbf29ce484222325u;
     const char *parts[] = { KD_VERSION, kd_render_queue_device_name(server->renders) };
     for (size_t i = 0; i < 2; i++)
-        for (const char *p = parts[i]; ; p++) {
+        for (const char *p = parts[i];; p++) {
             hash = (hash ^ (unsigned char)*p) * 0x100000001b3u;
             if (!*p)
                 break;
@@ -64,17 +67,15 @@ static void log_from_library(void *cls, const char *format, va_list args)
 static enum kd_status start_daemon(struct kd_server *server, int fd, unsigned connections,
                                    struct kd_error *error)
 {
-    /* The library's own limit lies above ours: between the two a client is told why, and health is still answered. */
+    /* The library's own limit lies above ours: between the two a client is told why, and health is still
+     * answered. */
     server->daemon = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, NULL, NULL,
         kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, log_from_library, NULL,
-        MHD_OPTION_LISTEN_SOCKET, fd,
-        MHD_OPTION_CONNECTION_LIMIT, connections + connections / 4 + 16,
-        MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL,
-        MHD_OPTION_URI_LOG_CALLBACK, kd_request_open, server,
-        MHD_OPTION_NOTIFY_COMPLETED, kd_request_close, server,
-        MHD_OPTION_NOTIFY_CONNECTION, kd_request_connection, server, MHD_OPTION_END);
+        MHD_OPTION_LISTEN_SOCKET, fd, MHD_OPTION_CONNECTION_LIMIT, connections + connections / 4 + 16,
+        MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL,
+        MHD_OPTION_URI_LOG_CALLBACK, kd_request_open, server, MHD_OPTION_NOTIFY_COMPLETED, kd_request_close,
+        server, MHD_OPTION_NOTIFY_CONNECTION, kd_request_connection, server, MHD_OPTION_END);
     if (server->daemon)
         return KD_OK;
     close(fd);
@@ -109,7 +110,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     if (!status)
         status = kd_listen_open(address, &server->port, &fd, error);
     if (!status)
-        status = kd_render_queue_create(&params->renderer, or_default(params->queue, 16), &server->renders, error);
+        status =
+            kd_render_queue_create(&params->renderer, or_default(params->queue, 16), &server->renders, error);
     if (status) {
         if (fd >= 0)
             close(fd);
@@ -138,7 +140,10 @@ enum kd_status kd_server_create(const struct kd_server_params *params, struct kd
     return KD_OK;
 }
 
-uint16_t kd_server_port(const struct kd_server *server) { return server->port; }
+uint16_t kd_server_port(const struct kd_server *server)
+{
+    return server->port;
+}
 
 void kd_server_stop(struct kd_server *server)
 {

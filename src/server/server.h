@@ -10,27 +10,27 @@
 struct kd_server;
 
 struct kd_server_params {
-    const char *listen;      /* numeric address, default "127.0.0.1" */
-    uint16_t port;           /* 0: any free port */
-    const char *const *hosts;/* further accepted Host names (without port), NULL-terminated; loopback names always are */
-    unsigned queue;          /* renders that may wait, default 16 */
-    unsigned drain_ms;       /* after a stop request, how long /readyz fails before requests are refused; default 1000 */
-    unsigned connections;    /* at once; one more is answered 503, all but the health routes; default 512 */
-    unsigned header_ms;      /* a request's header must be complete by then; default 10 000 */
-    unsigned body_ms;        /* and its body so long after that; default 30 000 */
-    unsigned longest_s;      /* a render estimated to take longer than this is refused with 422; default 600 */
+    const char *listen;       /* numeric address, default "127.0.0.1" */
+    uint16_t port;            /* 0: any free port */
+    const char *const *hosts; /* Host names to accept besides loopback's, without port; NULL-terminated */
+    unsigned queue;           /* renders that may wait, default 16 */
+    unsigned drain_ms;        /* of serving on after a stop request, with /readyz failing; default 1000 */
+    unsigned connections;     /* at once; one more is answered 503, all but the health routes; default 512 */
+    unsigned header_ms;       /* a request's header must be complete by then; default 10 000 */
+    unsigned body_ms;         /* and its body so long after that; default 30 000 */
+    unsigned longest_s; /* a render estimated to take longer than this is refused with 422; default 600 */
     struct kd_renderer_params renderer;
 };
 
-/* Opens the device, starts the render thread and listens. params is copied, the strings in it and in
- * params->renderer included where they are needed after the call. A zero in params means the default; drain_ms
- * UINT_MAX means none. */
-enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out, struct kd_error *error);
+/* Opens the device, starts the render thread and listens. params and its strings are not needed after the
+ * call. A zero in it means the default; drain_ms UINT_MAX means no drain. */
+enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out,
+                                struct kd_error *error);
 uint16_t kd_server_port(const struct kd_server *server);
 /* Begin to stop: /readyz fails at once, running and queued renders finish. Async-signal-safe. */
 void kd_server_stop(struct kd_server *server);
 /* Block until stopped and drained. KD_EDEVICE when the device was lost: exit the process soon, without
- * kd_server_destroy or with it (it then leaves the renderer alone, since a lost device cannot be torn down). */
+ * kd_server_destroy or with it (it then leaves the renderer alone: a lost device cannot be torn down). */
 enum kd_status kd_server_wait(struct kd_server *server, struct kd_error *error);
 /* Without a stop before it, cuts short: no drain, running renders are cancelled. Accepts NULL. */
 void kd_server_destroy(struct kd_server *server);

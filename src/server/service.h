@@ -14,12 +14,12 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX    /* of one request, bytes */
-#define KD_BODIES_MAX ((size_t)64 << 20) /* of all requests being received */
+#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes */
+#define KD_BODIES_MAX ((size_t)64 << 20)   /* of all requests being received */
 #define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures not yet taken by their clients */
-#define KD_HEADER_POOL (32u << 10)       /* a connection's memory for header and read buffer */
-#define KD_IDLE_S 30u                    /* a kept-alive connection without traffic */
-#define KD_PNG_COMPRESSION 1             /* a live view would rather have 10 ms than 20 % */
+#define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
+#define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
+#define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
 
 /* The way down, in order. */
 enum kd_phase {
@@ -33,21 +33,21 @@ enum kd_phase {
 struct kd_server {
     struct MHD_Daemon *daemon;
     uint16_t port;
-    const char **hosts;       /* accepted Host names, NULL-terminated; each malloc'd */
+    const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
     unsigned drain_ms, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
-    char etag_tail[20];       /* what besides the scene a picture depends on: version, device */
+    char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;
-    _Atomic unsigned requests;                 /* begun and not yet answered in full */
+    _Atomic unsigned requests; /* begun and not yet answered in full */
     _Atomic size_t body_bytes, reply_bytes;
 
-    int stop_fd;              /* eventfd that wakes the keeper */
+    int stop_fd; /* eventfd that wakes the keeper */
     pthread_t keeper;
     bool keeper_runs;
-    _Atomic bool abandon;     /* destroy without stop: do not wait */
-    pthread_mutex_t lock;     /* for `stopped` */
+    _Atomic bool abandon; /* destroy without stop: do not wait */
+    pthread_mutex_t lock; /* for `stopped` */
     pthread_cond_t changed;
     bool stopped;
 };

@@ -23,7 +23,8 @@ static enum kd_status decode(char *text, bool plus, struct kd_error *error)
         if (c == '%') {
             int high = hex(from[1]), low = high < 0 ? -1 : hex(from[2]);
             if (low < 0)
-                return kd_error_set(error, KD_EINVAL, "the request target holds a %% without two hexadecimal digits");
+                return kd_error_set(error, KD_EINVAL,
+                                    "the request target holds a %% without two hexadecimal digits");
             c = high << 4 | low;
             from += 2;
         } else if (c == '+' && plus) {
@@ -56,13 +57,13 @@ static enum kd_status add_pair(struct kd_target *target, char *pair, struct kd_e
     if (!status && *value)
         status = decode(value, true, error);
     if (!status)
-        target->pairs[target->n_pairs++] = (struct kd_target_pair){ pair, value };
+        target->pairs[target->n_pairs++] = (struct kd_target_pair) { pair, value };
     return status;
 }
 
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error)
 {
-    *target = (struct kd_target){ .text = strdup(raw) };
+    *target = (struct kd_target) { .text = strdup(raw) };
     if (!target->text)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     target->path = target->text;
@@ -83,5 +84,5 @@ enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct
 void kd_target_finish(struct kd_target *target)
 {
     free(target->text);
-    *target = (struct kd_target){ 0 };
+    *target = (struct kd_target) { 0 };
 }

@@ -11,7 +11,9 @@
 struct kd_target {
     char *text; /* owns what the pointers below point into */
     const char *path;
-    struct kd_target_pair { const char *name, *value; } pairs[KD_TARGET_PAIRS];
+    struct kd_target_pair {
+        const char *name, *value;
+    } pairs[KD_TARGET_PAIRS];
     size_t n_pairs;
 };
 

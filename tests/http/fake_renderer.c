@@ -1,4 +1,5 @@
-/* render/render.h without a device, for tests of what stands in front of it. Plans and pictures are the real ones.
+/* render/render.h without a device, for tests of what stands in front of it. Plans and pictures are the real
+ * ones.
  *
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
  * -2 runs out of memory, -3 fails. */
@@ -8,7 +9,9 @@
 #include <string.h>
 #include <time.h>
 
-struct kd_renderer { char lens_key[65]; };
+struct kd_renderer {
+    char lens_key[65];
+};
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
@@ -19,14 +22,20 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     return *out ? KD_OK : KD_ENOMEM;
 }
 
-void kd_renderer_destroy(struct kd_renderer *renderer) { free(renderer); }
+void kd_renderer_destroy(struct kd_renderer *renderer)
+{
+    free(renderer);
+}
 
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {
     (void)renderer;
-    *out = (struct kd_capacity){ .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30,
-                                 .ns_per_ray_radius = 1000, .ns_per_ray_full = 1000,
-                                 .ns_per_sample_transfer = 1, .ns_per_pixel_post = 1 };
+    *out = (struct kd_capacity) { .max_binding_bytes = 128u << 20,
+                                  .memory_bytes = 1u << 30,
+                                  .ns_per_ray_radius = 1000,
+                                  .ns_per_ray_full = 1000,
+                                  .ns_per_sample_transfer = 1,
+                                  .ns_per_pixel_post = 1 };
 }
 
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out)
@@ -67,8 +76,9 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                         kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
+                         const struct kd_plan *plan, kd_progress_fn progress, void *user,
+                         struct kd_frame *out, struct kd_error *error)
 {
     enum kd_status status = mishap(scene->top.time, error);
     if (!status)
@@ -76,8 +86,10 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     if (status)
         return status;
     size_t size = (size_t)plan->width * plan->height * 3 * (scene->image.bit_depth > 8 ? 2 : 1);
-    *out = (struct kd_frame){ .width = plan->width, .height = plan->height, .bit_depth = scene->image.bit_depth,
-                              .pixels = malloc(size) };
+    *out = (struct kd_frame) { .width = plan->width,
+                               .height = plan->height,
+                               .bit_depth = scene->image.bit_depth,
+                               .pixels = malloc(size) };
     if (!out->pixels)
         return kd_error_set(error, KD_ENOMEM, "no memory for the picture");
     for (size_t i = 0; i < size; i++)
@@ -85,13 +97,13 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     out->lens_reused = !strcmp(renderer->lens_key, plan->lens_key);
     memcpy(renderer->lens_key, plan->lens_key, sizeof renderer->lens_key);
     if (!out->lens_reused)
-        out->timings[out->n_timings++] = (struct kd_timing){ "trace", scene->top.time };
-    out->timings[out->n_timings++] = (struct kd_timing){ "total", scene->top.time };
+        out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
+    out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
     return KD_OK;
 }
 
 void kd_frame_finish(struct kd_frame *frame)
 {
     free(frame->pixels);
-    *frame = (struct kd_frame){ 0 };
+    *frame = (struct kd_frame) { 0 };
 }

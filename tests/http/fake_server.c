@@ -1,5 +1,5 @@
-/* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers of
- * struct kd_server_params by name, --listen, --host (once) and --device. */
+/* The HTTP service in front of the renderer it is linked with: fake_server [--NAME VALUE]... with the numbers
+ * of struct kd_server_params by name, --listen, --host (once) and --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -19,10 +19,16 @@ static void on_signal(int number)
 
 static int set(struct kd_server_params *params, const char *hosts[2], const char *name, const char *value)
 {
-    struct { const char *name; unsigned *number; } numbers[] = {
-        { "--queue", &params->queue },         { "--drain-ms", &params->drain_ms },
-        { "--header-ms", &params->header_ms }, { "--body-ms", &params->body_ms },
-        { "--connections", &params->connections }, { "--longest-s", &params->longest_s },
+    struct {
+        const char *name;
+        unsigned *number;
+    } numbers[] = {
+        { "--queue", &params->queue },
+        { "--drain-ms", &params->drain_ms },
+        { "--header-ms", &params->header_ms },
+        { "--body-ms", &params->body_ms },
+        { "--connections", &params->connections },
+        { "--longest-s", &params->longest_s },
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!strcmp(name, numbers[i].name))
