@@ -55,8 +55,7 @@ size_t kd_problem_count(void);
 /* The document, application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);
 
-/* A whole HTTP answer straight to a socket, for where libmicrohttpd cannot send one any more. Never blocks.
- */
+/* A whole HTTP answer straight to a socket, for where libmicrohttpd can send none. Never blocks. */
 void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail);
 
 #endif
