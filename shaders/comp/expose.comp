@@ -1,10 +1,11 @@
-/* Histogram of the picture's log luminance, for auto exposure. Integer counts: the same on every run. */
+/* Histogram of the picture's luminance, for auto exposure. Integer counts: the same on every run. Of a large picture each
+ * `skip`-th pixel is counted, a number that shares no factor with usual widths, so that all columns have their turn. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
-layout(push_constant) uniform Push { uint pixels; } push;
+layout(push_constant) uniform Push { uint pixels, skip; } push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) buffer Histogram { uint histogram[KD_HISTOGRAM_BINS]; };
 shared uint local_bins[KD_HISTOGRAM_BINS];
@@ -15,7 +16,7 @@ void main()
         local_bins[i] = 0;
     barrier();
     uint step_ = gl_NumWorkGroups.x * KD_GROUP_SIZE;
-    for (uint i = gl_GlobalInvocationID.x; i < push.pixels; i += step_) {
+    for (uint i = gl_GlobalInvocationID.x * push.skip; i < push.pixels; i += step_ * push.skip) {
         float y = 0.2126729 * radiance[3 * i] + 0.7151522 * radiance[3 * i + 1] + 0.0721750 * radiance[3 * i + 2];
         uint bin = 0;
         if (y > 0.0)

@@ -156,13 +156,14 @@ static enum kd_status measure(struct job *j)
         status = kd_vk_fill(vk, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
         uint32_t pixels = j->plan->width * band_rows(j, band);
-        uint32_t n = groups(pixels / 64 + 1); /* each invocation counts some 64 pixels */
+        const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
+        uint32_t n = groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         status = kd_vk_dispatch(vk,
                                 &(struct kd_vk_dispatch){ "expose",
                                                           expose,
                                                           { { s->radiance.buffers[band], 0, 0, false },
                                                             { s->histogram, 0, 0, true } },
-                                                          &pixels,
+                                                          push,
                                                           { n } },
                                 j->error);
     }

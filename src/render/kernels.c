@@ -19,7 +19,7 @@ static const struct {
     [KD_KERNEL_LENS_RADIUS] = { "lens_radius", kd_spv_lens_radius, sizeof kd_spv_lens_radius, 1, sizeof(struct kd_camera_push) },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 1, sizeof(struct kd_camera_push) },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 3, sizeof(struct kd_camera_push) },
-    [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 4 },
+    [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
 };
 
