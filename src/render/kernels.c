@@ -47,7 +47,8 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 {
     uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
     struct kd_kernel_entry *oldest = &kernels->entries[0];
-    memcpy(key, constants, n * sizeof *key);
+    for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
+        key[i] = constants[i];
     for (size_t i = 0; i < KD_KERNELS_KEPT; i++) {
         struct kd_kernel_entry *e = &kernels->entries[i];
         if (e->pipeline && e->kernel == kernel && !memcmp(e->constants, key, sizeof key)) {
