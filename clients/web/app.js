@@ -136,12 +136,29 @@ async function refresh() {
   busy = false;
 }
 
+// Dragging the picture up and down tilts the camera. Turning it about the axis of a smooth disk would change nothing.
+function dragToTilt(picture, control) {
+  let from = null;
+  picture.addEventListener('pointerdown', event => {
+    from = { y: event.clientY, tilt: Number(control.value) };
+    picture.setPointerCapture(event.pointerId);
+    event.preventDefault();
+  });
+  picture.addEventListener('pointermove', event => {
+    if (!from) return;
+    control.value = from.tilt - (event.clientY - from.y) * 180 / picture.clientHeight;
+    control.dispatchEvent(new Event('input'));
+  });
+  for (const end of ['pointerup', 'pointercancel']) picture.addEventListener(end, () => { from = null; });
+}
+
 async function start() {
   refresh();
   const [schema, { presets }] = await Promise.all([getJson('v1/schema'), getJson('v1/presets')]);
   addPresets(presets);
   for (const path of shown) addSlider(path, field(schema, path));
   for (const path of shown) element(path).defaultValue = field(schema, path).default;
+  dragToTilt(element('picture'), element('camera.inclination_deg'));
 }
 
 start().catch(report);
