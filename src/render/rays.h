@@ -1,0 +1,60 @@
+/* End points of arbitrary rays, by any engine: what POST /v1/rays and `kerrd rays` answer with.
+ *
+ * A ray is a pair (alpha, beta) in M, labels of the constants of motion (Bardeen 1973): lambda = L/E = -alpha sin i,
+ * eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2, the sign of the arriving photon's p^theta that of beta. It is traced back
+ * from an observer at r (INFINITY, or finite: then inwards). Crossings of the equatorial plane are counted from the eye;
+ * azimuths are Boyer-Lindquist, source minus observer; delay is t_observed - t_emitted, for an observer at infinity less
+ * r_o + 2 ln r_o. g = E_infinity / (-p.u) of gas on circular orbits outside the ISCO, plunging from it inside (Cunningham
+ * 1975); a finite observer multiplies by its own nu/E_infinity. */
+#ifndef KD_RENDER_RAYS_H
+#define KD_RENDER_RAYS_H
+
+#include "base/error.h"
+#include "render/render.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum kd_engine {
+    KD_ENGINE_CLOSED,    /* elliptic functions on the CPU, double: the reference */
+    KD_ENGINE_MINO_RKN6, /* Mino time, Albrecht's Nystroem method, on the device */
+    KD_ENGINE_COUNT
+};
+enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
+
+const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn6" */
+const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
+
+#define KD_RAYS_MAX 1000000
+#define KD_RAYS_MAX_ORDERS 16
+
+struct kd_rays_params {
+    double spin;             /* |a| < 1 */
+    double r;                /* of the observer, INFINITY or outside the horizon */
+    double inclination_deg;  /* 0 to 180 */
+    uint32_t orders;         /* crossings wanted, 1 to KD_RAYS_MAX_ORDERS */
+    enum kd_engine engine;
+    enum kd_precision precision; /* closed: F64 only */
+    uint32_t steps;          /* a half period, a multiple of 4 up to 256; 0: the engine's default; closed: 0 */
+};
+
+enum kd_ray_fate { KD_RAY_CAPTURED, KD_RAY_ESCAPED, KD_RAY_UNDECIDED };
+
+struct kd_ray_crossing { double r, phi, delay, g; };
+
+struct kd_ray_end {
+    enum kd_ray_fate fate;
+    uint32_t n_crossings;    /* how many of the wanted orders exist outside the horizon */
+    double theta, phi;       /* direction of escape, if it escapes: polar angle and azimuth, source minus observer */
+    double error;            /* estimated relative error of the worst crossing radius (of the direction, in radians, if
+                              * there is no crossing); bounds the true one for at least 99 % of rays */
+};
+
+/* Trace n rays. alpha_beta: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.
+ * renderer may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread.
+ * KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
+enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta,
+                             size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
+                             kd_progress_fn progress, void *user, struct kd_error *error);
+
+#endif
