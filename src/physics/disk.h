@@ -5,7 +5,8 @@
 
 /* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and
  * proper time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO.
- * Relative error below 1e-10 for r - r_isco > 1e-4, |a| <= 0.9999. */
+ * Relative error below 1e-11 + 4e-14/(r - r_isco)^2 for |a| <= 0.9999: towards the ISCO, where F has a double zero, the
+ * closed form cancels. */
 double kd_disk_flux_page_thorne(double a, double r);
 
 /* Shakura & Sunyaev 1973 (Newtonian) with the inner edge at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */

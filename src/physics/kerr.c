@@ -26,7 +26,7 @@ double kd_kerr_isco(double a)
             x -= (((x * x - 6) * x + 8 * a) * x - 3 * a * a) / ((4 * x * x - 12) * x + 8 * a);
         r = x * x;
     }
-    return r;
+    return fabs(a) <= 1 ? r : NAN; /* cube roots know no domain */
 }
 
 double kd_kerr_photon_orbit(double a)
@@ -39,27 +39,50 @@ double kd_kerr_photon_orbit(double a)
 double kd_kerr_marginally_bound(double a)
 {
     double s = 1 + sqrt(1 - a);
-    return s * s;
+    return a >= -1 ? s * s : NAN;
 }
 
 double kd_kerr_omega(double a, double r) { return 1 / (r * sqrt(r) + a); }
 
-/* 1 - 3/r + 2a/r^(3/2), the common denominator; zero at the photon orbit. */
-static double circular_norm(double a, double r) { return sqrt(1 - 3 / r + 2 * a / (r * sqrt(r))); }
+/* Near a = 1 the prograde orbits come close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L cancel and
+ * lose half their digits. As polynomials in x = sqrt(r) they are regrouped around x = 1, from x - 1 and 1 - a, which are
+ * known to full precision. */
+struct circle { double x, d, e, norm; }; /* sqrt(r), x - 1, 1 - a, sqrt(x^3 (x^3 - 3x + 2a)) */
 
+static struct circle circle_of(double a, double r)
+{
+    struct circle o = { .x = sqrt(r), .e = 1 - a };
+    o.d = (r - 1) / (o.x + 1);
+    o.norm = sqrt(r * o.x * (o.d * o.d * (o.x + 2) - 2 * o.e)); /* zero at the photon orbit */
+    return o;
+}
+
+/* (x^3 - 2x + a) / sqrt(x^3 (x^3 - 3x + 2a)) */
 double kd_kerr_energy(double a, double r)
 {
-    return (1 - 2 / r + a / (r * sqrt(r))) / circular_norm(a, r);
+    struct circle o = circle_of(a, r);
+    return (o.d * (r + o.x - 1) - o.e) / o.norm;
 }
 
+/* (x^4 - 2ax + a^2) / sqrt(x^3 (x^3 - 3x + 2a)) */
 double kd_kerr_momentum(double a, double r)
 {
-    return sqrt(r) * (1 - 2 * a / (r * sqrt(r)) + a * a / (r * r)) / circular_norm(a, r);
+    struct circle o = circle_of(a, r);
+    return (o.d * (o.x * (r + o.x + 1) - 1) + o.e * (2 * o.d + o.e)) / o.norm;
 }
 
-double kd_kerr_ut(double a, double r) { return (1 + a / (r * sqrt(r))) / circular_norm(a, r); }
+double kd_kerr_ut(double a, double r)
+{
+    struct circle o = circle_of(a, r);
+    return (r * o.x + a) / o.norm;
+}
 
-double kd_kerr_efficiency(double a) { return 1 - kd_kerr_energy(a, kd_kerr_isco(a)); }
+/* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no difference. */
+double kd_kerr_efficiency(double a)
+{
+    double x = 2 / (3 * kd_kerr_isco(a));
+    return x / (1 + sqrt(1 - x));
+}
 
 double kd_kerr_dragging(double a, double r, double cos_theta)
 {

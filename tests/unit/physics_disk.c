@@ -1,0 +1,173 @@
+/* The thin disk against quadrature of its defining integral (tests/oracle/disk_reference.py), energy conservation, and the
+ * redshift against a contraction with the metric. */
+#include "physics/disk.h"
+#include "physics/kerr.h"
+
+#include "disk_reference.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define COUNT(x) (sizeof(x) / sizeof *(x))
+
+static void close_to(const char *what, double a, double r, double got, double want, double relative)
+{
+    if (!(fabs(got - want) <= relative * fabs(want)))
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want,
+                 fabs(got / want - 1), relative);
+}
+
+/* The bound of the header; the nearest radius here is 0.001 r_isco outside the ISCO. */
+static void flux_is_the_integral(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(flux_reference); i++) {
+        const struct flux_reference *f = &flux_reference[i];
+        double gap = f->r - kd_kerr_isco(f->a), bound = 1e-11 + 4e-14 / (gap * gap);
+        close_to("flux", f->a, f->r, kd_disk_flux_page_thorne(f->a, f->r), f->flux, bound);
+    }
+}
+
+typedef double (*function)(double a, double r);
+
+/* Integral of 4 pi r F(r) weight(r) from the ISCO to infinity, in y = sqrt(r_isco/r), where the integrand is a power series
+ * that starts with y: Simpson's rule. */
+static double luminosity(function flux, function weight, double a)
+{
+    const int n = 20000;
+    double isco = kd_kerr_isco(a), sum = 0;
+    for (int i = 1; i < n; i++) {
+        double y = (double)i / n, r = isco / (y * y);
+        sum += (i % 2 ? 4 : 2) * 4 * M_PI * r * flux(a, r) * weight(a, r) * 2 * isco / (y * y * y);
+    }
+    return sum / (3.0 * n); /* both ends are zero: F at the ISCO, y at infinity */
+}
+
+static double one(double a, double r) { return (void)a, (void)r, 1; }
+
+/* What both faces radiate, E times the energy in the gas's frame, is what the gas loses on its way in: 1 - E(ISCO)
+ * (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within 0.1 of the ISCO. The
+ * Newtonian disk, by the virial theorem, releases 1/(2 r_in). */
+static void luminosity_is_the_efficiency(void **state)
+{
+    (void)state;
+    const double spins[] = { -0.9999, -0.9, -0.5, 0, 1e-9, 0.3, 0.5, 0.9, 0.99, 0.998, 0.9999 };
+    for (size_t i = 0; i < COUNT(spins); i++) {
+        double a = spins[i];
+        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a), kd_kerr_efficiency(a),
+                 1e-8);
+        close_to("Newtonian luminosity", a, 0, luminosity(kd_disk_flux_shakura_sunyaev, one, a),
+                 0.5 / kd_kerr_isco(a), 1e-8);
+    }
+}
+
+static void nothing_inside_the_isco(void **state)
+{
+    (void)state;
+    for (int n = -999; n < 1000; n += 3) {
+        double a = n / 1000.0, isco = kd_kerr_isco(a);
+        const function models[] = { kd_disk_flux_page_thorne, kd_disk_flux_shakura_sunyaev };
+        for (int i = 0; i < 2; i++) {
+            assert_true(models[i](a, isco) == 0);
+            assert_true(models[i](a, 0.99 * isco) == 0);
+            assert_true(models[i](a, 1) == 0);
+            assert_true(models[i](a, 1.001 * isco) > 0);
+            assert_true(models[i](a, 1e7) > 0);
+        }
+    }
+}
+
+/* Far away both fall as 3/(8 pi r^3) (1 - C/sqrt(r)), C below 5. */
+static void far_away_it_is_newtonian(void **state)
+{
+    (void)state;
+    for (double a = -0.99; a < 1; a += 0.11) {
+        double newton = 3 / (8 * M_PI * 1e24);
+        close_to("far flux", a, 1e8, kd_disk_flux_page_thorne(a, 1e8), newton, 5e-4);
+        close_to("far Newtonian flux", a, 1e8, kd_disk_flux_shakura_sunyaev(a, 1e8), newton, 5e-4);
+    }
+}
+
+/* At a maximum a relative eps of the value is sqrt(eps) = 1e-8 of the place: 1e-7 with the table's nine digits. Newtonian:
+ * the derivative of (1 - sqrt(r_in/r))/r^3 vanishes at r = 49/36 r_in. */
+static void peak_of_the_flux(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(peak_reference); i++) {
+        const struct peak_reference *p = &peak_reference[i];
+        double top, r = kd_disk_peak(kd_disk_flux_page_thorne, p->a, &top);
+        close_to("peak radius", p->a, r, r, p->r, 1e-7);
+        close_to("peak flux", p->a, r, top, p->flux, 1e-10);
+        assert_true(kd_disk_peak(kd_disk_flux_page_thorne, p->a, NULL) == r);
+        r = kd_disk_peak(kd_disk_flux_shakura_sunyaev, p->a, NULL);
+        close_to("Newtonian peak", p->a, r, r, 49.0 / 36 * kd_kerr_isco(p->a), 1e-7);
+    }
+}
+
+/* Luminet 1979, eq. 19, with lambda = -b sin(phi) sin(i): 1 + z = (1 - 3/r)^(-1/2) (1 - lambda r^(-3/2)). */
+static void redshift_without_spin(void **state)
+{
+    (void)state;
+    for (double r = 6; r < 1e5; r *= 1.3)
+        for (double lambda = -5; lambda <= 5; lambda += 0.5)
+            close_to("g", 0, r, kd_disk_redshift(0, r, lambda), sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))), 1e-14);
+}
+
+/* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega where the r-derivative of u.g.u vanishes,
+ * u^t from u.g.u = -1, all in the plane. */
+static double redshift_by_contraction(double a, double r, double lambda)
+{
+    double tt = -1 + 2 / r, tp = -2 * a / r, pp = r * r + a * a + 2 * a * a / r;
+    double dtt = -2 / (r * r), dtp = 2 * a / (r * r), dpp = 2 * r - 2 * a * a / (r * r);
+    double omega = (-dtp + sqrt(dtp * dtp - dtt * dpp)) / dpp;
+    double ut = 1 / sqrt(-(tt + 2 * tp * omega + pp * omega * omega));
+    return 1 / (ut * (1 - omega * lambda));
+}
+
+/* The contraction itself cancels towards the photon orbit: at a = 0.998 to about 1e-15 over 0.02 of the terms. */
+static void redshift_with_spin(void **state)
+{
+    (void)state;
+    const double spins[] = { -0.998, -0.9, -0.3, 1e-9, 0.3, 0.9, 0.998 };
+    for (size_t i = 0; i < COUNT(spins); i++)
+        for (double r = kd_kerr_isco(spins[i]); r < 1e5; r *= 1.3)
+            for (double lambda = -6; lambda <= 1.5; lambda += 0.5)
+                close_to("g", spins[i], r, kd_disk_redshift(spins[i], r, lambda),
+                         redshift_by_contraction(spins[i], r, lambda), 1e-12);
+}
+
+/* Same physics worked in grams and with Newton's G, known to 2.2e-5; T goes as M^(-1/4). The fourth root of the flux adds
+ * nothing. */
+static void temperature_in_kelvin(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(temperature_reference); i++) {
+        const struct temperature_reference *t = &temperature_reference[i];
+        double flux = kd_disk_flux_page_thorne(t->a, t->r);
+        double got = kd_disk_temperature(flux, t->a, t->mass_msun, t->mdot_edd);
+        close_to("temperature", t->a, t->r, got, t->kelvin, 1e-5);
+        close_to("sixteen times the mass", t->a, t->r, kd_disk_temperature(flux, t->a, 16 * t->mass_msun, t->mdot_edd),
+                 got / 2, 1e-14);
+        close_to("sixteen times the rate", t->a, t->r, kd_disk_temperature(flux, t->a, t->mass_msun, 16 * t->mdot_edd),
+                 got * 2, 1e-14);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flux_is_the_integral),
+        cmocka_unit_test(luminosity_is_the_efficiency),
+        cmocka_unit_test(nothing_inside_the_isco),
+        cmocka_unit_test(far_away_it_is_newtonian),
+        cmocka_unit_test(peak_of_the_flux),
+        cmocka_unit_test(redshift_without_spin),
+        cmocka_unit_test(redshift_with_spin),
+        cmocka_unit_test(temperature_in_kelvin),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

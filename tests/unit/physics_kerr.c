@@ -1,0 +1,177 @@
+/* Circular orbits of Kerr against numbers worked out from the metric alone (tests/oracle/kerr_reference.py), and against
+ * what must hold at any spin. */
+#include "physics/kerr.h"
+
+#include "kerr_reference.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define COUNT(x) (sizeof(x) / sizeof *(x))
+
+static void close_to(const char *what, double a, double r, double got, double want, double relative)
+{
+    if (!(fabs(got - want) <= relative * fabs(want)))
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want,
+                 fabs(got / want - 1), relative);
+}
+
+/* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the others are one or two elementary functions of
+ * a, well conditioned in a and 1 - a: a few ulp, 1e-14. */
+static void special_radii(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(kerr_reference); i++) {
+        const struct kerr_reference *k = &kerr_reference[i];
+        close_to("horizon", k->a, 0, kd_kerr_horizon(k->a), k->horizon, 1e-15);
+        close_to("photon orbit", k->a, 0, kd_kerr_photon_orbit(k->a), k->photon, 1e-14);
+        close_to("marginally bound", k->a, 0, kd_kerr_marginally_bound(k->a), k->bound, 1e-14);
+        close_to("ISCO", k->a, 0, kd_kerr_isco(k->a), k->isco, 1e-14);
+    }
+}
+
+/* E and L are flat at the ISCO, so that its own rounding costs nothing and 1e-12 holds up to 1 - a = 1e-12, where r - 1 is
+ * 1.6e-4 and half the digits of a plain 1 - 3/r + 2a r^-3/2 are gone. 1 - E loses a factor of 26 at a = -1. */
+static void the_isco_orbit(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(kerr_reference); i++) {
+        const struct kerr_reference *k = &kerr_reference[i];
+        double r = kd_kerr_isco(k->a);
+        close_to("E(ISCO)", k->a, r, kd_kerr_energy(k->a, r), k->isco_energy, 1e-12);
+        close_to("L(ISCO)", k->a, r, kd_kerr_momentum(k->a, r), k->isco_momentum, 1e-12);
+        close_to("Omega(ISCO)", k->a, r, kd_kerr_omega(k->a, r), k->isco_omega, 1e-14);
+        close_to("efficiency", k->a, r, kd_kerr_efficiency(k->a), 1 - k->isco_energy, 2e-12);
+    }
+}
+
+/* Between the photon orbit and the ISCO, just outside it, near and far: the radii of the table are doubles, exact. Halfway
+ * to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5 and the rounding of sqrt(r) alone is worth 1e-12. */
+static void any_orbit(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(orbit_reference); i++) {
+        const struct orbit_reference *o = &orbit_reference[i];
+        close_to("Omega", o->a, o->r, kd_kerr_omega(o->a, o->r), o->omega, 1e-14);
+        close_to("E", o->a, o->r, kd_kerr_energy(o->a, o->r), o->energy, 1e-11);
+        close_to("L", o->a, o->r, kd_kerr_momentum(o->a, o->r), o->momentum, 1e-11);
+        close_to("u^t", o->a, o->r, kd_kerr_ut(o->a, o->r), o->ut, 1e-11);
+    }
+}
+
+/* Round numbers in print: Bardeen, Press & Teukolsky 1972, section II (a = 0: 2, 3, 4, 6; |a| = 1: 1, 4, 3 + 2 sqrt 2, 9;
+ * binding energies 5.72 %, 3.77 %), Thorne 1974 (a = 0.998: efficiency 0.321 for the ISCO at 1.237). */
+static void numbers_in_print(void **state)
+{
+    (void)state;
+    assert_true(kd_kerr_horizon(0) == 2 && kd_kerr_inner_horizon(0) == 0);
+    close_to("photon orbit", 0, 0, kd_kerr_photon_orbit(0), 3, 1e-15);
+    assert_true(kd_kerr_marginally_bound(0) == 4);
+    close_to("ISCO", 0, 0, kd_kerr_isco(0), 6, 1e-15);
+    close_to("efficiency", 0, 0, kd_kerr_efficiency(0), 1 - sqrt(8.0 / 9), 1e-14);
+    close_to("L(ISCO)", 0, 6, kd_kerr_momentum(0, 6), sqrt(12), 1e-15);
+    const double retrograde = -1 + 1e-15;
+    close_to("ISCO", retrograde, 0, kd_kerr_isco(retrograde), 9, 1e-14);
+    close_to("photon orbit", retrograde, 0, kd_kerr_photon_orbit(retrograde), 4, 1e-14);
+    close_to("marginally bound", retrograde, 0, kd_kerr_marginally_bound(retrograde), 3 + 2 * sqrt(2), 1e-14);
+    close_to("efficiency", retrograde, 0, kd_kerr_efficiency(retrograde), 1 - 5 / sqrt(27), 1e-13);
+    close_to("ISCO", 0.998, 0, kd_kerr_isco(0.998), 1.237, 5e-4 / 1.237); /* three decimals in print */
+    close_to("efficiency", 0.998, 0, kd_kerr_efficiency(0.998), 0.321, 5e-4 / 0.321);
+}
+
+/* E and L of circular orbits both have their minimum at the ISCO. Five hundredths aside the difference is a hundred thousand
+ * ulp. The slope there: a symmetric difference of step h leaves h^2 of the third derivative. */
+static void the_isco_is_the_minimum(void **state)
+{
+    (void)state;
+    for (int n = -1999; n < 2000; n++) {
+        double a = n / 2000.0;
+        double r = kd_kerr_isco(a), gap = r - kd_kerr_photon_orbit(a), step = 0.05 * gap;
+        double (*const functions[])(double, double) = { kd_kerr_energy, kd_kerr_momentum };
+        for (int i = 0; i < 2; i++) {
+            double at = functions[i](a, r), left = functions[i](a, r - step), right = functions[i](a, r + step);
+            if (!(left > at && right > at))
+                fail_msg("a = %g: no minimum of %s at the ISCO", a, i ? "L" : "E");
+            double h = 1e-3 * gap, slope = (functions[i](a, r + h) - functions[i](a, r - h)) / (2 * h);
+            double bend = (left + right - 2 * at) / (step * step);
+            /* In units of bend * gap: by how much of the gap the minimum lies aside. */
+            if (!(fabs(slope) < 1e-5 * bend * gap))
+                fail_msg("a = %g: the slope of %s at the ISCO is %g", a, i ? "L" : "E", slope);
+        }
+    }
+}
+
+/* 2000 spins crowding towards +-1: continuous, ordered, monotone. */
+static void order_of_the_radii(void **state)
+{
+    (void)state;
+    double last = 9.01;
+    for (int i = -1000; i <= 1000; i++) {
+        double a = copysign(-expm1(-abs(i) * 0.0276), i); /* |a| up to 1 - 1e-12 */
+        double horizon = kd_kerr_horizon(a), photon = kd_kerr_photon_orbit(a), bound = kd_kerr_marginally_bound(a);
+        double isco = kd_kerr_isco(a);
+        if (!(horizon <= photon && photon < bound && bound < isco && isco < last))
+            fail_msg("a = %.17g: %g, %g, %g, %g after %g", a, horizon, photon, bound, isco, last);
+        last = isco;
+        double product = kd_kerr_inner_horizon(a) * horizon; /* r+ r- = a^2 */
+        close_to("inner horizon", a, 0, product, a * a, 1e-15);
+    }
+}
+
+static void outside_the_domain(void **state)
+{
+    (void)state;
+    for (double a = -1.5; a <= 1.5; a += 3) {
+        assert_true(isnan(kd_kerr_horizon(a)));
+        assert_true(isnan(kd_kerr_isco(a)));
+        assert_true(isnan(kd_kerr_photon_orbit(a)));
+        assert_true(isnan(kd_kerr_marginally_bound(a)));
+        assert_true(isnan(kd_kerr_efficiency(a)));
+    }
+}
+
+/* -g_tphi/g_phiphi and g_tt from the Boyer-Lindquist line element as it is written in Misner, Thorne & Wheeler (33.2):
+ * ds^2 = -(Delta/rho^2)(dt - a sin^2 dphi)^2 + (sin^2/rho^2)((r^2 + a^2) dphi - a dt)^2 + ... */
+static void frame_dragging_and_ergosphere(void **state)
+{
+    (void)state;
+    for (int n = -5; n <= 5; n++) {
+        double a = 0.19 * n;
+        for (double u = -0.9; u <= 0.91; u += 0.3) {
+            for (double r = kd_kerr_horizon(a) * 1.01; r < 1000; r *= 1.7) {
+                double rho2 = r * r + a * a * u * u, delta = r * r - 2 * r + a * a, s2 = 1 - u * u;
+                double tphi = (delta * a * s2 - s2 * (r * r + a * a) * a) / rho2;
+                double phiphi = (s2 * pow(r * r + a * a, 2) - delta * a * a * s2 * s2) / rho2;
+                /* g_tphi here is a difference of terms r/2 times its size */
+                close_to("dragging", a, r, kd_kerr_dragging(a, r, u), -tphi / phiphi, 1e-15 * (10 + 4 * r));
+            }
+            double e = kd_kerr_ergosphere(a, u); /* g_tt = 0 */
+            double tt = (-(e * e - 2 * e + a * a) + a * a * (1 - u * u)) / (e * e + a * a * u * u);
+            if (!(fabs(tt) < 1e-14))
+                fail_msg("a = %g, u = %g: g_tt = %g at the static limit", a, u, tt);
+        }
+        /* on the horizon everything turns with a/(2 r+) */
+        double horizon = kd_kerr_horizon(a);
+        close_to("dragging", a, horizon, kd_kerr_dragging(a, horizon, 0.3), a / (2 * horizon), 1e-14);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(special_radii),
+        cmocka_unit_test(the_isco_orbit),
+        cmocka_unit_test(any_orbit),
+        cmocka_unit_test(numbers_in_print),
+        cmocka_unit_test(the_isco_is_the_minimum),
+        cmocka_unit_test(order_of_the_radii),
+        cmocka_unit_test(outside_the_domain),
+        cmocka_unit_test(frame_dragging_and_ergosphere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
