@@ -10,7 +10,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
-#include "subset.glsl"
 #include "kerr_ray.glsl"
 #include "polar.glsl"
 #include "polar_azimuth.glsl"

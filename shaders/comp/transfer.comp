@@ -8,7 +8,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
-#include "subset.glsl"
 #include "kerr_ray.glsl"
 
 layout(constant_id = 0) const uint ORDERS = 3;
@@ -80,12 +79,12 @@ vec3 sky_light(uint at)
         return vec3(0.0);
     float u = lens[at], phi = lens[at + cam.stride] + tr.azimuth;
     float latitude = atan(u, sqrt(max(1.0 - u * u, 0.0)));
-    float longitude = phi - 2.0 * float(KD_PI) * floor(phi / (2.0 * float(KD_PI)));
+    float longitude = phi - 2.0 * KD_PI * floor(phi / (2.0 * KD_PI));
     vec2 q = vec2(longitude, latitude) / tr.sky_grid;
     vec2 d = abs(q - floor(q + 0.5));
     d.x *= sqrt(max(1.0 - u * u, 0.0)); /* meridians keep their width towards the pole */
     float line = min(d.x, d.y) < 0.025 ? 1.0 : 0.0;
-    vec3 base = longitude < float(KD_PI) ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
+    vec3 base = longitude < KD_PI ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
                                          : (u > 0.0 ? vec3(0.45, 0.16, 0.30) : vec3(0.48, 0.33, 0.08));
     return tr.sky_brightness * mix(base, vec3(1.0), line);
 }

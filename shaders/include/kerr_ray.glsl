@@ -9,25 +9,27 @@
 #ifndef KD_KERR_RAY_GLSL
 #define KD_KERR_RAY_GLSL
 
+#define KD_PI 3.14159265358979323846
+
 struct kd_ray {
-    real e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
-    real w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
+    float e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
+    float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
 
 struct kd_motion {
-    real momentum, q, energy2; /* L, Q, a^2 E^2 */
-    real a2, k, d;             /* A, K, D       */
+    float momentum, q, energy2; /* L, Q, a^2 E^2 */
+    float a2, k, d;             /* A, K, D       */
 };
 
 /* a: spin; u, s: cosine and sine of the observer's polar angle. */
-KD_FN kd_motion kd_motion_of(kd_ray ray, real a, real u, real s)
+kd_motion kd_motion_of(kd_ray ray, float a, float u, float s)
 {
     kd_motion m;
-    real ae = a * ray.e;
+    float ae = a * ray.e;
     m.energy2 = ae * ae;
     m.momentum = ray.l * s;
     m.q = ray.p * ray.p + u * u * (ray.l * ray.l - m.energy2);
-    m.a2 = m.energy2 * (KD_R(1) + u * u) - ray.l * ray.l - ray.p * ray.p;
+    m.a2 = m.energy2 * (1.0 + u * u) - ray.l * ray.l - ray.p * ray.p;
     m.k = m.q + (m.momentum - ae) * (m.momentum - ae);
     m.d = a * a * m.q;
     return m;
