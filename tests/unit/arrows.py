@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Arrows point one way: base <- physics <- scene <- render -> vk, image; server and the command line on top.
+
+    arrows.py SRC     exit 1 naming every #include in SRC that points the wrong way, after proving that it finds some
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+# What each module may know besides itself. The server sees no Vulkan type, so not vk; who adds a module adds a row.
+MODULES = {
+    "base": set(),
+    "physics": {"base"},
+    "scene": {"base", "physics"},
+    "image": {"base"},
+    "vk": {"base"},
+    "render": {"base", "physics", "scene", "image", "vk"},
+    "server": {"base", "physics", "scene", "image", "render"},
+    "cli": {"base", "physics", "scene", "image", "vk", "render", "server"},
+    "main.c": {"cli"},
+}
+# Headers of other projects, and who may include them.
+FOREIGN = {
+    "vulkan/": {"vk"},
+    "cjson/": {"scene", "render", "server", "cli"},
+    "microhttpd.h": {"server"},
+    "png.h": {"image"},
+    "zlib.h": {"image"},
+    "nettle/": {"scene"},
+    "argp.h": {"cli"},
+}
+# Made from shaders/, which has no other way to be included.
+SHADERS = re.compile(r"^(\w+\.spv\.h|interface\.h)$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
+
+
+def wrong(src):
+    """Sentences, one for each arrow that points the wrong way."""
+    for path in sorted(src.rglob("*.[ch]")):
+        where = path.relative_to(src)
+        module = where.parts[0]
+        if module not in MODULES:
+            yield f"{where}: {module} is no module that arrows.py knows"
+            continue
+        for own, foreign in INCLUDE.findall(path.read_text(encoding="utf-8")):
+            # <scene/scene.h> and "vulkan/vulkan.h" would be found as well
+            header = own or foreign
+            other = header.split("/")[0]
+            for prefix, allowed in FOREIGN.items():
+                if header.startswith(prefix) and module not in allowed:
+                    yield f"{where}: {module} must not know {header}"
+            if other in MODULES and "/" in header:
+                if other != module and other not in MODULES[module]:
+                    yield f"{where}: {module} -> {other} ({header})"
+            elif own and SHADERS.match(own):
+                if module != "render":
+                    yield f"{where}: {module} must not know the kernels ({header})"
+            elif own and not any(own.startswith(prefix) for prefix in FOREIGN):
+                yield f'{where}: "{own}" does not name its module'
+
+
+def self_test():
+    """Each kind of wrong arrow is found, a right one is not."""
+    faults = {
+        "base/a.c": '#include "physics/kerr.h"', "physics/a.h": "#include <vulkan/vulkan.h>",
+        "physics/b.c": "# include <cjson/cJSON.h>", "scene/a.c": '#include "render/plan.h"',
+        "vk/a.c": '#include "scene/scene.h"', "vk/b.c": "#include <microhttpd.h>",
+        "image/a.c": '#include "scene/scene.h"', "server/a.c": '#include "vk/vk.h"',
+        "server/b.c": "#include <vk/vk.h>", "render/a.c": '#include "server/server.h"',
+        "server/c.c": '#include "post.spv.h"', "render/b.c": '#include "plan.h"', "news/a.c": "",
+    }
+    right = {"render/c.c": '#include "vk/vk.h"\n#include "post.spv.h"\n#include <math.h>', "server/d.c": '#include "render/plan.h"'}
+    with tempfile.TemporaryDirectory() as folder:
+        src = pathlib.Path(folder)
+        for name, text in {**faults, **right}.items():
+            (src / name).parent.mkdir(exist_ok=True)
+            (src / name).write_text(text + "\n")
+        found = list(wrong(src))
+        missed = [name for name in faults if not any(line.startswith(name + ":") for line in found)]
+        false = [line for line in found if line.split(":")[0] in right]
+    for line in missed:
+        print("not found:", line)
+    for line in false:
+        print("wrongly found:", line)
+    return bool(missed or false)
+
+
+def main():
+    if self_test():
+        return True
+    src = pathlib.Path(sys.argv[1])
+    found = list(wrong(src))
+    for line in found:
+        print(line)
+    return bool(found) or not any(src.rglob("*.c"))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
