@@ -8,6 +8,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
+#include "math.glsl"
 #include "kerr_ray.glsl"
 
 layout(constant_id = 0) const uint ORDERS = 3;

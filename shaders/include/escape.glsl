@@ -5,6 +5,8 @@
 #ifndef KD_ESCAPE_GLSL
 #define KD_ESCAPE_GLSL
 
+#include "math.glsl"
+
 struct kd_path {
     vec4 y, v; /* (n, w) and its derivative */
     float chi;
@@ -25,9 +27,9 @@ kd_path kd_path_start(kd_ray ray, float u, float s)
 kd_path kd_path_crossing(kd_motion m, kd_state y, float psi, float chi, float side)
 {
     kd_path o;
-    float c = cos(psi), s = sin(psi);
-    o.y = vec4(c, s, 0.0, y.w);
-    o.v = vec4(-m.momentum * s, m.momentum * c, side * sqrt(max(m.q, 0.0)), y.dw);
+    kd_turn t = kd_cos_sin(psi);
+    o.y = vec4(t.c, t.s, 0.0, y.w);
+    o.v = vec4(-m.momentum * t.s, m.momentum * t.c, side * sqrt(max(m.q, 0.0)), y.dw);
     o.chi = chi;
     return o;
 }
@@ -98,7 +100,7 @@ kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
             }
             q = kd_path_step(m, p, s * h);
             vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
-            o.phi = atan(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
+            o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
             o.u = n.z * inversesqrt(dot(n, n));
             o.fate = KD_FATE_ESCAPED;
             break;

@@ -9,8 +9,6 @@
 #ifndef KD_KERR_RAY_GLSL
 #define KD_KERR_RAY_GLSL
 
-#define KD_PI 3.14159265358979323846
-
 struct kd_ray {
     float e, l, p; /* E, L / sin(theta_o), p_theta of the arriving photon         */
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */

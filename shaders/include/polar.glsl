@@ -8,23 +8,7 @@
 #ifndef KD_POLAR_GLSL
 #define KD_POLAR_GLSL
 
-/* Arc tangent for |x| <= tan(pi/8), relative error 1e-7 (Taylor to x^15 telescoped to x^9). */
-float kd_atan_small(float x)
-{
-    float z = x * x;
-    return x + x * z * (-0.333329491539 + z * (0.199777106478 + z * (-0.138776856032 + z * 0.0805374449538)));
-}
-
-/* Angle of (x, y) in [0, pi] for y >= 0, where `x` may have any sign; built-in atan may be off by 4096 ulp. */
-float kd_angle_upper(float x, float y)
-{
-    float ax = abs(x), mx = max(ax, y), mn = min(ax, y);
-    bool wide = mn > 0.414213562 * mx;
-    float num = wide ? mn - mx : mn, den = wide ? mn + mx : mx;
-    float t = kd_atan_small(num / max(den, 1e-30)) + (wide ? KD_PI * 0.25 : 0.0);
-    t = ax < y ? KD_PI * 0.5 - t : t;
-    return x < 0.0 ? KD_PI - t : t;
-}
+#include "math.glsl"
 
 struct kd_polar {
     float first;  /* Mino time from the observer to the first crossing */
@@ -62,7 +46,11 @@ kd_polar kd_polar_of(kd_motion m, kd_ray ray, float u, float s)
     float c2 = c1 * c1 - k1 * s1 * s1, s2 = (1.0 + k1) * s1 * c1;
     float p2 = 0.5 * (p1 + q1), q2 = sqrt(p1 * q1), k2 = q2 / p2;
     correction += 0.125 * (k2 - 1.0) * s2 * c2 / (c2 * c2 + k2 * s2 * s2); /* atan x = x here */
+#ifdef KD_DOUBLE
+    float p3 = 0.5 * (p2 + q2), q3 = sqrt(p2 * q2), mean = 0.5 * (p3 + q3); /* the next correction is below 1e-17 */
+#else
     float mean = 0.5 * (p2 + q2);
+#endif
     float inv = 1.0 / mean;
     o.first = (angle - correction) * inv;
     o.half_ = KD_PI * inv;

@@ -3,6 +3,8 @@
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL
 
+#include "math.glsl"
+
 struct kd_state { float w, dw; };
 
 float kd_pull(kd_motion m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)); }
@@ -38,7 +40,7 @@ float kd_drag_fall(float w, float a, float r_plus, float r_minus)
 {
     float first = w / (1.0 - r_plus * w), x = (r_plus - r_minus) * first, y = x / (2.0 + x), y2 = y * y;
     float series = 2.0 * (1.0 + y2 * ((1.0 / 3.0) + y2 * ((1.0 / 5.0) + y2 * (1.0 / 7.0)))) / (2.0 + x);
-    return a * first * (x < 0.25 ? series : log(1.0 + x) / x);
+    return a * first * (x < 0.25 ? series : kd_log(1.0 + x) / x);
 }
 
 /* Whether a ray at w, falling (dw > 0), meets no turning point before the horizon: radial_closed.glsl has the argument. */

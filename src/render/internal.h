@@ -3,6 +3,7 @@
 #define KD_RENDER_INTERNAL_H
 
 #include "render/kernels.h"
+#include "render/rays.h"
 #include "render/render.h"
 #include "render/store.h"
 #include "render/tables.h"
@@ -22,5 +23,10 @@ struct kd_renderer {
 
 /* Learn from the device times of a frame: nanoseconds an item, smoothed. */
 void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
+
+/* kd_rays_trace for KD_ENGINE_MINO_RKN6, params checked. Render thread. */
+enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 #endif

@@ -6,6 +6,8 @@
 #include "lens_map.spv.h"
 #include "lens_radius.spv.h"
 #include "post.spv.h"
+#include "rays.spv.h"
+#include "rays_f64.spv.h"
 #include "transfer.spv.h"
 
 #include <string.h>
@@ -18,6 +20,8 @@ static const struct {
 } sources[] = {
     [KD_KERNEL_LENS_RADIUS] = { "lens_radius", kd_spv_lens_radius, sizeof kd_spv_lens_radius, 1, sizeof(struct kd_camera_push) },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 1, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
+    [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 3, sizeof(struct kd_camera_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },

@@ -1,0 +1,148 @@
+/* End points of listed rays, by integration in Mino time; in single precision, and as double by shaders/to_double.py.
+ *
+ * As lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated beside w: the smooth part
+ * of the azimuth and of the delay need it. A second integration of w with half the steps, and the variation of w with
+ * its start, give the error: what the steps lose, and what rounding loses.
+ *
+ * Azimuth: psi + chi. psi' = L/(1 - u^2), of which polar_azimuth.glsl takes out the peak near the axis exactly; the rest is
+ * L e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
+ *
+ * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
+ * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity; since
+ *   (-w'/w)' = E^2/w^2 - K w + D w^2   and   2E/w - 2 (ln w)' = -2 (A w + 2K w^2 - D w^3) / (E + w'),
+ * what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.h"
+#include "kerr_ray.glsl"
+#include "polar.glsl"
+#include "radial_step.glsl"
+#include "path_step.glsl"
+
+layout(constant_id = 0) const uint ORDERS = 3;
+layout(constant_id = 1) const uint STEPS = 16; /* a half period; a multiple of 4 */
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+layout(push_constant) uniform Push { uint first, count; } push;
+layout(set = 0, binding = 0) readonly buffer Rays {
+    float spin, u, s, horizon, r_plus, r_minus, w0, epsilon; /* the hole and the observer; unit roundoff */
+    float list[];                                            /* alpha, beta */
+} cam;
+layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
+#include "escape.glsl"
+
+struct kd_rates { float psi, chi, delay; };
+
+kd_rates rates(kd_motion m, kd_full p, float b, float falling)
+{
+    float w = p.y.x, u = p.y.y, dw = p.dy.x, a = cam.spin, c = sqrt(b + m.energy2), lost = 1.0 - u * u;
+    kd_state y;
+    y.w = w;
+    y.dw = dw;
+    kd_rates o;
+    o.psi = m.momentum * m.energy2 / (c * (sqrt(b + m.energy2 * u * u) + c));
+    o.chi = kd_drag(m, y, 1.0, a, cam.r_plus, cam.r_minus, falling);
+    float a2w2 = a * a * w * w;
+    o.delay = (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2)) /
+                  ((1.0 - cam.r_plus * w) * (1.0 - cam.r_minus * w)) +
+              a * (m.momentum - a * lost) + w * (m.k - m.d * w) -
+              2.0 * w * (m.a2 + w * (2.0 * m.k - m.d * w)) / (1.0 + dw);
+    return o;
+}
+
+/* What the two regularisations of the delay leave at a point: -w'/w + 2 ln w, to be taken between the ends. */
+float delay_edge(float w, float dw) { return -dw / w + 2.0 * kd_log(w); }
+
+float pow6(float x) { return x * x * x * x * x * x; }
+
+void main()
+{
+    uint i = push.first + gl_GlobalInvocationID.x;
+    if (gl_GlobalInvocationID.x >= push.count)
+        return;
+    kd_ray ray;
+    ray.e = 1.0;
+    ray.l = -cam.list[2 * i];
+    ray.p = cam.list[2 * i + 1];
+    ray.w = cam.w0;
+    kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
+    ray.dw = sqrt(max(1.0 + ray.w * ray.w * (m.a2 + ray.w * (2.0 * m.k - m.d * ray.w)), 0.0));
+    kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
+
+    /* psi without its smooth part; see polar_azimuth.glsl. */
+    float dp = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
+    float root = sqrt(polar.b + m.energy2 * cam.u * cam.u), side = ray.l < 0.0 ? -1.0 : 1.0;
+    float peak = side * kd_angle_upper(-dp / root, abs(cam.u) * abs(ray.l) / sqrt(polar.b + m.energy2));
+
+    kd_full p;
+    p.y = vec3(ray.w, cam.u, 0.0);
+    p.dy = vec3(ray.dw, cam.s * ray.p, 1.0);
+    kd_state half_, start;
+    half_.w = start.w = ray.w;
+    half_.dw = start.dw = ray.dw;
+    float falling = kd_falls_in(m, start, 1.0, cam.horizon) ? 1.0 : 0.0;
+    float started = ray.w > 0.0 ? delay_edge(ray.w, ray.dw) : 0.0;
+    float fallen0 = ray.w > 0.0 ? kd_drag_fall(ray.w, cam.spin, cam.r_plus, cam.r_minus) : 0.0;
+    kd_path last = kd_path_start(ray, cam.u, cam.s);
+    float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
+    float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
+    bool alive = polar.crosses;
+    uint at = 3 * ORDERS + 4, o = at * i;
+    for (uint n = 0; n < 3 * ORDERS; n++)
+        ends[o + n] = 0.0;
+
+    for (uint n = 0; n < ORDERS && alive; n++) {
+        float low = p.y.x, high = p.y.x;
+        kd_rates r = rates(m, p, polar.b, falling);
+        vec3 sum = 7.0 * vec3(r.psi, r.chi, r.delay);
+        for (uint j = 1; j <= STEPS; j++) {
+            p = kd_full_step(m, p, h);
+            p.y.x = clamp(p.y.x, -2.0, 2.0); /* behind the horizon the numbers mean nothing: keep them finite */
+            p.y.z = clamp(p.y.z, -1e12, 1e12);
+            low = min(low, p.y.x);
+            high = max(high, p.y.x);
+            r = rates(m, p, polar.b, falling);
+            float weight = (j & 1u) == 1u ? 32.0 : (j & 3u) == 2u ? 12.0 : j == STEPS ? 7.0 : 14.0;
+            sum += weight * vec3(r.psi, r.chi, r.delay);
+            if ((j & 1u) == 0u) {
+                half_ = kd_radial_step(m, half_, 2.0 * h);
+                half_.w = clamp(half_.w, -2.0, 2.0);
+            }
+        }
+        float w = p.y.x;
+        alive = low >= 0.0 && high < cam.horizon && w > 0.0;
+        if (alive) {
+            sum *= h * (2.0 / 45.0);
+            psi += sum.x;
+            chi += sum.y;
+            delay += sum.z;
+            tau += h * float(STEPS);
+            float fall = falling > 0.0 ? kd_drag_fall(w, cam.spin, cam.r_plus, cam.r_minus) - fallen0 : 0.0;
+            float turned = peak + float(n) * side * KD_PI + psi + chi + fall;
+            ends[o + 3 * n] = w;
+            ends[o + 3 * n + 1] = -turned;
+            ends[o + 3 * n + 2] = delay + delay_edge(w, p.dy.x) - started;
+            /* Halving the steps of a method of order 6 loses 63 times what is left: a quarter of it is a bound even where the
+             * steps are too coarse for that law. Rounding: some ten operations of a unit each, which the variation
+             * amplifies, and as much in the time of the crossing. */
+            float lost = 0.25 * abs(w - half_.w);
+            float rounded = cam.epsilon * (4.0 * w + 8.0 * abs(p.y.z) + 8.0 * tau * abs(p.dy.x));
+            error = max(error, (lost + rounded) / w);
+            above = -above;
+            kd_state y;
+            y.w = w;
+            y.dw = p.dy.x;
+            last = kd_path_crossing(m, y, turned - chi - fall, chi + fall, above);
+        }
+        h = polar.half_ / float(STEPS);
+    }
+
+    kd_escape end = kd_path_escape(m, ray, last);
+    if (error == 0.0) /* no crossing: nothing amplifies, and a method of order 6 loses about this over a half turn */
+        error = 1e3 * cam.epsilon + 0.1 * pow6(KD_PI / float(STEPS));
+    at = o + 3 * ORDERS;
+    ends[at] = end.u;
+    ends[at + 1] = -end.phi;
+    ends[at + 2] = end.fate;
+    ends[at + 3] = error;
+}

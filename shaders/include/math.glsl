@@ -1,0 +1,80 @@
+/* Elementary functions with known errors in both precisions: Vulkan allows its atan 4096 ulp and its sine 2^-11, and has
+ * none of them in double. KD_DOUBLE: to 1e-16 instead of 1e-7. */
+#ifndef KD_MATH_GLSL
+#define KD_MATH_GLSL
+
+#define KD_PI 3.14159265358979323846
+
+/* Arc tangent for |x| <= tan(pi/8). Double: Moshier's rational function (Cephes, 1984). */
+float kd_atan_small(float x)
+{
+    float z = x * x;
+#ifdef KD_DOUBLE
+    float p = -6.485021904942025371773e1 + z * (-1.228866684490136173410e2 + z * (-7.500855792314704667340e1 +
+        z * (-1.615753718733365076637e1 + z * -8.750608600031904122785e-1)));
+    float q = 1.945506571482613964425e2 + z * (4.853903996359136964868e2 + z * (4.328810604912902668951e2 +
+        z * (1.650270098316988542046e2 + z * (2.485846490142306297962e1 + z))));
+    return x + x * z * p / q;
+#else
+    return x + x * z * (-0.333329491539 + z * (0.199777106478 + z * (-0.138776856032 + z * 0.0805374449538)));
+#endif
+}
+
+/* Angle of (x, y) in [0, pi] for y >= 0, where x may have any sign. */
+float kd_angle_upper(float x, float y)
+{
+    float ax = abs(x), mx = max(ax, y), mn = min(ax, y);
+    bool wide = mn > 0.41421356237309504880 * mx;
+    float num = wide ? mn - mx : mn, den = wide ? mn + mx : mx;
+    float t = kd_atan_small(num / max(den, 1e-30)) + (wide ? KD_PI * 0.25 : 0.0);
+    t = ax < y ? KD_PI * 0.5 - t : t;
+    return x < 0.0 ? KD_PI - t : t;
+}
+
+float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_angle_upper(x, y); }
+
+float kd_log(float x)
+{
+#ifdef KD_DOUBLE
+    int e;
+    float m = frexp(x, e);
+    if (m < 0.70710678118654752440) {
+        m *= 2.0;
+        e--;
+    }
+    /* 2 atanh((m - 1)/(m + 1)): the argument is below 0.172, its eleventh odd power below 1e-17. */
+    float s = (m - 1.0) / (m + 1.0), z = s * s, sum = 0.0;
+    for (int k = 10; k >= 0; k--)
+        sum = sum * z + 1.0 / float(2 * k + 1);
+    return 2.0 * s * sum + float(e) * 0.69314718055994530942;
+#else
+    return log(x);
+#endif
+}
+
+struct kd_turn { float c, s; };
+
+/* Cosine and sine, by the series on [-pi/4, pi/4]. */
+kd_turn kd_cos_sin(float angle)
+{
+    float n = floor(angle * (2.0 / KD_PI) + 0.5), x = angle - n * (KD_PI * 0.5), z = x * x;
+#ifdef KD_DOUBLE
+    float c = 0.0, s = 0.0;
+    for (int k = 9; k >= 1; k--) {
+        c = (1.0 + c) * -z / float(2 * k * (2 * k - 1));
+        s = (1.0 + s) * -z / float(2 * k * (2 * k + 1));
+    }
+    c += 1.0;
+    s = x * (1.0 + s);
+#else
+    float c = 1.0 + z * (-0.5 + z * (4.166664568e-2 + z * (-1.388731625e-3 + z * 2.443315711e-5)));
+    float s = x + x * z * (-1.6666654611e-1 + z * (8.3321608736e-3 + z * -1.9515295891e-4));
+#endif
+    int quarter = int(n) & 3;
+    kd_turn o;
+    o.c = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
+    o.s = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
+    return o;
+}
+
+#endif

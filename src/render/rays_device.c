@@ -1,0 +1,144 @@
+/* Listed rays on the device: upload, trace in slices, read back. */
+#include "render/internal.h"
+
+#include "interface.h"
+#include "physics/kerr.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define CHUNK 65536u /* rays a submission: some 40 ms of double precision on two CPU cores */
+#define HEADER 8u    /* numbers in front of the list in rays.comp */
+
+struct work {
+    struct kd_renderer *r;
+    const struct kd_rays_params *params;
+    bool wide; /* double precision */
+    uint32_t per_ray;
+    struct kd_vk_buffer *rays, *ends, *host;
+    struct kd_error *error;
+};
+
+static void put(const struct work *w, void *at, size_t i, double value)
+{
+    if (w->wide)
+        ((double *)at)[i] = value;
+    else
+        ((float *)at)[i] = (float)value;
+}
+static double get(const struct work *w, const void *at, size_t i)
+{
+    return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
+}
+
+/* Exact at the quarter turns, where observers like to sit. */
+static void observer(double degrees, double *u, double *s)
+{
+    *u = degrees == 90 ? 0 : cos(degrees * (M_PI / 180));
+    *s = degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
+}
+
+static void upload(const struct work *w, const double *alpha_beta, size_t n)
+{
+    const struct kd_rays_params *p = w->params;
+    void *at = kd_vk_buffer_map(w->rays);
+    double u, s, r_plus = kd_kerr_horizon(p->spin);
+    observer(p->inclination_deg, &u, &s);
+    const double header[HEADER] = {
+        p->spin, u, s, 1 / r_plus, r_plus, kd_kerr_inner_horizon(p->spin), isinf(p->r) ? 0 : 1 / p->r,
+        w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
+    };
+    for (size_t i = 0; i < HEADER; i++)
+        put(w, at, i, header[i]);
+    for (size_t i = 0; i < 2 * n; i++)
+        put(w, at, HEADER + i, alpha_beta[i]);
+}
+
+static enum kd_status run(const struct work *w, const struct kd_vk_pipeline *pipeline, uint32_t n)
+{
+    struct kd_vk *vk = w->r->vk;
+    const uint32_t push[] = { 0, n };
+    const struct kd_vk_dispatch d = {
+        "rays", pipeline, { { w->rays, 0, 0, false }, { w->ends, 0, 0, true } }, push, { (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
+    };
+    enum kd_status status = kd_vk_dispatch(vk, &d, w->error);
+    if (!status)
+        status = kd_vk_copy(vk, "readback", w->host, 0, w->ends, 0, (uint64_t)n * w->per_ray * (w->wide ? 8 : 4), w->error);
+    if (!status)
+        status = kd_vk_submit(vk, NULL, w->error);
+    return status ? status : kd_vk_wait(vk, 0, w->error);
+}
+
+/* One ray's numbers to its records. */
+static void unpack(const struct work *w, size_t i, struct kd_ray_crossing *crossings, struct kd_ray_end *end)
+{
+    const struct kd_rays_params *p = w->params;
+    const void *from = kd_vk_buffer_map(w->host);
+    size_t at = i * w->per_ray;
+    *end = (struct kd_ray_end){ .theta = NAN, .phi = NAN, .error = get(w, from, at + 3 * p->orders + 3) };
+    for (uint32_t n = 0; n < p->orders; n++, at += 3) {
+        double x = get(w, from, at);
+        crossings[n] = (struct kd_ray_crossing){ NAN, NAN, NAN, NAN };
+        if (!(x > 0))
+            continue;
+        crossings[n].r = 1 / x;
+        crossings[n].phi = get(w, from, at + 1);
+        crossings[n].delay = get(w, from, at + 2);
+        end->n_crossings = n + 1;
+    }
+    double fate = get(w, from, at + 2);
+    end->fate = fate == KD_FATE_ESCAPED ? KD_RAY_ESCAPED : fate == KD_FATE_CAPTURED ? KD_RAY_CAPTURED : KD_RAY_UNDECIDED;
+    if (end->fate == KD_RAY_ESCAPED) {
+        end->theta = acos(fmax(-1, fmin(1, get(w, from, at))));
+        end->phi = get(w, from, at + 1);
+    }
+}
+
+static enum kd_status trace(const struct work *w, const struct kd_vk_pipeline *pipeline, const double *alpha_beta, size_t n,
+                            struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user)
+{
+    for (size_t first = 0; first < n; first += CHUNK) {
+        uint32_t m = (uint32_t)(n - first < CHUNK ? n - first : CHUNK);
+        upload(w, alpha_beta + 2 * first, m);
+        enum kd_status status = run(w, pipeline, m);
+        if (status)
+            return status;
+        for (size_t i = 0; i < m; i++)
+            unpack(w, i, crossings + (first + i) * w->params->orders, &ends[first + i]);
+        if (progress && !progress(user, (double)(first + m) / (double)n))
+            return kd_error_set(w->error, KD_ECANCELLED, "the rays were cancelled");
+    }
+    return KD_OK;
+}
+
+enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    struct kd_vk *vk = renderer->vk;
+    struct work w = {
+        .r = renderer, .params = params, .wide = params->precision == KD_PRECISION_F64, .per_ray = 3 * params->orders + 4, .error = error,
+    };
+    if (w.wide && !kd_vk_info(vk)->float64)
+        return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
+    size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK;
+    const uint32_t constants[] = { params->orders, params->steps ? params->steps : w.wide ? 64 : 16 };
+    const struct kd_vk_pipeline *pipeline;
+    enum kd_status status = kd_kernels_get(&renderer->kernels, vk, w.wide ? KD_KERNEL_RAYS_F64 : KD_KERNEL_RAYS_F32, constants, 2,
+                                           &pipeline, error);
+    if (!status)
+        status = kd_vk_buffer_create(vk, (HEADER + 2 * room) * number, KD_VK_UPLOAD, "rays", &w.rays, error);
+    if (!status)
+        status = kd_vk_buffer_create(vk, room * w.per_ray * number, KD_VK_DEVICE, "ray ends", &w.ends, error);
+    if (!status)
+        status = kd_vk_buffer_create(vk, room * w.per_ray * number, KD_VK_READBACK, "ray ends on the host", &w.host, error);
+    if (!status)
+        status = trace(&w, pipeline, alpha_beta, n, crossings, ends, progress, user);
+    if (status)
+        kd_vk_discard(vk);
+    kd_vk_buffer_destroy(vk, w.rays);
+    kd_vk_buffer_destroy(vk, w.ends);
+    kd_vk_buffer_destroy(vk, w.host);
+    return status;
+}
