@@ -1,0 +1,177 @@
+/* What C writes is what the kernels read: offsets and types of the members of push constants and buffers in the SPIR-V
+ * against offsetof. */
+#include "render/layout.h"
+#include "render/tables.h"
+
+#include "lens_map.spv.h"
+#include "lens_radius.spv.h"
+#include "post.spv.h"
+#include "transfer.spv.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* SPIR-V 1.5 specification, sections 2.3 and 3: a header of five words, then instructions whose first word holds their
+ * length and opcode; text is bytes from the low end of each word. */
+enum { OP_NAME = 5, OP_MEMBER_NAME = 6, OP_TYPE_INT = 21, OP_TYPE_FLOAT = 22, OP_TYPE_STRUCT = 30, OP_DECORATE = 71,
+       OP_MEMBER_DECORATE = 72, DECORATION_ARRAY_STRIDE = 6, DECORATION_OFFSET = 35 };
+
+struct spirv { const char *kernel; const uint32_t *words; size_t n; };
+#define SPIRV(name) { #name, kd_spv_##name, sizeof kd_spv_##name / 4 }
+
+/* The next instruction of this opcode whose first operand is `id` (0: any) after *at; NULL at the end. */
+static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, uint32_t id)
+{
+    while (*at < s->n) {
+        const uint32_t *op = s->words + *at;
+        if (!(op[0] >> 16))
+            fail_msg("%s: an instruction of no length", s->kernel);
+        *at += op[0] >> 16;
+        if ((op[0] & 0xffff) == opcode && (!id || op[1] == id))
+            return op;
+    }
+    return NULL;
+}
+
+static uint32_t struct_called(const struct spirv *s, const char *name)
+{
+    size_t at = 5;
+    for (const uint32_t *op; (op = next(s, &at, OP_NAME, 0));)
+        if (!strcmp((const char *)(op + 2), name))
+            return op[1];
+    fail_msg("%s: nothing is called %s", s->kernel, name);
+    return 0;
+}
+
+/* Index of a member, or -1. */
+static int member_called(const struct spirv *s, uint32_t id, const char *name)
+{
+    size_t at = 5;
+    for (const uint32_t *op; (op = next(s, &at, OP_MEMBER_NAME, id));)
+        if (!strcmp((const char *)(op + 3), name))
+            return (int)op[2];
+    return -1;
+}
+
+static uint32_t member_offset(const struct spirv *s, uint32_t id, int member)
+{
+    size_t at = 5;
+    for (const uint32_t *op; (op = next(s, &at, OP_MEMBER_DECORATE, id));)
+        if (op[2] == (uint32_t)member && op[3] == DECORATION_OFFSET)
+            return op[4];
+    return UINT32_MAX;
+}
+
+/* The type of a member: the first operand of OpTypeStruct is the struct itself. */
+static uint32_t member_type(const struct spirv *s, uint32_t id, int member, int *count)
+{
+    size_t at = 5;
+    const uint32_t *op = next(s, &at, OP_TYPE_STRUCT, id);
+    *count = op ? (int)(op[0] >> 16) - 2 : 0;
+    return op && member < *count ? op[2 + member] : 0;
+}
+
+static bool is_scalar(const struct spirv *s, uint32_t type, uint32_t opcode)
+{
+    size_t at = 5;
+    const uint32_t *op = next(s, &at, opcode, type);
+    return op && op[2] == 32 && (opcode == OP_TYPE_FLOAT || op[3] == 0); /* unsigned */
+}
+
+static uint32_t array_stride(const struct spirv *s, uint32_t type)
+{
+    size_t at = 5;
+    for (const uint32_t *op; (op = next(s, &at, OP_DECORATE, type));)
+        if (op[2] == DECORATION_ARRAY_STRIDE)
+            return op[3];
+    return 0;
+}
+
+struct field { const char *name; size_t offset; uint32_t opcode; };
+
+/* Every field of C at its place in the kernel; `more` members of the kernel are not in the list. */
+static void same(const struct spirv *s, const char *block, const struct field *fields, size_t n, int more)
+{
+    uint32_t id = struct_called(s, block);
+    int count = 0;
+    for (size_t i = 0; i < n; i++) {
+        int member = member_called(s, id, fields[i].name);
+        if (member < 0)
+            fail_msg("%s: %s has no %s", s->kernel, block, fields[i].name);
+        uint32_t offset = member_offset(s, id, member);
+        if (offset != fields[i].offset)
+            fail_msg("%s: %s.%s is at %u, C has it at %zu", s->kernel, block, fields[i].name, offset, fields[i].offset);
+        if (!is_scalar(s, member_type(s, id, member, &count), fields[i].opcode))
+            fail_msg("%s: %s.%s is of another type than in C", s->kernel, block, fields[i].name);
+    }
+    if (count != (int)n + more)
+        fail_msg("%s: %s has %d members, C has %zu and %d", s->kernel, block, count, n, more);
+}
+
+#define COUNT(x) (sizeof(x) / sizeof *(x))
+
+#define F(name) { #name, offsetof(struct kd_camera_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_camera_push, name), OP_TYPE_INT },
+static const struct field camera_fields[] = { KD_CAMERA_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_transfer_data, block.name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_transfer_data, block.name), OP_TYPE_INT },
+static const struct field transfer_fields[] = { KD_TRANSFER_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_INT },
+static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
+
+static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post);
+
+static void camera(void **state)
+{
+    (void)state;
+    const struct spirv kernels[] = { SPIRV(lens_radius), SPIRV(lens_map), transfer };
+    for (size_t i = 0; i < COUNT(kernels); i++)
+        same(&kernels[i], "Camera", camera_fields, COUNT(camera_fields), 0);
+    assert_int_equal(sizeof(struct kd_camera_push), 4 * COUNT(camera_fields)); /* no padding: all of it is pushed */
+}
+
+static void post_push(void **state)
+{
+    (void)state;
+    same(&post, "Push", post_fields, COUNT(post_fields), 0);
+    assert_int_equal(sizeof(struct kd_post_push), 4 * COUNT(post_fields));
+}
+
+static void transfer_buffer(void **state)
+{
+    (void)state;
+    same(&transfer, "Transfer", transfer_fields, COUNT(transfer_fields), 3); /* padding and two tables */
+    const struct { const char *name; size_t offset; uint32_t stride; } tables[] = {
+        { "disk_table", offsetof(struct kd_transfer_data, disk), sizeof(float) },
+        { "colour_table", offsetof(struct kd_transfer_data, colour), sizeof(float[4]) },
+    };
+    uint32_t id = struct_called(&transfer, "Transfer");
+    for (size_t i = 0; i < COUNT(tables); i++) {
+        int count, member = member_called(&transfer, id, tables[i].name);
+        assert_int_equal(member_offset(&transfer, id, member), tables[i].offset);
+        assert_int_equal(array_stride(&transfer, member_type(&transfer, id, member, &count)), tables[i].stride);
+    }
+    /* as far as the kernel's tables reach, no further */
+    assert_int_equal(sizeof(struct kd_transfer_data),
+                     4 * KD_TRANSFER_HEADER + 4 * KD_DISK_TABLE + 16 * KD_COLOUR_TABLE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(camera),
+        cmocka_unit_test(post_push),
+        cmocka_unit_test(transfer_buffer),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
