@@ -200,7 +200,12 @@ struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
     struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l };
     p.p_r = sqrt(big) / delta; /* it arrives outwards */
     p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
-    p.phi = s > 0 ? -(l * t / (s * s) + l * u * beta * t * t / (s * s * s) + a * t * t) : 0;
+    if (s == 0) { /* on the axis the azimuth is that of the image point, and the traced ray leaves the axis */
+        p.p_theta = copysign(p.p_theta, -u);
+        p.phi = atan2(alpha, -u * beta) - a * t * t;
+        return p;
+    }
+    p.phi = -(l * t / (s * s) + l * u * beta * t * t / (s * s * s) + a * t * t);
     return p;
 }
 
