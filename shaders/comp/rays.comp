@@ -8,9 +8,9 @@
  * L e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
  *
  * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
- * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity; since
- *   (-w'/w)' = E^2/w^2 - K w + D w^2   and   2E/w - 2 (ln w)' = -2 (A w + 2K w^2 - D w^3) / (E + w'),
- * what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. */
+ * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity, on the way in and on the way out; but
+ *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
+ * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
@@ -33,6 +33,12 @@ layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 
 struct kd_rates { float psi, chi, delay; };
 
+/* E + w' for E = 1, without cancellation on the way out. */
+float energy_and_fall(kd_motion m, float w, float dw)
+{
+    return dw > 0.0 ? 1.0 + dw : max(-w * w * (m.a2 + w * (2.0 * m.k - m.d * w)), 1e-30) / (1.0 - dw);
+}
+
 kd_rates rates(kd_motion m, kd_full p, float b, float falling)
 {
     float w = p.y.x, u = p.y.y, dw = p.dy.x, a = cam.spin, c = sqrt(b + m.energy2), lost = 1.0 - u * u;
@@ -45,13 +51,15 @@ kd_rates rates(kd_motion m, kd_full p, float b, float falling)
     float a2w2 = a * a * w * w;
     o.delay = (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2)) /
                   ((1.0 - cam.r_plus * w) * (1.0 - cam.r_minus * w)) +
-              a * (m.momentum - a * lost) + w * (m.k - m.d * w) -
-              2.0 * w * (m.a2 + w * (2.0 * m.k - m.d * w)) / (1.0 + dw);
+              a * (m.momentum - a * lost) + w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
     return o;
 }
 
-/* What the two regularisations of the delay leave at a point: -w'/w + 2 ln w, to be taken between the ends. */
-float delay_edge(float w, float dw) { return -dw / w + 2.0 * kd_log(w); }
+/* What the two regularisations leave at a point, to be taken between the ends; nothing at infinity. */
+float delay_edge(kd_motion m, float w, float dw)
+{
+    return -dw / w - 2.0 * kd_log(0.5 * energy_and_fall(m, w, dw) / w);
+}
 
 float pow6(float x) { return x * x * x * x * x * x; }
 
@@ -81,7 +89,7 @@ void main()
     half_.w = start.w = ray.w;
     half_.dw = start.dw = ray.dw;
     float falling = kd_falls_in(m, start, 1.0, cam.horizon) ? 1.0 : 0.0;
-    float started = ray.w > 0.0 ? delay_edge(ray.w, ray.dw) : 0.0;
+    float started = ray.w > 0.0 ? delay_edge(m, ray.w, ray.dw) : 0.0;
     float fallen0 = ray.w > 0.0 ? kd_drag_fall(ray.w, cam.spin, cam.r_plus, cam.r_minus) : 0.0;
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
@@ -121,7 +129,7 @@ void main()
             float turned = peak + float(n) * side * KD_PI + psi + chi + fall;
             ends[o + 3 * n] = w;
             ends[o + 3 * n + 1] = -turned;
-            ends[o + 3 * n + 2] = delay + delay_edge(w, p.dy.x) - started;
+            ends[o + 3 * n + 2] = delay + delay_edge(m, w, p.dy.x) - started;
             /* Halving the steps of a method of order 6 loses 63 times what is left: a quarter of it is a bound even where the
              * steps are too coarse for that law. Rounding: some ten operations of a unit each, which the variation
              * amplifies, and as much in the time of the crossing. */

@@ -45,10 +45,15 @@ kd_polar kd_polar_of(kd_motion m, kd_ray ray, float u, float s)
     correction += 0.25 * d;
     float c2 = c1 * c1 - k1 * s1 * s1, s2 = (1.0 + k1) * s1 * c1;
     float p2 = 0.5 * (p1 + q1), q2 = sqrt(p1 * q1), k2 = q2 / p2;
-    correction += 0.125 * (k2 - 1.0) * s2 * c2 / (c2 * c2 + k2 * s2 * s2); /* atan x = x here */
+    float y2 = (k2 - 1.0) * s2 * c2 / (c2 * c2 + k2 * s2 * s2);
 #ifdef KD_DOUBLE
-    float p3 = 0.5 * (p2 + q2), q3 = sqrt(p2 * q2), mean = 0.5 * (p3 + q3); /* the next correction is below 1e-17 */
+    correction += 0.125 * kd_atan_small(y2);
+    float c3 = c2 * c2 - k2 * s2 * s2, s3 = (1.0 + k2) * s2 * c2;
+    float p3 = 0.5 * (p2 + q2), q3 = sqrt(p2 * q2), k3 = q3 / p3;
+    correction += 0.0625 * kd_atan_small((k3 - 1.0) * s3 * c3 / (c3 * c3 + k3 * s3 * s3));
+    float mean = 0.5 * (p3 + q3);
 #else
+    correction += 0.125 * y2; /* its arc tangent, to the last bit */
     float mean = 0.5 * (p2 + q2);
 #endif
     float inv = 1.0 / mean;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 struct system { double a, energy; };
-typedef double state[6]; /* x, y, z, p_x, p_y, p_z */
+typedef double state[7]; /* x, y, z, p_x, p_y, p_z, t */
 
 static double radius(double a, const double *x)
 {
@@ -32,6 +32,7 @@ static void derivative(const struct system *s, const double *y, double *d)
         d[i] = y[3 + i] - f * sum * l[i];
         d[3 + i] = 0.5 * sum * sum * df + f * sum * dl;
     }
+    d[6] = s->energy + f * sum;
 }
 
 static void midpoint(const struct system *s, const double *y, double h, int n, double *out)
@@ -40,18 +41,18 @@ static void midpoint(const struct system *s, const double *y, double h, int n, d
     double step = h / n;
     derivative(s, y, d);
     memcpy(a, y, sizeof a);
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 7; i++)
         b[i] = y[i] + step * d[i];
     for (int k = 1; k < n; k++) {
         derivative(s, b, d);
-        for (int i = 0; i < 6; i++) {
+        for (int i = 0; i < 7; i++) {
             double t = a[i] + 2 * step * d[i];
             a[i] = b[i];
             b[i] = t;
         }
     }
     derivative(s, b, d);
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 7; i++)
         out[i] = 0.5 * (a[i] + b[i] + step * d[i]);
 }
 
@@ -59,18 +60,18 @@ static void midpoint(const struct system *s, const double *y, double h, int n, d
 static double extrapolate(const struct system *s, const double *y, double h, double *out)
 {
     enum { ROWS = 9 };
-    double table[ROWS][ROWS][6], error = INFINITY;
+    double table[ROWS][ROWS][7], error = INFINITY;
     double x_scale = fabs(y[0]) + fabs(y[1]) + fabs(y[2]), p_scale = fabs(y[3]) + fabs(y[4]) + fabs(y[5]);
     for (int k = 0; k < ROWS && !(error < 1e-15); k++) {
         midpoint(s, y, h, 2 * (k + 1), table[k][0]);
         for (int j = 1; j <= k; j++) {
             double ratio = (double)(k + 1) / (k + 1 - j), weight = 1 / (ratio * ratio - 1);
-            for (int i = 0; i < 6; i++)
+            for (int i = 0; i < 7; i++)
                 table[k][j][i] = table[k][j - 1][i] + weight * (table[k][j - 1][i] - table[k - 1][j - 1][i]);
         }
         error = k ? 0 : INFINITY;
-        for (int i = 0; i < 6 && k; i++)
-            error = fmax(error, fabs(table[k][k][i] - table[k][k - 1][i]) / (i < 3 ? x_scale : p_scale));
+        for (int i = 0; i < 7 && k; i++)
+            error = fmax(error, fabs(table[k][k][i] - table[k][k - 1][i]) / (i < 3 || i == 6 ? x_scale : p_scale));
         memcpy(out, table[k][k], sizeof(state));
     }
     return error;
@@ -87,6 +88,15 @@ static double azimuth(double a, const double *y)
 {
     double r = radius(a, y);
     return atan2(y[1], y[0]) - atan2(a, r) + twist(a, r);
+}
+
+/* Kerr-Schild less Boyer-Lindquist time at r: integral of 2r/Delta, up to a constant. */
+static double slow(double a, double r)
+{
+    double root = sqrt((1 - a) * (1 + a)), plus = 1 + root, minus = 1 - root;
+    if (root == 0)
+        return 2 * log(r - 1) - 2 / (r - 1);
+    return (plus * log(r - plus) - minus * log(r - minus)) / root;
 }
 
 static void start(const struct ks_photon *p, double *y)
@@ -118,7 +128,7 @@ static void start(const struct ks_photon *p, double *y)
             for (int j = 3; k != i && j >= i; j--)
                 m[k][j] -= m[k][i] / m[i][i] * m[i][j];
     }
-    y[0] = x, y[1] = yy, y[2] = r * u;
+    y[0] = x, y[1] = yy, y[2] = r * u, y[6] = p->delay + slow(a, r);
     for (int i = 0; i < 3; i++)
         y[3 + i] = m[i][3] / m[i][i];
 }
@@ -167,6 +177,7 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
             if (hr <= horizon)
                 break;
             path.r[path.crossings] = hr;
+            path.delay[path.crossings] = hit[6] - slow(s.a, hr);
             path.phi[path.crossings++] = -azimuth(s.a, hit);
         }
         memcpy(y, next, sizeof y);
@@ -200,6 +211,8 @@ struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
     struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l };
     p.p_r = sqrt(big) / delta; /* it arrives outwards */
     p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
+    /* The coordinate time from r_o to here, less r_o + 2 ln r_o, by the same series. */
+    p.delay = -r - 2 * log(r) + (4 + a * a * u * u - 0.5 * pull) * t;
     if (s == 0) { /* on the axis the azimuth is that of the image point, and the traced ray leaves the axis */
         p.p_theta = copysign(p.p_theta, -u);
         p.phi = atan2(alpha, -u * beta) - a * t * t;
@@ -243,5 +256,5 @@ struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, con
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             low[i] += g[i][j] * p[j];
-    return (struct ks_photon){ a, r, c, -low[0], low[3], low[1], low[2], 0 };
+    return (struct ks_photon){ a, r, c, -low[0], low[3], low[1], low[2], 0, 0 };
 }

@@ -13,14 +13,14 @@
 struct ks_photon { /* as it arrives at the observer, covariant Boyer-Lindquist components */
     double a, r, u;  /* spin; radius and cos(theta) of the observer */
     double energy, momentum, p_r, p_theta;
-    double phi; /* azimuth already covered, for a start that stands for infinity */
+    double phi, delay; /* azimuth and delay already covered, for a start that stands for infinity */
 };
 
 enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };
 
 struct ks_path {
     int crossings;
-    double r[16], phi[16]; /* of each crossing of the equatorial plane after the start */
+    double r[16], phi[16], delay[16]; /* of each crossing of the equatorial plane after the start */
     enum ks_fate fate;
     double u, sky_phi; /* direction of escape */
 };
