@@ -58,6 +58,22 @@ double kd_disk_redshift(double a, double r, double lambda)
     return 1 / (kd_kerr_ut(a, r) * (1 - kd_kerr_omega(a, r) * lambda));
 }
 
+/* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma the sign of p^r, with the radial potentials
+ * R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r is known in closed form, which does not
+ * cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3. For sigma < 0 the bracket cancels at the horizon; multiplied out by
+ * P U + sqrt(R S) it does not. */
+double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, bool outwards)
+{
+    double r0 = kd_kerr_isco(a), e = 1 - kd_kerr_efficiency(a), l = kd_kerr_momentum(a, r0), j = l - a * e;
+    double gap = fmax(0, r0 / r - 1), ur = sqrt(2 / (3 * r0) * gap) * gap;
+    double h = kd_kerr_horizon(a), delta = (r - h) * (r - kd_kerr_inner_horizon(a));
+    double p = r * r + a * (a - lambda), u = r * r * e - a * j;
+    double k = eta + (lambda - a) * (lambda - a), m = r * r + j * j;
+    double root = sqrt(fmax(0, p * p - delta * k)) * r * r * ur;
+    double radial = outwards ? (p * u + root) / delta : (p * p * m + u * u * k - delta * k * m) / (p * u + root);
+    return r * r / (radial - (lambda - a) * j);
+}
+
 double kd_disk_temperature(double flux, double a, double mass_msun, double mdot_edd)
 {
     const double gm_sun = 1.3271244e20;          /* m^3/s^2, IAU 2015 B3 */

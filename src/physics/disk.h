@@ -3,6 +3,8 @@
 #ifndef KD_PHYSICS_DISK_H
 #define KD_PHYSICS_DISK_H
 
+#include <stdbool.h>
+
 /* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and
  * proper time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO.
  * Relative error below 1e-11 + 4e-14/(r - r_isco)^2 for |a| <= 0.9999: towards the ISCO, where F has a double zero, the
@@ -19,6 +21,11 @@ double kd_disk_peak(kd_disk_flux_fn flux_of, double a, double *flux);
 /* Redshift factor g = nu_infinity / nu_emitted = 1 / (u^t (1 - Omega lambda)) of gas on a circular orbit at r >= ISCO,
  * for a photon of lambda = L/E. Cunningham 1975, ApJ 202, 788. */
 double kd_disk_redshift(double a, double r, double lambda);
+
+/* The same for gas that plunges from the ISCO with the energy and angular momentum of the orbit there (Cunningham 1975),
+ * r+ < r <= ISCO. outwards: the photon leaves the gas with p^r > 0, as it does where a ray traced back from the eye is
+ * still on its way in. eta = Q/E^2; E > 0. Zero at the horizon for photons that leave outwards. */
+double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, bool outwards);
 
 /* Effective temperature in K of flux F/Mdot (as above) for a mass in solar masses and an accretion rate in units of
  * L_Edd / (efficiency(a) c^2), with L_Edd = 4 pi G M m_p c / sigma_T. CODATA 2018, IAU 2015 solar mass parameter. */
