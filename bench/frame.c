@@ -1,0 +1,133 @@
+/* What a whole frame costs, pass by pass: the default scene with a cold lens map, and again with the map
+ * reused, as when only the exposure or the palette changes. Prints one line of JSON: every run, in ms.
+ * frame.py runs it with one and two lavapipe threads and takes medians. */
+#include "render/picture.h"
+#include "render/render.h"
+
+#include <argp.h>
+#include <cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+struct options {
+    const char *device;
+    int width, height, repeat;
+    bool sky;
+};
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene *scene,
+                             const struct kd_plan *plan, const struct kd_frame *frame, int level, cJSON *run,
+                             const char *name, struct kd_error *error)
+{
+    struct kd_buffer png = { 0 };
+    double start = now_ms();
+    enum kd_status status =
+        kd_picture_encode(frame, scene, plan, kd_renderer_device_name(renderer), level, &png, error);
+    cJSON_AddNumberToObject(run, name, now_ms() - start);
+    kd_buffer_finish(&png);
+    return status;
+}
+
+static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_scene *scene, cJSON *runs,
+                                struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(renderer, &capacity);
+    enum kd_status status = kd_plan_make(scene, &capacity, &plan, error);
+    if (!status)
+        status = kd_render(renderer, scene, &plan, NULL, NULL, &frame, error);
+    if (status)
+        return status;
+    cJSON *run = cJSON_CreateObject();
+    for (size_t i = 0; i < frame.n_timings; i++)
+        cJSON_AddNumberToObject(run, frame.timings[i].name, frame.timings[i].ms);
+    cJSON_AddBoolToObject(run, "lens_reused", frame.lens_reused);
+    /* 1: the service's live view; 6: a file of the command line. */
+    status = encode(renderer, scene, &plan, &frame, 1, run, "encode_1", error);
+    if (!status)
+        status = encode(renderer, scene, &plan, &frame, 6, run, "encode_6", error);
+    kd_frame_finish(&frame);
+    cJSON_AddItemToArray(runs, run);
+    return status;
+}
+
+static enum kd_status measure(const struct options *o, struct kd_renderer *renderer, cJSON *root,
+                              struct kd_error *error)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = o->width;
+    scene.image.height = o->height;
+    scene.sky.model = o->sky ? KD_SKY_GRID : KD_SKY_NONE;
+    cJSON *first = cJSON_AddArrayToObject(root, "first"), *cold = cJSON_AddArrayToObject(root, "cold");
+    cJSON *reused = cJSON_AddArrayToObject(root, "reused");
+    enum kd_status status = one_frame(renderer, &scene, first, error); /* compiles the kernels */
+    for (int k = 0; k < o->repeat && !status; k++) {
+        scene.camera.inclination_deg += 1e-3; /* another lens map of the same work */
+        status = one_frame(renderer, &scene, cold, error);
+        if (!status)
+            status = one_frame(renderer, &scene, reused, error);
+    }
+    return status;
+}
+
+static error_t option(int key, char *text, struct argp_state *state)
+{
+    struct options *o = state->input;
+    switch (key) {
+    case 'd': o->device = text; return 0;
+    case 'x': o->width = atoi(text); return 0;
+    case 'y': o->height = atoi(text); return 0;
+    case 'r': o->repeat = atoi(text); return 0;
+    case 'k': o->sky = true; return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const struct argp_option table[] = {
+        { "device", 'd', "DEVICE", 0, "auto, an index or part of a name", 0 },
+        { "width", 'x', "N", 0, "pixels (1280)", 0 },
+        { "height", 'y', "N", 0, "pixels (720)", 0 },
+        { "repeat", 'r', "N", 0, "frames of each kind (9)", 0 },
+        { "sky", 'k', NULL, 0, "with a sky, which needs the integrator", 0 },
+        { 0 },
+    };
+    struct options o = { "auto", 1280, 720, 9, false };
+    struct argp parser = { table, option, NULL, "What a whole frame costs, pass by pass.", NULL, NULL, NULL };
+    argp_parse(&parser, argc, argv, 0, NULL, &o);
+
+    struct kd_error error = { 0 };
+    struct kd_renderer *renderer;
+    double start = now_ms();
+    if (kd_renderer_create(&(struct kd_renderer_params) { .device = o.device }, &renderer, &error)) {
+        fprintf(stderr, "kd_bench_frame: %s\n", error.message);
+        return 1;
+    }
+    cJSON *root = cJSON_CreateObject();
+    cJSON_AddStringToObject(root, "device", kd_renderer_device_name(renderer));
+    cJSON_AddNumberToObject(root, "width", o.width);
+    cJSON_AddNumberToObject(root, "height", o.height);
+    cJSON_AddNumberToObject(root, "open_device_ms", now_ms() - start);
+    enum kd_status status = measure(&o, renderer, root, &error);
+    char *text = cJSON_PrintUnformatted(root);
+    if (status)
+        fprintf(stderr, "kd_bench_frame: %s\n", error.message);
+    else if (text)
+        puts(text);
+    cJSON_free(text);
+    cJSON_Delete(root);
+    kd_renderer_destroy(renderer);
+    return status != KD_OK;
+}
