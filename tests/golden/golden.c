@@ -1,0 +1,188 @@
+/* Small pictures against the committed ones.
+ *
+ *     golden DIR            compare
+ *     golden --update DIR   write them anew
+ *
+ * A reference holds the exposure it was made with in its scene. Auto exposure is quantised to an eighth of a stop: a pixel
+ * at the edge of a bin may move it on another device, and every pixel with it. So the exposure found is compared on its
+ * own, and the pixels at the exposure of the reference. */
+#include "studio.h"
+
+#include "image/png.h"
+#include "render/picture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* 16 rays a pixel: where an edge goes another way for one ray, a pixel changes by a sixteenth. */
+#define SIZE "\"image\":{\"width\":160,\"height\":90,\"samples\":4}"
+
+static const struct shot { const char *name, *preset, *json; } shots[] = {
+    { "default", NULL, "{" SIZE "}" },
+    { "schwarzschild", "schwarzschild", "{" SIZE "}" },
+    { "gargantua", "gargantua", "{" SIZE "}" },
+    { "m87", "m87", "{" SIZE "}" },
+    { "sgra", "sgra", "{" SIZE "}" },
+    { "luminet1979", "luminet1979", "{" SIZE "}" },
+    { "edge-on", "edge-on", "{" SIZE "}" },
+    { "face-on", "face-on", "{" SIZE "}" },
+    { "retrograde", NULL, "{\"spacetime\":{\"spin\":-0.9}," SIZE "}" },
+    { "zamo", NULL,
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,\"fov_deg\":100,"
+      "\"yaw_deg\":-10,\"pitch_deg\":5,\"roll_deg\":20}," SIZE "}" },
+    { "grid", NULL,
+      "{\"camera\":{\"field_m\":40,\"inclination_deg\":60},\"disk\":{\"model\":\"none\"},"
+      "\"sky\":{\"model\":\"grid\",\"brightness\":0.7},\"style\":{\"exposure\":0}," SIZE "}" },
+    { "translucent", NULL, "{\"disk\":{\"opacity\":0.4},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
+    { "no-doppler", NULL, "{\"disk\":{\"doppler\":false,\"redshift\":false}," SIZE "}" },
+    { "visible", NULL,
+      "{\"disk\":{\"model\":\"shakura-sunyaev\",\"band\":\"visible\",\"colour\":\"accretion\",\"hardening\":1.7}," SIZE "}" },
+    { "deep", NULL,
+      "{\"image\":{\"width\":160,\"height\":90,\"samples\":4,\"bit_depth\":16},\"style\":{\"tone_map\":\"srgb\"}}" },
+};
+#define SHOTS (sizeof shots / sizeof *shots)
+
+/* The last bits of sqrt, log2 and sin differ between devices, by up to some 1e-5 of a crossing radius, and rounding to 8
+ * bits turns that into single steps here and there (55 dB); a disk edge or a line of the grid that moves by a ray, a
+ * sixteenth of a pixel, costs a few pixels more. A change that one can see (a hundredth of the brightness, a tenth of a pixel of
+ * shift) is below 45 dB. */
+#define PSNR_MIN 45.0
+#define FAR (8.0 / 255)        /* a pixel this far off is one that an edge crossed */
+#define FAR_SHARE 0.002        /* 29 of 14400 */
+#define EXPOSURE_STEP 0.126    /* one bin of the histogram */
+
+static enum kd_status read_file(const char *path, struct kd_buffer *out)
+{
+    char chunk[4096];
+    enum kd_status status = KD_OK;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return KD_EIO;
+    for (size_t n; !status && (n = fread(chunk, 1, sizeof chunk, file)) > 0;)
+        status = kd_buffer_append(out, chunk, n);
+    fclose(file);
+    return status;
+}
+
+/* The reference as a frame, with the exposure that its scene pins. */
+static enum kd_status read_reference(const char *path, struct kd_frame *out, struct kd_error *error)
+{
+    struct kd_buffer file = { 0 };
+    struct kd_scene scene;
+    struct kd_png png;
+    if (read_file(path, &file)) {
+        kd_buffer_finish(&file);
+        return kd_error_set(error, KD_EIO, "%s cannot be read", path);
+    }
+    enum kd_status status = kd_picture_scene(file.data, file.size, &scene, error);
+    if (!status)
+        status = kd_png_decode(file.data, file.size, &png, error);
+    if (!status) {
+        *out = (struct kd_frame){ .width = png.width, .height = png.height, .bit_depth = png.bit_depth,
+                                  .pixels = png.pixels, .exposure = scene.style.exposure };
+        png.pixels = NULL;
+        kd_png_finish(&png);
+    }
+    kd_buffer_finish(&file);
+    return status;
+}
+
+static bool same_picture(const char *name, const struct kd_frame *got, const struct kd_frame *want)
+{
+    if (got->width != want->width || got->height != want->height || got->bit_depth != want->bit_depth) {
+        printf("%s: another size or depth\n", name);
+        return false;
+    }
+    double sum = 0;
+    size_t off = 0, pixels = (size_t)got->width * got->height;
+    for (uint32_t y = 0; y < got->height; y++)
+        for (uint32_t x = 0; x < got->width; x++) {
+            double worst = 0;
+            for (int c = 0; c < 3; c++) {
+                double d = fabs(studio_value(got, x, y, c) - studio_value(want, x, y, c));
+                sum += d * d;
+                worst = fmax(worst, d);
+            }
+            off += worst > FAR;
+        }
+    double psnr = 10 * log10(3 * (double)pixels / sum), share = (double)off / (double)pixels;
+    bool good = !(psnr < PSNR_MIN) && share <= FAR_SHARE;
+    printf("%-14s %5.1f dB, %zu pixels far off%s\n", name, psnr, off, good ? "" : ": ANOTHER PICTURE");
+    return good;
+}
+
+static bool compare(const struct shot *shot, const char *path)
+{
+    struct kd_scene scene = studio_scene(shot->preset, shot->json);
+    struct kd_error error = { 0 };
+    struct kd_frame want, got;
+    if (read_reference(path, &want, &error)) {
+        printf("%s: %s\n", shot->name, error.message);
+        return false;
+    }
+    bool good = true;
+    if (isinf(scene.style.exposure)) {
+        got = studio_render(&scene);
+        if (!(fabs(got.exposure - want.exposure) < EXPOSURE_STEP)) {
+            printf("%s: exposed by %g stops, not %g\n", shot->name, got.exposure, want.exposure);
+            good = false;
+        }
+        kd_frame_finish(&got);
+        scene.style.exposure = want.exposure;
+    }
+    got = studio_render(&scene);
+    good &= same_picture(shot->name, &got, &want);
+    kd_frame_finish(&got);
+    kd_frame_finish(&want);
+    return good;
+}
+
+static bool update(const struct shot *shot, const char *path)
+{
+    struct kd_scene scene = studio_scene(shot->preset, shot->json);
+    struct kd_frame frame = studio_render(&scene);
+    struct kd_buffer png = { 0 };
+    struct kd_error error = { 0 };
+    scene.style.exposure = frame.exposure;
+    enum kd_status status = kd_picture_encode(&frame, &scene, &(struct kd_plan){ 0 }, "reference", 8, &png, &error);
+    FILE *file = status ? NULL : fopen(path, "wb");
+    bool good = file && fwrite(png.data, 1, png.size, file) == png.size;
+    if (file && fclose(file))
+        good = false;
+    printf("%s: %s\n", path, good ? "written" : status ? error.message : "cannot be written");
+    kd_buffer_finish(&png);
+    kd_frame_finish(&frame);
+    return good;
+}
+
+int main(int argc, char **argv)
+{
+    bool updating = argc > 2 && !strcmp(argv[1], "--update");
+    if (argc != 2 + updating) {
+        fprintf(stderr, "usage: golden [--update] DIR\n");
+        return 2;
+    }
+    int code = studio_open();
+    if (code)
+        return code;
+    for (size_t i = 0; i < SHOTS; i++) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s.png", argv[1 + updating], shots[i].name);
+        if (!(updating ? update : compare)(&shots[i], path))
+            code = 1;
+    }
+    /* a preset that no picture shows */
+    for (size_t p = 0; p < kd_scene_preset_count(); p++) {
+        bool shown = false;
+        for (size_t i = 0; i < SHOTS; i++)
+            shown |= shots[i].preset && !strcmp(shots[i].preset, kd_scene_preset_name(p));
+        if (!shown) {
+            printf("preset %s has no picture\n", kd_scene_preset_name(p));
+            code = 1;
+        }
+    }
+    studio_close();
+    return code;
+}

@@ -1,0 +1,28 @@
+/* What the picture tests share: one renderer, scenes from text, pixels as numbers. One thread. */
+#ifndef KD_TESTS_STUDIO_H
+#define KD_TESTS_STUDIO_H
+
+#include "render/render.h"
+
+#include <stdbool.h>
+
+#define SKIPPED 77
+
+/* 0; SKIPPED after a line that says why there is no device; 1 after a line that says why it failed. KERRD_TEST_DEVICE
+ * chooses a device. */
+int studio_open(void);
+void studio_close(void);
+
+/* A preset (NULL: the defaults) with a JSON document merged over it. A scene that is not valid ends the program. */
+struct kd_scene studio_scene(const char *preset, const char *json);
+
+/* Render, or end the program with the reason. Free with kd_frame_finish. */
+struct kd_frame studio_render(const struct kd_scene *scene);
+struct kd_frame studio_shoot(const char *json); /* over the defaults */
+
+/* One sample, c = 0, 1, 2, as a fraction of full scale; as linear light (the inverse of the sRGB curve). */
+double studio_value(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
+double studio_light(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
+bool studio_black(const struct kd_frame *frame, uint32_t x, uint32_t y); /* exactly */
+
+#endif
