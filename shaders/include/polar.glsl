@@ -1,10 +1,10 @@
 /* The polar motion in closed form: when a ray crosses the equatorial plane.
  *
- * With B (the larger root pairing) u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
+ * u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
  *   x'^2 = p^2 cos^2 x + q^2 sin^2 x,    q^2 = (s - A)/2,  p^2 = q^2 + e U+ = s,  s = sqrt(A^2 + 4 e Q),
  * Gauss's own form of the elliptic integral: a half period takes pi / AGM(p, q), and Landen's transformation
- * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) does the incomplete one. Three iterations leave
- * less than 1e-11 for q/p > 0.5. */
+ * tan(x_{n+1} - x_n) = (q_n/p_n) tan x_n (Abramowitz & Stegun 17.6.8) does the incomplete one. Rays with an impact parameter
+ * well above a have q/p near 1 and would do with two iterations; four serve those that aim at the hole's centre too. */
 #ifndef KD_POLAR_GLSL
 #define KD_POLAR_GLSL
 
@@ -46,16 +46,11 @@ kd_polar kd_polar_of(kd_motion m, kd_ray ray, float u, float s)
     float c2 = c1 * c1 - k1 * s1 * s1, s2 = (1.0 + k1) * s1 * c1;
     float p2 = 0.5 * (p1 + q1), q2 = sqrt(p1 * q1), k2 = q2 / p2;
     float y2 = (k2 - 1.0) * s2 * c2 / (c2 * c2 + k2 * s2 * s2);
-#ifdef KD_DOUBLE
     correction += 0.125 * kd_atan_small(y2);
     float c3 = c2 * c2 - k2 * s2 * s2, s3 = (1.0 + k2) * s2 * c2;
     float p3 = 0.5 * (p2 + q2), q3 = sqrt(p2 * q2), k3 = q3 / p3;
-    correction += 0.0625 * kd_atan_small((k3 - 1.0) * s3 * c3 / (c3 * c3 + k3 * s3 * s3));
+    correction += 0.0625 * (k3 - 1.0) * s3 * c3 / (c3 * c3 + k3 * s3 * s3); /* its arc tangent, to the last bit of a double */
     float mean = 0.5 * (p3 + q3);
-#else
-    correction += 0.125 * y2; /* its arc tangent, to the last bit */
-    float mean = 0.5 * (p2 + q2);
-#endif
     float inv = 1.0 / mean;
     o.first = (angle - correction) * inv;
     o.half_ = KD_PI * inv;

@@ -24,7 +24,7 @@ struct kd_renderer {
 /* Learn from the device times of a frame: nanoseconds an item, smoothed. */
 void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
 
-/* kd_rays_trace for KD_ENGINE_MINO_RKN6, params checked. Render thread. */
+/* kd_rays_trace for the engines of the device, params checked; g is left NaN. Render thread. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);

@@ -8,6 +8,8 @@
 #include "post.spv.h"
 #include "rays.spv.h"
 #include "rays_f64.spv.h"
+#include "rays_kerr_schild.spv.h"
+#include "rays_kerr_schild_f64.spv.h"
 #include "transfer.spv.h"
 
 #include <string.h>
@@ -22,6 +24,8 @@ static const struct {
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 1, sizeof(struct kd_camera_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
+    [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },
+    [KD_KERNEL_RAYS_KS_F64] = { "rays Kerr-Schild f64", kd_spv_rays_kerr_schild_f64, sizeof kd_spv_rays_kerr_schild_f64, 2, 8 },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 3, sizeof(struct kd_camera_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },

@@ -17,12 +17,15 @@
 
 enum kd_engine {
     KD_ENGINE_CLOSED,    /* elliptic functions on the CPU, double: the reference */
-    KD_ENGINE_MINO_RKN6, /* Mino time, Albrecht's Nystroem method, on the device */
+    KD_ENGINE_MINO_RKN6, /* Mino time, Albrecht's Nystroem method of order 6, on the device */
+    KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler, */
+    KD_ENGINE_KS_RK4,    /* classical Runge-Kutta, */
+    KD_ENGINE_KS_TAO6,   /* Tao's extended phase space with Yoshida's order 6; no delay, and error is NaN for these three */
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
 
-const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn6" */
+const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
 #define KD_RAYS_MAX 1000000
@@ -35,7 +38,7 @@ struct kd_rays_params {
     uint32_t orders;         /* crossings wanted, 1 to KD_RAYS_MAX_ORDERS */
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
-    uint32_t steps;          /* a half period, a multiple of 4 up to 256; 0: the engine's default; closed: 0 */
+    uint32_t steps;          /* a half period, a multiple of 4 up to 4096; 0: the engine's default; closed: 0 */
 };
 
 enum kd_ray_fate { KD_RAY_CAPTURED, KD_RAY_ESCAPED, KD_RAY_UNDECIDED };

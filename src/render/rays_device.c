@@ -3,18 +3,20 @@
 
 #include "interface.h"
 #include "physics/kerr.h"
+#include "render/rays_start.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #define CHUNK 65536u /* rays a submission: some 40 ms of double precision on two CPU cores */
-#define HEADER 8u    /* numbers in front of the list in rays.comp */
+#define HEADER 8u    /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
 
 struct work {
     struct kd_renderer *r;
     const struct kd_rays_params *params;
-    bool wide; /* double precision */
+    bool wide;         /* double precision */
+    bool kerr_schild;  /* the engine's coordinates */
     uint32_t per_ray;
     struct kd_vk_buffer *rays, *ends, *host;
     struct kd_error *error;
@@ -37,6 +39,25 @@ static void observer(double degrees, double *u, double *s)
 {
     *u = degrees == 90 ? 0 : cos(degrees * (M_PI / 180));
     *s = degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
+}
+
+/* In single precision far positions cost digits of b, near ones those of the series: a thousand is the best of both. */
+static double far_start(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e6 : 1e3; }
+
+static void upload_states(const struct work *w, const double *alpha_beta, size_t n)
+{
+    const struct kd_rays_params *p = w->params;
+    void *at = kd_vk_buffer_map(w->rays);
+    double u, s, state[6];
+    observer(p->inclination_deg, &u, &s);
+    put(w, at, 0, p->spin);
+    put(w, at, 1, kd_kerr_horizon(p->spin));
+    put(w, at, 2, 10 * (isinf(p->r) ? far_start(w) : fmax(p->r, 1e3)));
+    for (size_t i = 0; i < n; i++) {
+        kd_rays_start(p->spin, p->r, u, s, alpha_beta[2 * i], alpha_beta[2 * i + 1], far_start(w), state);
+        for (size_t k = 0; k < 6; k++)
+            put(w, at, 4 + 6 * i + k, state[k]);
+    }
 }
 
 static void upload(const struct work *w, const double *alpha_beta, size_t n)
@@ -84,9 +105,12 @@ static void unpack(const struct work *w, size_t i, struct kd_ray_crossing *cross
             continue;
         crossings[n].r = 1 / x;
         crossings[n].phi = get(w, from, at + 1);
-        crossings[n].delay = get(w, from, at + 2);
+        if (!w->kerr_schild)
+            crossings[n].delay = get(w, from, at + 2);
         end->n_crossings = n + 1;
     }
+    if (w->kerr_schild)
+        end->error = NAN;
     double fate = get(w, from, at + 2);
     end->fate = fate == KD_FATE_ESCAPED ? KD_RAY_ESCAPED : fate == KD_FATE_CAPTURED ? KD_RAY_CAPTURED : KD_RAY_UNDECIDED;
     if (end->fate == KD_RAY_ESCAPED) {
@@ -100,7 +124,7 @@ static enum kd_status trace(const struct work *w, const struct kd_vk_pipeline *p
 {
     for (size_t first = 0; first < n; first += CHUNK) {
         uint32_t m = (uint32_t)(n - first < CHUNK ? n - first : CHUNK);
-        upload(w, alpha_beta + 2 * first, m);
+        (w->kerr_schild ? upload_states : upload)(w, alpha_beta + 2 * first, m);
         enum kd_status status = run(w, pipeline, m);
         if (status)
             return status;
@@ -118,17 +142,23 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
 {
     struct kd_vk *vk = renderer->vk;
     struct work w = {
-        .r = renderer, .params = params, .wide = params->precision == KD_PRECISION_F64, .per_ray = 3 * params->orders + 4, .error = error,
+        .r = renderer, .params = params, .wide = params->precision == KD_PRECISION_F64,
+        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER, .per_ray = 3 * params->orders + 4, .error = error,
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
-    size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK;
-    const uint32_t constants[] = { params->orders, params->steps ? params->steps : w.wide ? 64 : 16 };
+    if (w.kerr_schild && !isinf(params->r) && (params->inclination_deg == 0 || params->inclination_deg == 180))
+        return kd_error_field(error, "/observer/inclination_deg",
+                              "the Kerr-Schild engines cannot start on the axis at a finite radius; use mino-rkn6 or closed");
+    size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK, per_start = w.kerr_schild ? 6 : 2;
+    const uint32_t steps = w.kerr_schild ? 64 : w.wide ? 64 : 16;
+    const uint32_t constants[] = { params->orders, params->steps ? params->steps : steps, params->engine - KD_ENGINE_KS_EULER };
     const struct kd_vk_pipeline *pipeline;
-    enum kd_status status = kd_kernels_get(&renderer->kernels, vk, w.wide ? KD_KERNEL_RAYS_F64 : KD_KERNEL_RAYS_F32, constants, 2,
-                                           &pipeline, error);
+    enum kd_kernel kernel = w.kerr_schild ? KD_KERNEL_RAYS_KS_F32 : KD_KERNEL_RAYS_F32;
+    enum kd_status status =
+        kd_kernels_get(&renderer->kernels, vk, kernel + w.wide, constants, w.kerr_schild ? 3 : 2, &pipeline, error);
     if (!status)
-        status = kd_vk_buffer_create(vk, (HEADER + 2 * room) * number, KD_VK_UPLOAD, "rays", &w.rays, error);
+        status = kd_vk_buffer_create(vk, (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &w.rays, error);
     if (!status)
         status = kd_vk_buffer_create(vk, room * w.per_ray * number, KD_VK_DEVICE, "ray ends", &w.ends, error);
     if (!status)

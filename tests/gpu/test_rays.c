@@ -123,6 +123,53 @@ static void test_double(void **state)
     check(KD_PRECISION_F64, 5e-10, 2e-9, 1e-7, 1e-6);
 }
 
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Median error of the first crossing by a Kerr-Schild engine in double precision. */
+static double kerr_schild_error(enum kd_engine engine, uint32_t steps)
+{
+    static struct kd_ray_crossing crossings[RAYS * ORDERS];
+    static struct kd_ray_end ends[RAYS];
+    static double errors[RAYS];
+    struct kd_rays_params params = {
+        .spin = holes[0].a, .r = INFINITY, .inclination_deg = holes[0].inclination, .orders = ORDERS, .engine = engine,
+        .precision = KD_PRECISION_F64, .steps = steps,
+    };
+    int n = 0;
+    OK(kd_rays_device(renderer, &params, lists[0], RAYS, crossings, ends, NULL, NULL, &error));
+    for (int k = 0; k < RAYS; k++)
+        if (ends[k].n_crossings && paths[0][k].crossings)
+            errors[n++] = fabs(crossings[k * ORDERS].r / paths[0][k].r[0] - 1);
+    assert_true(n > 700);
+    qsort(errors, (size_t)n, sizeof *errors, by_value);
+    return errors[n / 2];
+}
+
+/* Each method converges by its order: twice the steps leave 1/2, 1/16, 1/64 of the error, less what the coarse end of the
+ * range spoils. Tao's starts at r = 1000, whose series is good to 1e-7: its range ends above that. */
+static void test_kerr_schild(void **state)
+{
+    (void)state;
+    if (!kd_vk_info(renderer->vk)->float64)
+        skip();
+    static const struct { enum kd_engine engine; uint32_t steps; double ratio, finest; } methods[] = {
+        { KD_ENGINE_KS_EULER, 64, 1.8, 2e-3 },
+        { KD_ENGINE_KS_RK4, 32, 12, 2e-9 },
+        { KD_ENGINE_KS_TAO6, 32, 40, 1e-5 },
+    };
+    for (int i = 0; i < 3; i++) {
+        double coarse = kerr_schild_error(methods[i].engine, methods[i].steps);
+        double fine = kerr_schild_error(methods[i].engine, 2 * methods[i].steps);
+        print_message("Kerr-Schild method %d: %.1e with %u steps, %.1e with twice as many\n", i, coarse, methods[i].steps, fine);
+        assert_true(coarse / fine > methods[i].ratio);
+        assert_true(fine < methods[i].finest);
+    }
+}
+
 int main(void)
 {
     int skip = skip_without_device();
@@ -135,7 +182,8 @@ int main(void)
         return 1;
     }
     prepare();
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_single), cmocka_unit_test(test_double) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_single), cmocka_unit_test(test_double),
+                                        cmocka_unit_test(test_kerr_schild) };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     if (kd_renderer_validation_messages(renderer)) {
         fprintf(stderr, "the validation layer spoke\n");
