@@ -1,6 +1,5 @@
 #include "studio.h"
 
-#include "vk/functions.h"
 #include "vk/instance.h"
 #include "vk/vk.h"
 
@@ -68,8 +67,13 @@ struct kd_frame studio_render(const struct kd_scene *scene)
     return frame;
 }
 
-struct kd_frame studio_shoot(const char *json)
+struct kd_frame studio_shoot(const char *format, ...)
 {
+    char json[1024];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(json, sizeof json, format, list);
+    va_end(list);
     struct kd_scene scene = studio_scene(NULL, json);
     return studio_render(&scene);
 }
@@ -77,7 +81,8 @@ struct kd_frame studio_shoot(const char *json)
 double studio_value(const struct kd_frame *f, uint32_t x, uint32_t y, int c)
 {
     size_t at = 3 * ((size_t)y * f->width + x) + (size_t)c;
-    return f->bit_depth == 16 ? ((const uint16_t *)f->pixels)[at] / 65535.0 : ((const uint8_t *)f->pixels)[at] / 255.0;
+    return f->bit_depth == 16 ? ((const uint16_t *)f->pixels)[at] / 65535.0
+                              : ((const uint8_t *)f->pixels)[at] / 255.0;
 }
 
 double studio_light(const struct kd_frame *f, uint32_t x, uint32_t y, int c)

@@ -8,17 +8,19 @@
 
 #define SKIPPED 77
 
-/* 0; SKIPPED after a line that says why there is no device; 1 after a line that says why it failed. KERRD_TEST_DEVICE
- * chooses a device. */
+/* 0; SKIPPED after a line that says why there is no device; 1 after a line that says why it failed.
+ * KERRD_TEST_DEVICE chooses a device. */
 int studio_open(void);
 void studio_close(void);
 
-/* A preset (NULL: the defaults) with a JSON document merged over it. A scene that is not valid ends the program. */
+/* A preset (NULL: the defaults) with a JSON document merged over it. A scene that is not valid ends the
+ * program. */
 struct kd_scene studio_scene(const char *preset, const char *json);
 
 /* Render, or end the program with the reason. Free with kd_frame_finish. */
 struct kd_frame studio_render(const struct kd_scene *scene);
-struct kd_frame studio_shoot(const char *json); /* over the defaults */
+/* The scene of a document, written as printf does, over the defaults. */
+struct kd_frame studio_shoot(const char *json, ...) __attribute__((format(printf, 1, 2)));
 
 /* One sample, c = 0, 1, 2, as a fraction of full scale; as linear light (the inverse of the sRGB curve). */
 double studio_value(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);

@@ -1,5 +1,5 @@
-/* What C writes is what the kernels read: offsets and types of the members of push constants and buffers in the SPIR-V
- * against offsetof. */
+/* What C writes is what the kernels read: offsets and types of the members of push constants and buffers in
+ * the SPIR-V against offsetof. */
 #include "render/layout.h"
 #include "render/tables.h"
 
@@ -16,13 +16,28 @@
 
 #include <cmocka.h>
 
-/* SPIR-V 1.5 specification, sections 2.3 and 3: a header of five words, then instructions whose first word holds their
- * length and opcode; text is bytes from the low end of each word. */
-enum { OP_NAME = 5, OP_MEMBER_NAME = 6, OP_TYPE_INT = 21, OP_TYPE_FLOAT = 22, OP_TYPE_STRUCT = 30, OP_DECORATE = 71,
-       OP_MEMBER_DECORATE = 72, DECORATION_ARRAY_STRIDE = 6, DECORATION_OFFSET = 35 };
+/* SPIR-V 1.5 specification, sections 2.3 and 3: a header of five words, then instructions whose first word
+ * holds their length and opcode; text is bytes from the low end of each word. */
+enum {
+    OP_NAME = 5,
+    OP_MEMBER_NAME = 6,
+    OP_TYPE_INT = 21,
+    OP_TYPE_FLOAT = 22,
+    OP_TYPE_STRUCT = 30,
+    OP_DECORATE = 71,
+    OP_MEMBER_DECORATE = 72,
+    DECORATION_ARRAY_STRIDE = 6,
+    DECORATION_OFFSET = 35
+};
 
-struct spirv { const char *kernel; const uint32_t *words; size_t n; };
+struct spirv {
+    const char *kernel;
+    const uint32_t *words;
+    size_t n;
+};
+/* clang-format off */
 #define SPIRV(name) { #name, kd_spv_##name, sizeof kd_spv_##name / 4 }
+/* clang-format on */
 
 /* The next instruction of this opcode whose first operand is `id` (0: any) after *at; NULL at the end. */
 static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, uint32_t id)
@@ -92,7 +107,11 @@ static uint32_t array_stride(const struct spirv *s, uint32_t type)
     return 0;
 }
 
-struct field { const char *name; size_t offset; uint32_t opcode; };
+struct field {
+    const char *name;
+    size_t offset;
+    uint32_t opcode;
+};
 
 /* Every field of C at its place in the kernel; `more` members of the kernel are not in the list. */
 static void same(const struct spirv *s, const char *block, const struct field *fields, size_t n, int more)
@@ -105,7 +124,8 @@ static void same(const struct spirv *s, const char *block, const struct field *f
             fail_msg("%s: %s has no %s", s->kernel, block, fields[i].name);
         uint32_t offset = member_offset(s, id, member);
         if (offset != fields[i].offset)
-            fail_msg("%s: %s.%s is at %u, C has it at %zu", s->kernel, block, fields[i].name, offset, fields[i].offset);
+            fail_msg("%s: %s.%s is at %u, C has it at %zu", s->kernel, block, fields[i].name, offset,
+                     fields[i].offset);
         if (!is_scalar(s, member_type(s, id, member, &count), fields[i].opcode))
             fail_msg("%s: %s.%s is of another type than in C", s->kernel, block, fields[i].name);
     }
@@ -137,7 +157,8 @@ static void camera(void **state)
     const struct spirv kernels[] = { SPIRV(lens_radius), SPIRV(lens_map), transfer };
     for (size_t i = 0; i < COUNT(kernels); i++)
         same(&kernels[i], "Camera", camera_fields, COUNT(camera_fields), 0);
-    assert_int_equal(sizeof(struct kd_camera_push), 4 * COUNT(camera_fields)); /* no padding: all of it is pushed */
+    assert_int_equal(sizeof(struct kd_camera_push),
+                     4 * COUNT(camera_fields)); /* no padding: all of it is pushed */
 }
 
 static void post_push(void **state)
@@ -151,7 +172,11 @@ static void transfer_buffer(void **state)
 {
     (void)state;
     same(&transfer, "Transfer", transfer_fields, COUNT(transfer_fields), 3); /* padding and two tables */
-    const struct { const char *name; size_t offset; uint32_t stride; } tables[] = {
+    const struct {
+        const char *name;
+        size_t offset;
+        uint32_t stride;
+    } tables[] = {
         { "disk_table", offsetof(struct kd_transfer_data, disk), sizeof(float) },
         { "colour_table", offsetof(struct kd_transfer_data, colour), sizeof(float[4]) },
     };
@@ -159,7 +184,8 @@ static void transfer_buffer(void **state)
     for (size_t i = 0; i < COUNT(tables); i++) {
         int count, member = member_called(&transfer, id, tables[i].name);
         assert_int_equal(member_offset(&transfer, id, member), tables[i].offset);
-        assert_int_equal(array_stride(&transfer, member_type(&transfer, id, member, &count)), tables[i].stride);
+        assert_int_equal(array_stride(&transfer, member_type(&transfer, id, member, &count)),
+                         tables[i].stride);
     }
     /* as far as the kernel's tables reach, no further */
     assert_int_equal(sizeof(struct kd_transfer_data),

@@ -1,5 +1,5 @@
-/* Colour of a black body against published chromaticities and efficacies, and against a second quadrature whose Planck
- * function is itself proved by Stefan and Boltzmann. */
+/* Colour of a black body against published chromaticities and efficacies, and against a second quadrature
+ * whose Planck function is itself proved by Stefan and Boltzmann. */
 #include "physics/colour.h"
 
 #include <math.h>
@@ -18,16 +18,18 @@ static void near(const char *what, double temperature, double got, double want, 
                  fabs(got - want), allowed);
 }
 
-struct xy { double x, y; };
+struct xy {
+    double x, y;
+};
 
 static struct xy chromaticity(struct kd_colour_xyz c)
 {
     double sum = c.x + c.y + c.z;
-    return (struct xy){ c.x / sum, c.y / sum };
+    return (struct xy) { c.x / sum, c.y / sum };
 }
 
-/* Sums of the three functions from 380 to 780 nm in steps of 5 nm as CIE 15:2004 prints them. y-bar is V(lambda), 1 at
- * 555 nm. */
+/* Sums of the three functions from 380 to 780 nm in steps of 5 nm as CIE 15:2004 prints them. y-bar is
+ * V(lambda), 1 at 555 nm. */
 static void the_standard_observer(void **state)
 {
     (void)state;
@@ -44,17 +46,24 @@ static void the_standard_observer(void **state)
     assert_true(KD_CIE1931_FIRST_NM + (KD_CIE1931_COUNT - 1) * KD_CIE1931_STEP_NM == 830);
 }
 
-/* Illuminant A: CIE 15:2004, table T.3 (x = 0.44758, y = 0.40745), Planckian at 2848 K with c2 = 1.4350 cm K, which is
- * 2855.5 K with today's c2. The others: Wyszecki & Stiles 1982, table 1(3.11), four decimals and a c2 of 1.4388, so that
- * 3e-4 covers their rounding and the choice of the summation. */
+/* Illuminant A: CIE 15:2004, table T.3 (x = 0.44758, y = 0.40745), Planckian at 2848 K with c2 = 1.4350 cm K,
+ * which is 2855.5 K with today's c2. The others: Wyszecki & Stiles 1982, table 1(3.11), four decimals and a
+ * c2 of 1.4388, so that 3e-4 covers their rounding and the choice of the summation. */
 static void published_chromaticities(void **state)
 {
     (void)state;
-    const struct { double t, x, y, bound; } table[] = {
+    const struct {
+        double t, x, y, bound;
+    } table[] = {
         { 2848 * 1.438776877 / 1.4350, 0.44758, 0.40745, 2e-5 },
-        { 1000, 0.6528, 0.3444, 3e-4 }, { 2000, 0.5267, 0.4133, 3e-4 }, { 3000, 0.4369, 0.4041, 3e-4 },
-        { 4000, 0.3805, 0.3768, 3e-4 }, { 5000, 0.3451, 0.3516, 3e-4 }, { 6500, 0.3135, 0.3237, 3e-4 },
-        { 10000, 0.2807, 0.2884, 3e-4 }, { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last: T to infinity */
+        { 1000, 0.6528, 0.3444, 3e-4 },
+        { 2000, 0.5267, 0.4133, 3e-4 },
+        { 3000, 0.4369, 0.4041, 3e-4 },
+        { 4000, 0.3805, 0.3768, 3e-4 },
+        { 5000, 0.3451, 0.3516, 3e-4 },
+        { 6500, 0.3135, 0.3237, 3e-4 },
+        { 10000, 0.2807, 0.2884, 3e-4 },
+        { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last: T to infinity */
     };
     for (size_t i = 0; i < COUNT(table); i++) {
         struct xy c = chromaticity(kd_colour_blackbody(table[i].t));
@@ -63,7 +72,8 @@ static void published_chromaticities(void **state)
     }
 }
 
-/* Rational cubics of the Planckian locus (Kim et al., US patent 7024034): their own fit is within about 1e-3 in x and y. */
+/* Rational cubics of the Planckian locus (Kim et al., US patent 7024034): their own fit is within about 1e-3
+ * in x and y. */
 static void along_the_locus(void **state)
 {
     (void)state;
@@ -86,8 +96,9 @@ static double radiance(double wavelength, double temperature)
     return c1l / pow(wavelength, 5) / (exp(c2 / (wavelength * temperature)) - 1);
 }
 
-/* The functions interpolated linearly, the product with the radiance ten times as fine. The two sums differ by the curvature
- * over a step: the radiance changes by 5 % a step at 2000 K, and the two halves of x-bar and of z-bar are narrow. */
+/* The functions interpolated linearly, the product with the radiance ten times as fine. The two sums differ
+ * by the curvature over a step: the radiance changes by 5 % a step at 2000 K, and the two halves of x-bar and
+ * of z-bar are narrow. */
 static struct kd_colour_xyz second_opinion(double temperature)
 {
     struct kd_colour_xyz c = { 0, 0, 0 };
@@ -123,8 +134,8 @@ static void stefan_and_boltzmann(void **state)
     }
 }
 
-/* In print (683 lm/W times the fraction): 95 lm/W at the maximum, near 6600 K, and at 7000 K; 54.7 at 4000 K; 15 at
- * 2800 K. On both sides of the maximum it falls. The bounds are half of the last digit. */
+/* In print (683 lm/W times the fraction): 95 lm/W at the maximum, near 6600 K, and at 7000 K; 54.7 at 4000 K;
+ * 15 at 2800 K. On both sides of the maximum it falls. The bounds are half of the last digit. */
 static void luminous_efficacy(void **state)
 {
     (void)state;
@@ -144,17 +155,23 @@ static void luminous_efficacy(void **state)
     near("efficacy", 2800, 683.002 * kd_colour_luminous_fraction(2800), 15, 0.5);
 }
 
-/* IEC 61966-2-1: the D65 white (x, y) = (0.3127, 0.3290) is (1, 1, 1), each primary one component alone. Four decimals of
- * the chromaticities in the standard leave 2e-4. */
+/* IEC 61966-2-1: the D65 white (x, y) = (0.3127, 0.3290) is (1, 1, 1), each primary one component alone. Four
+ * decimals of the chromaticities in the standard leave 2e-4. */
 static void the_matrix_of_srgb(void **state)
 {
     (void)state;
-    const struct { double x, y, luminance; } primaries[] = {
-        { 0.64, 0.33, 0.2126 }, { 0.30, 0.60, 0.7152 }, { 0.15, 0.06, 0.0722 }, { 0.3127, 0.3290, 1 },
+    const struct {
+        double x, y, luminance;
+    } primaries[] = {
+        { 0.64, 0.33, 0.2126 },
+        { 0.30, 0.60, 0.7152 },
+        { 0.15, 0.06, 0.0722 },
+        { 0.3127, 0.3290, 1 },
     };
     for (int i = 0; i < 4; i++) {
         double x = primaries[i].x, y = primaries[i].y, l = primaries[i].luminance / y;
-        struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz){ l * x, l * y, l * (1 - x - y) });
+        struct kd_colour_rgb c =
+            kd_colour_xyz_to_srgb((struct kd_colour_xyz) { l * x, l * y, l * (1 - x - y) });
         near("red", 0, c.r, i == 0 || i == 3, 5e-4);
         near("green", 0, c.g, i == 1 || i == 3, 5e-4);
         near("blue", 0, c.b, i == 2 || i == 3, 1e-3); /* 0.0722 has three digits */
@@ -168,17 +185,19 @@ static void unit_colours(void **state)
     double last = 100;
     for (double t = 20; t < 1e10; t *= 1.01) {
         struct kd_colour_rgb c = kd_colour_blackbody_unit(t);
-        /* the rows of the two matrices are rounded to seven digits; a zero component may be a rounding below zero */
+        /* the rows of the two matrices are rounded to seven digits; a zero component may be a rounding below
+         * zero */
         near("luminance", t, 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b, 1, 2e-6);
         if (!(c.r >= -1e-15 && c.g >= -1e-15 && c.b >= -1e-15))
             fail_msg("%g K: (%g, %g, %g) is outside the gamut", t, c.r, c.g, c.b);
-        /* below 890 K the light is all of the far red, whose chromaticity hardly changes, and the way into the gamut turns
-         * the order by less than 1e-3 a step */
+        /* below 890 K the light is all of the far red, whose chromaticity hardly changes, and the way into
+         * the gamut turns the order by less than 1e-3 a step */
         if (!(c.r <= last * (t < 890 ? 1.001 : 1)))
             fail_msg("%g K: redder than the cooler body before it", t);
         last = c.r;
     }
-    struct kd_colour_rgb white = kd_colour_blackbody_unit(6600); /* the Planckian nearest to grey in red and blue */
+    struct kd_colour_rgb white =
+        kd_colour_blackbody_unit(6600); /* the Planckian nearest to grey in red and blue */
     near("red of the whitest", 6600, white.r, 1, 0.06);
     near("green of the whitest", 6600, white.g, 1, 0.06);
     near("blue of the whitest", 6600, white.b, 1, 0.06);
@@ -200,14 +219,10 @@ static void unit_colours_inside_the_gamut(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_standard_observer),
-        cmocka_unit_test(published_chromaticities),
-        cmocka_unit_test(along_the_locus),
-        cmocka_unit_test(stefan_and_boltzmann),
-        cmocka_unit_test(luminous_efficacy),
-        cmocka_unit_test(the_matrix_of_srgb),
-        cmocka_unit_test(unit_colours),
-        cmocka_unit_test(unit_colours_inside_the_gamut),
+        cmocka_unit_test(the_standard_observer), cmocka_unit_test(published_chromaticities),
+        cmocka_unit_test(along_the_locus),       cmocka_unit_test(stefan_and_boltzmann),
+        cmocka_unit_test(luminous_efficacy),     cmocka_unit_test(the_matrix_of_srgb),
+        cmocka_unit_test(unit_colours),          cmocka_unit_test(unit_colours_inside_the_gamut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

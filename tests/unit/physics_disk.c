@@ -1,5 +1,5 @@
-/* The thin disk against quadrature of its defining integral (tests/oracle/disk_reference.py), energy conservation, and the
- * redshift against a contraction with the metric. */
+/* The thin disk against quadrature of its defining integral (tests/oracle/disk_reference.py), energy
+ * conservation, and the redshift against a contraction with the metric. */
 #include "physics/disk.h"
 #include "physics/kerr.h"
 
@@ -17,8 +17,8 @@
 static void close_to(const char *what, double a, double r, double got, double want, double relative)
 {
     if (!(fabs(got - want) <= relative * fabs(want)))
-        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want,
-                 fabs(got / want - 1), relative);
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got,
+                 want, fabs(got / want - 1), relative);
 }
 
 /* The bound of the header; the nearest radius here is 0.001 r_isco outside the ISCO. */
@@ -34,8 +34,8 @@ static void flux_is_the_integral(void **state)
 
 typedef double (*function)(double a, double r);
 
-/* Integral of 4 pi r F(r) weight(r) from the ISCO to infinity, in y = sqrt(r_isco/r), where the integrand is a power series
- * that starts with y: Simpson's rule. */
+/* Integral of 4 pi r F(r) weight(r) from the ISCO to infinity, in y = sqrt(r_isco/r), where the integrand is
+ * a power series that starts with y: Simpson's rule. */
 static double luminosity(function flux, function weight, double a)
 {
     const int n = 20000;
@@ -47,19 +47,22 @@ static double luminosity(function flux, function weight, double a)
     return sum / (3.0 * n); /* both ends are zero: F at the ISCO, y at infinity */
 }
 
-static double one(double a, double r) { return (void)a, (void)r, 1; }
+static double one(double a, double r)
+{
+    return (void)a, (void)r, 1;
+}
 
-/* What both faces radiate, E times the energy in the gas's frame, is what the gas loses on its way in: 1 - E(ISCO)
- * (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within 0.1 of the ISCO. The
- * Newtonian disk, by the virial theorem, releases 1/(2 r_in). */
+/* What both faces radiate, E times the energy in the gas's frame, is what the gas loses on its way in: 1 -
+ * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within
+ * 0.1 of the ISCO. The Newtonian disk, by the virial theorem, releases 1/(2 r_in). */
 static void luminosity_is_the_efficiency(void **state)
 {
     (void)state;
     const double spins[] = { -0.9999, -0.9, -0.5, 0, 1e-9, 0.3, 0.5, 0.9, 0.99, 0.998, 0.9999 };
     for (size_t i = 0; i < COUNT(spins); i++) {
         double a = spins[i];
-        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a), kd_kerr_efficiency(a),
-                 1e-8);
+        close_to("luminosity", a, 0, luminosity(kd_disk_flux_page_thorne, kd_kerr_energy, a),
+                 kd_kerr_efficiency(a), 1e-8);
         close_to("Newtonian luminosity", a, 0, luminosity(kd_disk_flux_shakura_sunyaev, one, a),
                  0.5 / kd_kerr_isco(a), 1e-8);
     }
@@ -92,8 +95,8 @@ static void far_away_it_is_newtonian(void **state)
     }
 }
 
-/* At a maximum a relative eps of the value is sqrt(eps) = 1e-8 of the place: 1e-7 with the table's nine digits. Newtonian:
- * the derivative of (1 - sqrt(r_in/r))/r^3 vanishes at r = 49/36 r_in. */
+/* At a maximum a relative eps of the value is sqrt(eps) = 1e-8 of the place: 1e-7 with the table's nine
+ * digits. Newtonian: the derivative of (1 - sqrt(r_in/r))/r^3 vanishes at r = 49/36 r_in. */
 static void peak_of_the_flux(void **state)
 {
     (void)state;
@@ -114,11 +117,12 @@ static void redshift_without_spin(void **state)
     (void)state;
     for (double r = 6; r < 1e5; r *= 1.3)
         for (double lambda = -5; lambda <= 5; lambda += 0.5)
-            close_to("g", 0, r, kd_disk_redshift(0, r, lambda), sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))), 1e-14);
+            close_to("g", 0, r, kd_disk_redshift(0, r, lambda),
+                     sqrt(1 - 3 / r) / (1 - lambda / (r * sqrt(r))), 1e-14);
 }
 
-/* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega where the r-derivative of u.g.u vanishes,
- * u^t from u.g.u = -1, all in the plane. */
+/* g = 1/(-k.u) with k_t = -1, k_phi = lambda and u = u^t (1, 0, 0, Omega): Omega where the r-derivative of
+ * u.g.u vanishes, u^t from u.g.u = -1, all in the plane. */
 static double redshift_by_contraction(double a, double r, double lambda)
 {
     double tt = -1 + 2 / r, tp = -2 * a / r, pp = r * r + a * a + 2 * a * a / r;
@@ -128,7 +132,8 @@ static double redshift_by_contraction(double a, double r, double lambda)
     return 1 / (ut * (1 - omega * lambda));
 }
 
-/* The contraction itself cancels towards the photon orbit: at a = 0.998 to about 1e-15 over 0.02 of the terms. */
+/* The contraction itself cancels towards the photon orbit: at a = 0.998 to about 1e-15 over 0.02 of the
+ * terms. */
 static void redshift_with_spin(void **state)
 {
     (void)state;
@@ -140,22 +145,23 @@ static void redshift_with_spin(void **state)
                          redshift_by_contraction(spins[i], r, lambda), 1e-12);
 }
 
-/* g = 1/(-k.u) with every component written out: the inverse metric raises k, u^r from u.g.u = -1 with the E and L of the
- * ISCO, k_r from k.g.k = 0. Nothing here knows of potentials. */
+/* g = 1/(-k.u) with every component written out: the inverse metric raises k, u^r from u.g.u = -1 with the E
+ * and L of the ISCO, k_r from k.g.k = 0. Nothing here knows of potentials. */
 static double plunging_by_contraction(double a, double r, double lambda, double eta, double sign)
 {
     double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco);
     double delta = r * r - 2 * r + a * a, pp = r * r + a * a + 2 * a * a / r;
     double itt = -pp / delta, itp = -2 * a / (r * delta), ipp = (1 - 2 / r) / delta, irr = delta / (r * r);
-    double ut = -itt * e + itp * l, up = -itp * e + ipp * l, energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;
+    double ut = -itt * e + itp * l, up = -itp * e + ipp * l,
+           energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;
     double ur_down = -sqrt((energy2 - 1) / irr); /* inwards; k_theta^2 = eta at the equator */
     double null = -itt + 2 * itp * lambda - ipp * lambda * lambda - eta / (r * r);
     double kr_down = sign * sqrt(null / irr);
     return 1 / (ut - lambda * up - irr * kr_down * ur_down);
 }
 
-/* The contraction loses digits in energy2 - 1 at the ISCO, where it vanishes to third order, and everywhere in 1/Delta at
- * the horizon: so from 1.05 r+ to 0.9 r_isco, for photons that can be there. */
+/* The contraction loses digits in energy2 - 1 at the ISCO, where it vanishes to third order, and everywhere
+ * in 1/Delta at the horizon: so from 1.05 r+ to 0.9 r_isco, for photons that can be there. */
 static void redshift_of_plunging_gas(void **state)
 {
     (void)state;
@@ -177,7 +183,8 @@ static void redshift_of_plunging_gas(void **state)
     assert_true(tried > 5000);
 }
 
-/* Continuous with the circular orbits; towards the horizon zero for what leaves outwards, regular for what leaves inwards. */
+/* Continuous with the circular orbits; towards the horizon zero for what leaves outwards, regular for what
+ * leaves inwards. */
 static void plunging_at_both_ends(void **state)
 {
     (void)state;
@@ -196,8 +203,8 @@ static void plunging_at_both_ends(void **state)
     }
 }
 
-/* Same physics worked in grams and with Newton's G, known to 2.2e-5; T goes as M^(-1/4). The fourth root of the flux adds
- * nothing. */
+/* Same physics worked in grams and with Newton's G, known to 2.2e-5; T goes as M^(-1/4). The fourth root of
+ * the flux adds nothing. */
 static void temperature_in_kelvin(void **state)
 {
     (void)state;
@@ -206,26 +213,21 @@ static void temperature_in_kelvin(void **state)
         double flux = kd_disk_flux_page_thorne(t->a, t->r);
         double got = kd_disk_temperature(flux, t->a, t->mass_msun, t->mdot_edd);
         close_to("temperature", t->a, t->r, got, t->kelvin, 1e-5);
-        close_to("sixteen times the mass", t->a, t->r, kd_disk_temperature(flux, t->a, 16 * t->mass_msun, t->mdot_edd),
-                 got / 2, 1e-14);
-        close_to("sixteen times the rate", t->a, t->r, kd_disk_temperature(flux, t->a, t->mass_msun, 16 * t->mdot_edd),
-                 got * 2, 1e-14);
+        close_to("sixteen times the mass", t->a, t->r,
+                 kd_disk_temperature(flux, t->a, 16 * t->mass_msun, t->mdot_edd), got / 2, 1e-14);
+        close_to("sixteen times the rate", t->a, t->r,
+                 kd_disk_temperature(flux, t->a, t->mass_msun, 16 * t->mdot_edd), got * 2, 1e-14);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(flux_is_the_integral),
-        cmocka_unit_test(luminosity_is_the_efficiency),
-        cmocka_unit_test(nothing_inside_the_isco),
-        cmocka_unit_test(far_away_it_is_newtonian),
-        cmocka_unit_test(peak_of_the_flux),
-        cmocka_unit_test(redshift_without_spin),
-        cmocka_unit_test(redshift_with_spin),
-        cmocka_unit_test(redshift_of_plunging_gas),
-        cmocka_unit_test(plunging_at_both_ends),
-        cmocka_unit_test(temperature_in_kelvin),
+        cmocka_unit_test(flux_is_the_integral),    cmocka_unit_test(luminosity_is_the_efficiency),
+        cmocka_unit_test(nothing_inside_the_isco), cmocka_unit_test(far_away_it_is_newtonian),
+        cmocka_unit_test(peak_of_the_flux),        cmocka_unit_test(redshift_without_spin),
+        cmocka_unit_test(redshift_with_spin),      cmocka_unit_test(redshift_of_plunging_gas),
+        cmocka_unit_test(plunging_at_both_ends),   cmocka_unit_test(temperature_in_kelvin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

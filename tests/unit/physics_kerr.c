@@ -1,5 +1,5 @@
-/* Circular orbits of Kerr against numbers worked out from the metric alone (tests/oracle/kerr_reference.py), and against
- * what must hold at any spin. */
+/* Circular orbits of Kerr against numbers worked out from the metric alone (tests/oracle/kerr_reference.py),
+ * and against what must hold at any spin. */
 #include "physics/kerr.h"
 
 #include "kerr_reference.h"
@@ -17,12 +17,12 @@
 static void close_to(const char *what, double a, double r, double got, double want, double relative)
 {
     if (!(fabs(got - want) <= relative * fabs(want)))
-        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got, want,
-                 fabs(got / want - 1), relative);
+        fail_msg("%s at a = %.17g, r = %.17g: %.17g, not %.17g: off by %.2g, allowed %.2g", what, a, r, got,
+                 want, fabs(got / want - 1), relative);
 }
 
-/* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the others are one or two elementary functions of
- * a, well conditioned in a and 1 - a: a few ulp, 1e-14. */
+/* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the others are one or two elementary
+ * functions of a, well conditioned in a and 1 - a: a few ulp, 1e-14. */
 static void special_radii(void **state)
 {
     (void)state;
@@ -35,8 +35,9 @@ static void special_radii(void **state)
     }
 }
 
-/* E and L are flat at the ISCO, so that its own rounding costs nothing and 1e-12 holds up to 1 - a = 1e-12, where r - 1 is
- * 1.6e-4 and half the digits of a plain 1 - 3/r + 2a r^-3/2 are gone. 1 - E loses a factor of 26 at a = -1. */
+/* E and L are flat at the ISCO, so that its own rounding costs nothing and 1e-12 holds up to 1 - a = 1e-12,
+ * where r - 1 is 1.6e-4 and half the digits of a plain 1 - 3/r + 2a r^-3/2 are gone. 1 - E loses a factor of
+ * 26 at a = -1. */
 static void the_isco_orbit(void **state)
 {
     (void)state;
@@ -50,8 +51,9 @@ static void the_isco_orbit(void **state)
     }
 }
 
-/* Between the photon orbit and the ISCO, just outside it, near and far: the radii of the table are doubles, exact. Halfway
- * to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5 and the rounding of sqrt(r) alone is worth 1e-12. */
+/* Between the photon orbit and the ISCO, just outside it, near and far: the radii of the table are doubles,
+ * exact. Halfway to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5 and the rounding of sqrt(r) alone is
+ * worth 1e-12. */
 static void any_orbit(void **state)
 {
     (void)state;
@@ -64,8 +66,9 @@ static void any_orbit(void **state)
     }
 }
 
-/* Round numbers in print: Bardeen, Press & Teukolsky 1972, section II (a = 0: 2, 3, 4, 6; |a| = 1: 1, 4, 3 + 2 sqrt 2, 9;
- * binding energies 5.72 %, 3.77 %), Thorne 1974 (a = 0.998: efficiency 0.321 for the ISCO at 1.237). */
+/* Round numbers in print: Bardeen, Press & Teukolsky 1972, section II (a = 0: 2, 3, 4, 6; |a| = 1: 1, 4, 3 +
+ * 2 sqrt 2, 9; binding energies 5.72 %, 3.77 %), Thorne 1974 (a = 0.998: efficiency 0.321 for the ISCO
+ * at 1.237). */
 static void numbers_in_print(void **state)
 {
     (void)state;
@@ -84,8 +87,9 @@ static void numbers_in_print(void **state)
     close_to("efficiency", 0.998, 0, kd_kerr_efficiency(0.998), 0.321, 5e-4 / 0.321);
 }
 
-/* E and L of circular orbits both have their minimum at the ISCO. Five hundredths aside the difference is a hundred thousand
- * ulp. The slope there: a symmetric difference of step h leaves h^2 of the third derivative. */
+/* E and L of circular orbits both have their minimum at the ISCO. Five hundredths aside the difference is a
+ * hundred thousand ulp. The slope there: a symmetric difference of step h leaves h^2 of the third derivative.
+ */
 static void the_isco_is_the_minimum(void **state)
 {
     (void)state;
@@ -94,7 +98,8 @@ static void the_isco_is_the_minimum(void **state)
         double r = kd_kerr_isco(a), gap = r - kd_kerr_photon_orbit(a), step = 0.05 * gap;
         double (*const functions[])(double, double) = { kd_kerr_energy, kd_kerr_momentum };
         for (int i = 0; i < 2; i++) {
-            double at = functions[i](a, r), left = functions[i](a, r - step), right = functions[i](a, r + step);
+            double at = functions[i](a, r), left = functions[i](a, r - step),
+                   right = functions[i](a, r + step);
             if (!(left > at && right > at))
                 fail_msg("a = %g: no minimum of %s at the ISCO", a, i ? "L" : "E");
             double h = 1e-3 * gap, slope = (functions[i](a, r + h) - functions[i](a, r - h)) / (2 * h);
@@ -113,7 +118,8 @@ static void order_of_the_radii(void **state)
     double last = 9.01;
     for (int i = -1000; i <= 1000; i++) {
         double a = copysign(-expm1(-abs(i) * 0.0276), i); /* |a| up to 1 - 1e-12 */
-        double horizon = kd_kerr_horizon(a), photon = kd_kerr_photon_orbit(a), bound = kd_kerr_marginally_bound(a);
+        double horizon = kd_kerr_horizon(a), photon = kd_kerr_photon_orbit(a),
+               bound = kd_kerr_marginally_bound(a);
         double isco = kd_kerr_isco(a);
         if (!(horizon <= photon && photon < bound && bound < isco && isco < last))
             fail_msg("a = %.17g: %g, %g, %g, %g after %g", a, horizon, photon, bound, isco, last);
@@ -135,8 +141,9 @@ static void outside_the_domain(void **state)
     }
 }
 
-/* -g_tphi/g_phiphi and g_tt from the Boyer-Lindquist line element as it is written in Misner, Thorne & Wheeler (33.2):
- * ds^2 = -(Delta/rho^2)(dt - a sin^2 dphi)^2 + (sin^2/rho^2)((r^2 + a^2) dphi - a dt)^2 + ... */
+/* -g_tphi/g_phiphi and g_tt from the Boyer-Lindquist line element as it is written in Misner, Thorne &
+ * Wheeler (33.2): ds^2 = -(Delta/rho^2)(dt - a sin^2 dphi)^2 + (sin^2/rho^2)((r^2 + a^2) dphi - a dt)^2 + ...
+ */
 static void frame_dragging_and_ergosphere(void **state)
 {
     (void)state;
