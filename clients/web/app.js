@@ -98,6 +98,14 @@ function listTimings(header) {
   element('timings').replaceChildren(...rows);
 }
 
+// "rays=921600 sampled=768 crossings=927 differ=0 median=1.6e-07 worst=2.0e-05" in words.
+function accuracy(header) {
+  const figure = Object.fromEntries((header ?? '').split(' ').map(pair => pair.split('=')));
+  if (!(figure.sampled > 0)) return '';
+  return `; radii wrong by ${Number(figure.median)} (worst ${Number(figure.worst)}) of themselves, ` +
+    `by ${figure.sampled} of ${figure.rays} rays traced again in double precision`;
+}
+
 function report(error) {
   element('status').textContent = error.message;
 }
@@ -117,7 +125,8 @@ async function show(query) {
   picture.width = picture.naturalWidth;
   picture.height = picture.naturalHeight;
   element('status').textContent =
-    `${picture.naturalWidth} × ${picture.naturalHeight} pixels, ${Math.round(performance.now() - start)} ms`;
+    `${picture.naturalWidth} × ${picture.naturalHeight} pixels, ${Math.round(performance.now() - start)} ms` +
+    accuracy(answer.headers.get('Kerrd-Accuracy'));
   element('link').href = url;
   listApproximations(answer.headers.get('Kerrd-Approximations'));
   listTimings(answer.headers.get('Server-Timing'));

@@ -11,6 +11,14 @@ static void add_accuracy(cJSON *root, const struct kd_stats *stats)
     if (!accuracy)
         accuracy = cJSON_CreateObject();
     cJSON_AddNumberToObject(accuracy, "steps", stats->plan->steps); /* 0: the closed form */
+    const struct kd_accuracy_report *report = &stats->frame->accuracy;
+    cJSON_AddNumberToObject(accuracy, "sampled", report->sampled);
+    if (report->sampled) {
+        cJSON_AddNumberToObject(accuracy, "crossings", report->crossings);
+        cJSON_AddNumberToObject(accuracy, "differ", report->differ);
+        cJSON_AddNumberToObject(accuracy, "radius_error_median", report->median);
+        cJSON_AddNumberToObject(accuracy, "radius_error_worst", report->worst);
+    }
     cJSON_AddItemToObject(root, "accuracy", accuracy);
     cJSON_Delete(scene);
     kd_buffer_finish(&text);

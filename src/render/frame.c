@@ -1,6 +1,7 @@
 /* One frame: the plan's passes, band by band, in short submissions. */
 #include "render/internal.h"
 
+#include "render/audit.h"
 #include "render/camera.h"
 
 #include <math.h>
@@ -290,7 +291,10 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     if (!status)
         status = finish_pixels(j, frame);
     if (!status && !reused)
+        status = kd_audit(r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error);
+    if (!status && !reused)
         kd_store_commit(&r->store, j->lens, j->plan);
+    frame->accuracy = j->lens->accuracy;
     return status;
 }
 

@@ -2,7 +2,16 @@
 
 #include "image/png.h"
 
+#include <stdio.h>
 #include <string.h>
+
+void kd_accuracy_text(const struct kd_accuracy_report *report, uint64_t rays, char out[KD_ACCURACY_TEXT])
+{
+    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu sampled=%u", (unsigned long long)rays, report->sampled);
+    if (report->sampled)
+        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
+                 report->differ, report->median, report->worst);
+}
 
 /* One sentence a line, as a reader of the file's properties sees them. */
 static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
@@ -18,7 +27,8 @@ enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_s
                                  struct kd_buffer *png, struct kd_error *error)
 {
     struct kd_buffer document = { 0 }, approximations = { 0 };
-    char hash[65];
+    char hash[65], accuracy[KD_ACCURACY_TEXT];
+    kd_accuracy_text(&frame->accuracy, plan->rays, accuracy);
     enum kd_status status = kd_scene_to_json(scene, &document);
     if (!status)
         status = kd_scene_hash(scene, hash);
@@ -34,6 +44,7 @@ enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_s
         { "kerrd:hash", hash },
         { "kerrd:version", KD_VERSION },
         { "kerrd:approximations", (const char *)approximations.data },
+        { "kerrd:accuracy", accuracy },
         { "kerrd:device", device },
         { "Software", "kerrd " KD_VERSION },
     };

@@ -70,6 +70,8 @@ static void passes(struct kd_plan *plan, const struct kd_scene *scene, const str
     if (plan->planes)
         add_pass(plan, "trace", plan->radius_only ? "lens_radius.comp" : "lens_map.comp", plan->rays,
                  plan->radius_only ? c->ns_per_ray_radius : c->ns_per_ray_full);
+    if (plan->audit)
+        add_pass(plan, "audit", "rays.comp", KD_AUDIT_RAYS, 20 * c->ns_per_ray_full);
     add_pass(plan, "transfer", "transfer.comp", plan->rays, c->ns_per_sample_transfer);
     if (isinf(scene->style.exposure))
         add_pass(plan, "expose", "expose.comp", pixels, 0.25 * c->ns_per_pixel_post);
@@ -126,6 +128,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     enum kd_status status = bands(&plan, scene, capacity, error);
     if (status)
         return status;
+    plan.audit = plan.cacheable && plan.orders && capacity->float64;
     passes(&plan, scene, capacity);
     approximations(&plan, scene);
     if (lens_key(&plan, scene))

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #define KD_PLAN_MAX_PASSES 8
+#define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
 #define KD_PLAN_MAX_APPROXIMATIONS 16
 
 /* What the device allows and how fast it has been measured to be. */
@@ -19,10 +20,11 @@ struct kd_capacity {
     uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything */
     double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post;
     bool measured; /* false: the figures are a default guess for this type of device */
+    bool float64;  /* the device has double precision */
 };
 
 struct kd_plan_pass {
-    const char *name;   /* "trace", "transfer", "expose", "post", "readback" */
+    const char *name;   /* "trace", "audit", "transfer", "expose", "post", "readback" */
     const char *kernel; /* file under shaders/comp, "" for a copy             */
     uint64_t invocations;
     double estimate_ms;
@@ -37,6 +39,7 @@ struct kd_plan {
     uint32_t planes;                /* 4-byte values a ray in the lens map */
     uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */
     bool cacheable;                 /* the whole lens map fits in memory and can be kept */
+    bool audit;                     /* a sample of the lens map is traced again in double precision */
     uint64_t lens_bytes, device_bytes, host_bytes;
     struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
     size_t n_passes;

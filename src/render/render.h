@@ -31,6 +31,14 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
+/* What an answer says of its own accuracy: errors of crossing radii, measured on a sample of the picture's rays against double
+ * precision. sampled is 0 where that cannot be: a device without it, a picture too large to keep its lens map. */
+struct kd_accuracy_report {
+    uint32_t sampled, crossings; /* rays traced again; crossings compared */
+    uint32_t differ;             /* crossings that one of the two has and the other has not */
+    double median, worst;        /* relative error of the radius */
+};
+
 struct kd_timing { char name[24]; double ms; };
 #define KD_FRAME_MAX_TIMINGS 12
 
@@ -40,7 +48,8 @@ struct kd_frame {
     void *pixels;             /* rows from the top, RGB, no padding; malloc'd */
     double exposure;          /* stops that were applied */
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
-    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "transfer", "expose", "post", "readback" (those that ran), "total" */
+    struct kd_accuracy_report accuracy;
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "audit", "rays", "transfer", ... (those that ran), "total" */
     size_t n_timings;
 };
 void kd_frame_finish(struct kd_frame *frame);

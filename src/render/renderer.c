@@ -16,6 +16,7 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
         .ns_per_ray_full = 150 * scale,
         .ns_per_sample_transfer = 20 * scale,
         .ns_per_pixel_post = 30 * scale,
+        .float64 = info->float64,
     };
 }
 

@@ -4,6 +4,7 @@
 #define KD_RENDER_STORE_H
 
 #include "render/plan.h"
+#include "render/render.h"
 #include "vk/vk.h"
 
 /* One buffer a band of the picture. */
@@ -16,6 +17,7 @@ struct kd_bands {
 struct kd_lens_map {
     char key[65]; /* "" while empty or half made */
     struct kd_bands bands;
+    struct kd_accuracy_report accuracy;
     uint64_t used;
 };
 #define KD_LENS_MAPS_KEPT 4

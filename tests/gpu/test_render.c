@@ -240,6 +240,43 @@ static void test_too_big(void **state)
     FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));
 }
 
+/* The error that an answer reports, measured in double precision: small for what is exact, larger for a draft; kept with the
+ * lens map; the same for the camera at a finite radius; absent where it cannot be measured. */
+static void test_audit(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    struct kd_capacity c = capacity();
+    struct kd_plan plan;
+    if (!c.float64)
+        skip();
+    scene.camera.inclination_deg = 66;
+    struct kd_frame first = render(&scene), again = render(&scene);
+    assert_true(again.lens_reused);
+    assert_memory_equal(&first.accuracy, &again.accuracy, sizeof first.accuracy);
+    assert_int_equal(first.accuracy.sampled, KD_AUDIT_RAYS);
+    assert_true(first.accuracy.crossings > KD_AUDIT_RAYS / 2 && first.accuracy.differ == 0);
+    assert_true(first.accuracy.median > 0 && first.accuracy.median < 1e-6 && first.accuracy.worst < 1e-3);
+    kd_frame_finish(&first);
+    kd_frame_finish(&again);
+
+    scene.camera.r = 15;
+    scene.accuracy.orders = 1; /* near the critical curve rounding hides what the steps lose */
+    first = render(&scene);
+    scene.accuracy.profile = KD_PROFILE_DRAFT;
+    again = render(&scene);
+    assert_true(first.accuracy.median < 1e-6 && first.accuracy.differ == 0);
+    assert_true(again.accuracy.worst > 3 * first.accuracy.worst);
+    kd_frame_finish(&first);
+    kd_frame_finish(&again);
+
+    c.float64 = false;
+    scene.camera.r = 16;
+    first = render_with(&scene, &c, &plan);
+    assert_int_equal(first.accuracy.sampled, 0);
+    kd_frame_finish(&first);
+}
+
 /* What a scene does not use is not in its plan. */
 static void test_plan(void **state)
 {
@@ -249,10 +286,10 @@ static void test_plan(void **state)
     struct kd_plan plan;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(plan.radius_only && !plan.phi && !plan.sky && plan.planes == 3 && plan.steps == 0);
-    assert_string_equal(plan.passes[2].name, "expose");
+    assert_string_equal(plan.passes[3].name, "expose");
     scene.style.exposure = 0;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_string_equal(plan.passes[2].name, "post");
+    assert_string_equal(plan.passes[3].name, "post");
     scene.camera.r = 30;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(!plan.radius_only && plan.steps > 0 && plan.planes == 3);
@@ -284,7 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reuse),    cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
         cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     if (kd_renderer_validation_messages(renderer)) {

@@ -50,11 +50,12 @@ static void the_file_says_how_it_was_made(void **state)
     assert_int_equal(kd_scene_hash(&scene, hash), KD_OK);
     encode(&scene, &plan, &file);
     assert_int_equal(kd_png_decode(file.data, file.size, &png, NULL), KD_OK);
-    assert_int_equal(png.n_text, 6);
+    assert_int_equal(png.n_text, 7);
     assert_string_equal(kd_png_text_find(&png, "kerrd:hash"), hash);
     assert_string_equal(kd_png_text_find(&png, "kerrd:version"), KD_VERSION);
     assert_string_equal(kd_png_text_find(&png, "kerrd:approximations"), "first\nsecond");
     assert_string_equal(kd_png_text_find(&png, "kerrd:device"), "llvmpipe, 256 bits");
+    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"), "rays=0 sampled=0");
     assert_string_equal(kd_png_text_find(&png, "Software"), "kerrd " KD_VERSION);
     kd_png_finish(&png);
     kd_buffer_finish(&file);

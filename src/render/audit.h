@@ -1,0 +1,12 @@
+/* How wrong a lens map is: a sample of its pixels is traced again in double precision on the same device, and the radii of the
+ * crossings compared. Costs about a thousand rays whenever a new map is traced; the finding is kept with the map. Render thread. */
+#ifndef KD_RENDER_AUDIT_H
+#define KD_RENDER_AUDIT_H
+
+#include "render/internal.h"
+
+/* map: complete. Without plan->audit out->sampled is 0. Radii from the ISCO to 1000 M count: closer in the gas is gone, further out it is dark. */
+enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                        const struct kd_lens_map *map, struct kd_accuracy_report *out, struct kd_error *error);
+
+#endif
