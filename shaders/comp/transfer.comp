@@ -29,7 +29,7 @@ layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
-    float pad[KD_TRANSFER_HEADER - 10];
+    float pad[KD_TRANSFER_HEADER - 11];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
 } tr;
@@ -48,20 +48,22 @@ vec4 disk_light(float w, float energy, float momentum)
     float w34 = sqrt(w * sqrt(w));
     t *= w34;
 
-    float g = 1.0, aw = cam.spin * w * sqrt(w); /* a r^-3/2 */
+    /* 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3 with x = sqrt(r): near the ISCO of a fast hole the left-hand
+     * side has no digits left. */
+    float g = 1.0, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0));
     if (REDSHIFT)
-        g *= sqrt(max(1.0 + 2.0 * aw - 3.0 * w, 0.0)) / (1.0 + aw);
+        g *= sqrt(max((d * d * (x + 2.0) - 2.0 * tr.one_minus_a) * x3, 0.0)) / (x3 + cam.spin);
     if (DOPPLER)
-        g /= energy - momentum / (r * sqrt(r) + cam.spin);
+        g /= energy - momentum / (x3 + cam.spin);
     else if (FINITE)
         g /= energy;
     t *= g;
 
-    float x = (tr.log_t_peak + log2(max(t, 1e-20)) - KD_COLOUR_LOG_MIN) *
+    float place = (tr.log_t_peak + log2(max(t, 1e-20)) - KD_COLOUR_LOG_MIN) *
               (float(KD_COLOUR_TABLE - 1) / (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN));
-    x = clamp(x, 0.0, float(KD_COLOUR_TABLE - 1));
-    uint k = min(uint(x), KD_COLOUR_TABLE - 2);
-    vec4 c = mix(tr.colour_table[k], tr.colour_table[k + 1], x - float(k));
+    place = clamp(place, 0.0, float(KD_COLOUR_TABLE - 1));
+    uint k = min(uint(place), KD_COLOUR_TABLE - 2);
+    vec4 c = mix(tr.colour_table[k], tr.colour_table[k + 1], place - float(k));
     float t4 = t * t * t * t;
     /* The fourth component is log2 of the luminous fraction over its value at T_peak. */
     float brightness = VISIBLE ? t4 * exp2(c.w) : t4;

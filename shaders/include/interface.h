@@ -31,6 +31,7 @@
     F(log_t_peak)                         /* log2 of the peak effective temperature times the hardening, K */  \
     F(sky_brightness) F(sky_grid)         /* sky; grid spacing in radians */                                   \
     F(azimuth)                            /* of the observer, radians */                                       \
+    F(one_minus_a)                        /* 1 - spin, which a float of the spin has lost near 1 */            \
     U(pixels_x)                           /* pixels a row */
 
 /* Tables behind the transfer parameters, in floats. */

@@ -76,6 +76,7 @@ void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, 
         .sky_brightness = (float)scene->sky.brightness,
         .sky_grid = (float)(scene->sky.grid_deg * (M_PI / 180)),
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
+        .one_minus_a = (float)(1 - scene->spacetime.spin),
         .pixels_x = (uint32_t)scene->image.width,
     };
 }
