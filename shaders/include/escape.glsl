@@ -1,11 +1,12 @@
 /* The end of a ray: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
  * n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
  *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
- * Albrecht's method again, for w and n together. Needs the camera's push constants and the specialisation constant STEPS. */
+ * Needs the camera's push constants and the specialisation constant STEPS. */
 #ifndef KD_ESCAPE_GLSL
 #define KD_ESCAPE_GLSL
 
 #include "math.glsl"
+#include "nystroem.glsl"
 
 struct kd_path {
     vec4 y, v; /* (n, w) and its derivative */
@@ -45,16 +46,8 @@ vec4 kd_path_pull(kd_motion m, vec4 y)
 
 kd_path kd_path_step(kd_motion m, kd_path p, float h)
 {
-    float h2 = h * h;
-    vec4 hv = h * p.v;
-    vec4 k1 = kd_path_pull(m, p.y);
-    vec4 k2 = kd_path_pull(m, p.y + 0.25 * hv + h2 * (1.0 / 32.0) * k1);
-    vec4 k3 = kd_path_pull(m, p.y + 0.5 * hv + h2 * (1.0 / 24.0) * (4.0 * k2 - k1));
-    vec4 k4 = kd_path_pull(m, p.y + 0.75 * hv + h2 * (1.0 / 32.0) * (3.0 * k1 + 4.0 * k2 + 2.0 * k3));
-    vec4 k5 = kd_path_pull(m, p.y + hv + h2 * (1.0 / 14.0) * (6.0 * k2 - k3 + 2.0 * k4));
     kd_path o;
-    o.y = p.y + (hv + h2 * (1.0 / 90.0) * (7.0 * k1 + 24.0 * k2 + 6.0 * k3 + 8.0 * k4));
-    o.v = p.v + h * (1.0 / 90.0) * (7.0 * (k1 + k5) + 32.0 * (k2 + k4) + 12.0 * k3);
+    KD_NYSTROEM_STEP(vec4, kd_path_pull, m, p.y, p.v, h, o.y, o.v);
     o.chi = p.chi;
     return o;
 }

@@ -1,9 +1,9 @@
-/* One step of the radial motion w'' = A w + 3K w^2 - 2D w^3 by Albrecht's Runge-Kutta-Nystroem method of order 6 in five
- * stages (J. Albrecht 1955, ZAMM 35, 100; its order conditions are checked in tests/unit). */
+/* The radial motion w'' = A w + 3K w^2 - 2D w^3, a step at a time, and the azimuth by which the hole drags a ray. */
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL
 
 #include "math.glsl"
+#include "nystroem.glsl"
 
 struct kd_state { float w, dw; };
 
@@ -11,15 +11,8 @@ float kd_pull(kd_motion m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * 
 
 kd_state kd_radial_step(kd_motion m, kd_state y, float h)
 {
-    float h2 = h * h, hv = h * y.dw;
-    float k1 = kd_pull(m, y.w);
-    float k2 = kd_pull(m, y.w + 0.25 * hv + h2 * ((1.0 / 32.0) * k1));
-    float k3 = kd_pull(m, y.w + 0.5 * hv + h2 * (1.0 / 24.0) * (4.0 * k2 - k1));
-    float k4 = kd_pull(m, y.w + 0.75 * hv + h2 * (1.0 / 32.0) * (3.0 * k1 + 4.0 * k2 + 2.0 * k3));
-    float k5 = kd_pull(m, y.w + hv + h2 * (1.0 / 14.0) * (6.0 * k2 - k3 + 2.0 * k4));
     kd_state o;
-    o.w = y.w + (hv + h2 * (1.0 / 90.0) * (7.0 * k1 + 24.0 * k2 + 6.0 * k3 + 8.0 * k4));
-    o.dw = y.dw + h * (1.0 / 90.0) * (7.0 * (k1 + k5) + 32.0 * (k2 + k4) + 12.0 * k3);
+    KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw);
     return o;
 }
 

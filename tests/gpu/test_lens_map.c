@@ -8,7 +8,7 @@
 #include "render/render.h"
 
 #include "interface.h"
-#include "support.h"
+#include "render_support.h"
 
 #include <math.h>
 
@@ -23,8 +23,6 @@ struct view {
 };
 
 struct sample { struct ks_path path, beside; double nudge; };
-
-static struct kd_renderer *renderer;
 
 static struct ks_photon photon(const struct view *v, double x, double y, double scale)
 {
@@ -277,15 +275,9 @@ static void test_shadow(void **state)
 
 int main(void)
 {
-    int skip = skip_without_device();
-    if (skip)
-        return skip;
-    struct kd_error error = { 0 };
-    const char *device = getenv("KERRD_TEST_DEVICE");
-    if (kd_renderer_create(&(struct kd_renderer_params){ .device = device ? device : "auto", .validate = true }, &renderer, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-        return 1;
-    }
+    int status = open_renderer();
+    if (status)
+        return status;
     for (int v = 0; v < VIEWS; v++)
         for (int k = 0; k < GRID * GRID; k++)
             samples[v][k] = sample(&views[v], k % GRID, k / GRID);
@@ -293,11 +285,5 @@ int main(void)
         cmocka_unit_test(test_promise),  cmocka_unit_test(test_closed_form), cmocka_unit_test(test_integrated),
         cmocka_unit_test(test_sky),      cmocka_unit_test(test_shadow),
     };
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    if (kd_renderer_validation_messages(renderer)) {
-        fprintf(stderr, "the validation layer spoke\n");
-        failed++;
-    }
-    kd_renderer_destroy(renderer);
-    return failed;
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

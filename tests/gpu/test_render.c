@@ -1,11 +1,9 @@
 /* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits, cancelling. */
 #include "render/render.h"
 
-#include "support.h"
+#include "render_support.h"
 
 #include <math.h>
-
-static struct kd_renderer *renderer;
 
 static struct kd_scene small_scene(void)
 {
@@ -309,25 +307,13 @@ static void test_plan(void **state)
 
 int main(void)
 {
-    int skip = skip_without_device();
-    if (skip)
-        return skip;
-    struct kd_error error = { 0 };
-    const char *device = getenv("KERRD_TEST_DEVICE");
-    if (kd_renderer_create(&(struct kd_renderer_params){ .device = device ? device : "auto", .validate = true }, &renderer, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-        return 1;
-    }
+    int status = open_renderer();
+    if (status)
+        return status;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reuse),    cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
         cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
         cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
     };
-    int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    if (kd_renderer_validation_messages(renderer)) {
-        fprintf(stderr, "the validation layer spoke\n");
-        failed++;
-    }
-    kd_renderer_destroy(renderer);
-    return failed;
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -1,0 +1,37 @@
+/* What the tests of src/render share: one renderer under the validation layer, and silence of that layer at the end. */
+#ifndef KD_TEST_RENDER_SUPPORT_H
+#define KD_TEST_RENDER_SUPPORT_H
+
+#include "support.h"
+
+#include "render/render.h"
+
+static struct kd_renderer *renderer;
+
+/* 0: the renderer is there; else the exit status, skipped or failed. */
+static inline int open_renderer(void)
+{
+    int skip = skip_without_device();
+    if (skip)
+        return skip;
+    struct kd_error error = { 0 };
+    const char *device = getenv("KERRD_TEST_DEVICE");
+    struct kd_renderer_params params = { .device = device ? device : "auto", .validate = true };
+    if (!kd_renderer_create(&params, &renderer, &error))
+        return 0;
+    fprintf(stderr, "%s\n", error.message);
+    return 1;
+}
+
+/* The exit status of a group of which so many tests failed. */
+static inline int close_renderer(int failed)
+{
+    if (kd_renderer_validation_messages(renderer)) {
+        fprintf(stderr, "the validation layer spoke\n");
+        failed++;
+    }
+    kd_renderer_destroy(renderer);
+    return failed;
+}
+
+#endif
