@@ -124,11 +124,11 @@ static enum kd_status mark(struct scan *s, char c)
     return KD_OK;
 }
 
-enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error)
+enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error)
 {
-    struct scan s = { .text = text, .length = length, .error = error };
+    struct scan s = { .text = text, .length = end, .at = start, .error = error };
     enum kd_status status = KD_OK;
-    while (!status && s.at < length) {
+    while (!status && s.at < end) {
         char c = text[s.at];
         bool letter = (c | 32) >= 'a' && (c | 32) <= 'z';
         status = c == '"'                             ? string(&s)
@@ -137,4 +137,9 @@ enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *er
                                                       : mark(&s, c);
     }
     return status;
+}
+
+enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error)
+{
+    return kd_scan_json_part(text, 0, length, error);
 }

@@ -12,4 +12,7 @@
 
 enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error);
 
+/* The bytes from start to end alone, for a reader that takes the rest itself; messages count from text. */
+enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error);
+
 #endif

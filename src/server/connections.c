@@ -14,7 +14,7 @@
 #define IDLE_MS 60e3          /* past libmicrohttpd's idle timeout: only for those that trickle */
 #define CROWDED_MS 2e3        /* to say what it wants, for a connection accepted beyond the limit */
 #define REPLY_MS 30e3         /* to take an answer, and besides ... */
-#define REPLY_BYTES_PER_MS 32 /* ... the time it takes at 32 kB/s, a poor mobile line */
+#define BYTES_PER_MS 32       /* ... the time it takes at 32 kB/s, a poor mobile line */
 
 #define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
 #define LINGER_BYTES ((size_t)16 << 20)
@@ -136,9 +136,9 @@ static double allowance(const struct kd_connections *all, enum kd_stage stage, u
     switch (stage) {
     case KD_STAGE_OPEN:
     case KD_STAGE_HEADER: return all->header_ms;
-    case KD_STAGE_BODY: return all->body_ms;
+    case KD_STAGE_BODY: return all->body_ms + (double)bytes / BYTES_PER_MS;
     case KD_STAGE_WORK: return 0;
-    case KD_STAGE_REPLY: return REPLY_MS + (double)bytes / REPLY_BYTES_PER_MS;
+    case KD_STAGE_REPLY: return REPLY_MS + (double)bytes / BYTES_PER_MS;
     case KD_STAGE_IDLE: return IDLE_MS;
     }
     return 0;

@@ -32,7 +32,7 @@ void kd_connections_remove(struct kd_connections *all, struct kd_connection *one
 void kd_connection_linger(struct kd_connection *one);
 int kd_connection_socket(const struct kd_connection *one);
 
-/* bytes: of the reply about to be sent, else 0. */
+/* bytes: of a large body about to come or of the reply about to be sent, else 0. */
 void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
                           unsigned long bytes);
 

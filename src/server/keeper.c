@@ -55,8 +55,8 @@ static bool step_down(struct kd_server *server, double *since)
         return false;
     case KD_REFUSING:
         if (atomic_load(&server->abandon))
-            kd_render_queue_cancel(server->renders);
-        if (kd_render_queue_unfinished(server->renders))
+            kd_render_queue_cancel(server->renders), kd_rays_queue_cancel(server->rays);
+        if (kd_render_queue_unfinished(server->renders) || kd_rays_queue_unfinished(server->rays))
             return false;
         stop_listening(server);
         enter(server, KD_CLOSING, since);
@@ -76,7 +76,7 @@ void *kd_keeper_main(void *user)
         kd_connections_sweep(server->connections);
         kd_render_queue_sweep(server->renders);
     } while (!step_down(server, &since));
-    MHD_stop_daemon(server->daemon); /* nothing is suspended: the queue has finished, and takes no more */
+    MHD_stop_daemon(server->daemon); /* nothing is suspended: the queues have finished, and take no more */
     server->daemon = NULL;
     atomic_store(&server->phase, KD_STOPPED);
     kd_log(KD_LOG_INFO, "stopped");

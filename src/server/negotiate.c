@@ -80,12 +80,12 @@ static int entry_weight(const char *parameters)
     return q;
 }
 
-bool kd_accepts(const char *accept, const char *type)
+int kd_accept_weight(const char *accept, const char *type)
 {
     int best = 0, best_weight = 0;
 
     if (!accept || !accept[strspn(accept, " \t")])
-        return true;
+        return 1000;
     while (accept) {
         struct span entry = take(&accept, ',');
         char text[256];
@@ -100,7 +100,12 @@ bool kd_accepts(const char *accept, const char *type)
             best_weight = q;
         }
     }
-    return best && best_weight > 0;
+    return best ? best_weight : 0;
+}
+
+bool kd_accepts(const char *accept, const char *type)
+{
+    return kd_accept_weight(accept, type) > 0;
 }
 
 bool kd_etag_listed(const char *if_none_match, const char *etag)

@@ -7,6 +7,8 @@
 /* Whether an Accept value (RFC 9110, 12.5.1) admits the type: the most specific range that matches it
  * decides, by a weight above zero. Malformed entries match nothing; NULL or a blank value admits all. */
 bool kd_accepts(const char *accept, const char *type);
+/* That weight in thousandths, 0 when the type is not admitted: to choose between several. */
+int kd_accept_weight(const char *accept, const char *type);
 
 /* Whether an If-None-Match value names the entity tag (with its quotes), compared weakly, or is "*". */
 bool kd_etag_listed(const char *if_none_match, const char *etag);

@@ -1,5 +1,6 @@
 /* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
  * table. */
+#include "server/openapi_rays.h"
 #include "server/reply.h"
 #include "server/request.h"
 
@@ -61,11 +62,13 @@ static void add_parameters(cJSON *operation, const struct kd_route *route, bool 
 
     if (n > 1 && route->path[n - 1] == '/')
         add_parameter(list, "path", "name", true, string_type());
-    if (route->scene) {
+    if (route->takes == KD_TAKES_SCENE) {
         add_parameter(list, "query", "preset", false, string_type());
         if (!post)
             add_fields(list, schema, "");
     }
+    if (route->takes == KD_TAKES_RAYS)
+        kd_openapi_rays_parameters(list);
     if (cJSON_GetArraySize(list))
         cJSON_AddItemToObject(operation, "parameters", list);
     else
@@ -77,7 +80,7 @@ static cJSON *operation(const struct kd_route *route, bool post, const cJSON *sc
     cJSON *o = cJSON_CreateObject();
     cJSON_AddStringToObject(o, "summary", route->summary);
     add_parameters(o, route, post, schema);
-    if (post && route->scene) {
+    if (post && route->takes == KD_TAKES_SCENE) {
         cJSON *body = cJSON_AddObjectToObject(o, "requestBody");
         cJSON_AddTrueToObject(body, "required");
         cJSON_AddItemToObject(body, "content",
@@ -88,7 +91,10 @@ static cJSON *operation(const struct kd_route *route, bool post, const cJSON *sc
     cJSON_AddStringToObject(ok, "description", route->summary);
     char type[64];
     snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
-    cJSON_AddItemToObject(ok, "content", content(type, cJSON_CreateObject()));
+    if (route->takes == KD_TAKES_RAYS)
+        kd_openapi_rays_bodies(o, ok);
+    else
+        cJSON_AddItemToObject(ok, "content", content(type, cJSON_CreateObject()));
     cJSON_AddItemToObject(responses, "default", reference("#/components/responses/Problem"));
     return o;
 }

@@ -17,14 +17,15 @@
     X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
-    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body must be application/json")                        \
+    X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here")                  \
     X(MISDIRECTED, 421, "misdirected", "This host name is not served here")                                  \
     X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid")                                         \
+    X(INVALID_RAYS, 422, "invalid-rays", "The request for rays is not valid")                                \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \
-    X(QUEUE_FULL, 503, "queue-full", "Too many renders are waiting")                                         \
+    X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting")                                         \
     X(CROWDED, 503, "too-many-connections", "Too many connections are open")                                 \
     X(STOPPING, 503, "stopping", "The server is stopping")                                                   \
     X(HTTP_VERSION, 505, "http-version", "Only HTTP/1.1 and HTTP/1.0 are spoken here")

@@ -126,13 +126,14 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
         return false;
     }
-    job->status =
-        kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame, &job->error);
+    job->status = job->run ? job->run(job, queue->renderer, progress, job)
+                           : kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame,
+                                       &job->error);
     if (job->status == KD_EDEVICE)
         mark_lost(queue, &job->error);
     else
         describe_device(queue);
-    return job->status == KD_OK;
+    return job->status == KD_OK && !job->run;
 }
 
 static void open_renderer(struct kd_render_queue *queue)

@@ -2,7 +2,8 @@
  *
  * waiting (bounded) -> render thread -> encoders (bounded by the bytes of their frames) -> done()
  *
- * One thread submits, which makes kd_render_queue_admit's answer hold until kd_render_queue_push. */
+ * Pictures are submitted by one thread, which makes kd_render_queue_admit's answer hold until kd_render_queue_push; other
+ * work may come from others, and exceed the limit by as many of them as there are. */
 #ifndef KD_SERVER_RENDER_QUEUE_H
 #define KD_SERVER_RENDER_QUEUE_H
 
@@ -18,6 +19,9 @@ struct kd_render_job {
     struct kd_scene scene;
     struct kd_plan plan;
     int compression;
+    /* NULL: a picture is rendered and encoded. Else this is called instead, on the render thread. */
+    enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
+                          void *progress_user);
     int socket;                              /* of the client; once it hangs up the job is dropped */
     void (*done)(struct kd_render_job *job); /* on a thread of the queue; may free the job */
     void *user;

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #define OFFERED "image/png"
 
@@ -38,55 +37,20 @@ enum MHD_Result kd_handle_plan(struct kd_request *request)
     return kd_reply_json(request, kd_plan_to_json(&plan, &json), &json, request->route->answer);
 }
 
-/* All values of a header that is a list, joined; no text when it is absent. */
-struct joined {
-    const char *name;
-    struct kd_buffer text;
-    bool failed;
-};
-
-static enum MHD_Result join(void *cls, enum MHD_ValueKind kind, const char *key, const char *value)
-{
-    struct joined *all = cls;
-    (void)kind;
-    if (value && !strcasecmp(key, all->name))
-        all->failed |= kd_buffer_printf(&all->text, "%s%s", all->text.size ? "," : "", value) != KD_OK;
-    return MHD_YES;
-}
-
-static struct joined header_list(struct kd_request *request, const char *name)
-{
-    struct joined all = { .name = name };
-    MHD_get_connection_values(request->mhd, MHD_HEADER_KIND, join, &all);
-    return all;
-}
-
 static bool accepts(struct kd_request *request)
 {
-    struct joined accept = header_list(request, "Accept");
-    bool yes = kd_accepts((const char *)accept.text.data, OFFERED);
-    kd_buffer_finish(&accept.text);
+    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
+    bool yes = kd_accepts((const char *)accept.data, OFFERED);
+    kd_buffer_finish(&accept);
     return yes;
 }
 
 static bool client_has(struct kd_request *request)
 {
-    struct joined tags = header_list(request, "If-None-Match");
-    bool yes = tags.text.data && !tags.failed && kd_etag_listed((const char *)tags.text.data, request->etag);
-    kd_buffer_finish(&tags.text);
+    struct kd_buffer tags = kd_reply_header_list(request, "If-None-Match");
+    bool yes = tags.data && kd_etag_listed((const char *)tags.data, request->etag);
+    kd_buffer_finish(&tags);
     return yes;
-}
-
-/* Percent-encoded inside quotes, so that any client can split at the commas between them. */
-static enum kd_status quote(struct kd_buffer *out, const char *text)
-{
-    enum kd_status status = kd_buffer_printf(out, "%s\"", out->size ? ", " : "");
-    for (; *text && !status; text++) {
-        unsigned char c = (unsigned char)*text;
-        status = c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
-                                                             : kd_buffer_append(out, &c, 1);
-    }
-    return status ? status : kd_buffer_append(out, "\"", 1);
 }
 
 static void add_approximations(struct MHD_Response *response, const struct kd_plan *plan)
@@ -94,7 +58,7 @@ static void add_approximations(struct MHD_Response *response, const struct kd_pl
     struct kd_buffer list = { 0 };
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < plan->n_approximations && !status; i++)
-        status = quote(&list, plan->approximations[i]);
+        status = kd_reply_quote(&list, plan->approximations[i]);
     if (!status && list.data)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)list.data);
     kd_buffer_finish(&list);

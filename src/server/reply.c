@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
 {
@@ -98,4 +99,39 @@ enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status,
         return kd_reply_error(request, &error);
     }
     return kd_reply_send(request, MHD_HTTP_OK, kd_reply_take(json, type));
+}
+
+struct joined {
+    const char *name;
+    struct kd_buffer text;
+    bool failed;
+};
+
+static enum MHD_Result join(void *cls, enum MHD_ValueKind kind, const char *key, const char *value)
+{
+    struct joined *all = cls;
+    (void)kind;
+    if (value && !strcasecmp(key, all->name))
+        all->failed |= kd_buffer_printf(&all->text, "%s%s", all->text.size ? "," : "", value) != KD_OK;
+    return MHD_YES;
+}
+
+struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name)
+{
+    struct joined all = { .name = name };
+    MHD_get_connection_values(request->mhd, MHD_HEADER_KIND, join, &all);
+    if (all.failed)
+        kd_buffer_finish(&all.text);
+    return all.text;
+}
+
+enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
+{
+    enum kd_status status = kd_buffer_printf(out, "%s\"", out->size ? ", " : "");
+    for (; *text && !status; text++) {
+        unsigned char c = (unsigned char)*text;
+        status = c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
+                                                             : kd_buffer_append(out, &c, 1);
+    }
+    return status ? status : kd_buffer_append(out, "\"", 1);
 }

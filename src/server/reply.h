@@ -22,6 +22,12 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
 /* kd_problem_from, sent. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
 
+/* All values of a request header that is a list, joined by commas; empty when it is absent or memory ran out. */
+struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
+/* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the commas
+ * between them. */
+enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text);
+
 /* A generated document, or the problem of not having generated it. Empties the buffer. */
 enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
                               const char *type);

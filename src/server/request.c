@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define BODY_TOO_LARGE "a body may hold 1048576 bytes"
+#define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
 
 static struct kd_connection *connection_of(struct MHD_Connection *mhd)
@@ -80,12 +81,23 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
         kd_frame_finish(&request->job->frame);
         free(request->job);
     }
+    kd_rays_job_destroy(request->rays);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
     free(request);
     *state = NULL;
     atomic_fetch_sub(&server->requests, 1);
+}
+
+static size_t body_max(const struct kd_request *request)
+{
+    return request->route->takes == KD_TAKES_RAYS ? KD_RAYS_BODY_MAX : KD_BODY_MAX;
+}
+
+static const char *too_large(const struct kd_request *request)
+{
+    return request->route->takes == KD_TAKES_RAYS ? RAYS_TOO_LARGE : BODY_TOO_LARGE;
 }
 
 static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
@@ -95,14 +107,17 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
             (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;
     }
-    if (!kd_media_type_is(request->header.content_type, "application/json")) {
+    bool npy = request->route->takes == KD_TAKES_RAYS;
+    if (!kd_media_type_is(request->header.content_type, "application/json") &&
+        !(npy && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {
         *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE,
-                                         .offered = "application/json",
-                                         .detail = "a body must say Content-Type: application/json" };
+                                         .offered = npy ? "application/json, " KD_NPY_TYPE : "application/json",
+                                         .detail = npy ? "a body must say Content-Type: application/json or " KD_NPY_TYPE
+                                                       : "a body must say Content-Type: application/json" };
         return true;
     }
-    if (request->header.content_length > KD_BODY_MAX) {
-        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = BODY_TOO_LARGE };
+    if (request->header.content_length > body_max(request)) {
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request) };
         return true;
     }
     *problem =
@@ -151,7 +166,10 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
         kd_connection_linger(request->connection);
         return result;
     }
-    stage(request, KD_STAGE_BODY);
+    kd_connections_stage(server->connections, request->connection, KD_STAGE_BODY,
+                         request->body_announced && request->header.content_length > KD_BODY_MAX
+                             ? request->header.content_length
+                             : 0);
     return MHD_YES;
 }
 
@@ -169,8 +187,8 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
 {
     struct kd_server *server = request->server;
 
-    if (*size > KD_BODY_MAX - request->body.size)
-        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, BODY_TOO_LARGE);
+    if (*size > body_max(request) - request->body.size)
+        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request));
     if (kd_buffer_append(&request->body, data, *size))
         return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
     if (atomic_fetch_add(&server->body_bytes, *size) + *size > KD_BODIES_MAX)

@@ -7,6 +7,8 @@
 #include "server/service.h"
 #include "server/target.h"
 
+#define KD_NPY_TYPE "application/x-npy"
+
 struct kd_request {
     struct kd_server *server;
     struct MHD_Connection *mhd;
@@ -19,11 +21,14 @@ struct kd_request {
     bool head, begun, body_announced, close;
     struct kd_buffer body;
     struct kd_render_job *job; /* of a render under way; owned */
+    struct kd_rays_job *rays;  /* of a request for rays under way; owned */
     char etag[96];
     size_t reply_bytes; /* of a large reply, for its deadline */
     double start_ms;
     unsigned status; /* of the reply, for the log */
 };
+
+void kd_rays_job_destroy(struct kd_rays_job *job); /* rays.c; accepts NULL */
 
 /* The four callbacks libmicrohttpd is started with; cls is the struct kd_server. */
 void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd);

@@ -7,20 +7,21 @@
 #define JSON "application/json"
 
 const struct kd_route kd_routes[] = {
-    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page that shows the default picture",
-      false },
-    { "/app.js", KD_GET, kd_handle_page, "text/javascript; charset=utf-8", "The page's script", false },
-    { "/style.css", KD_GET, kd_handle_page, "text/css; charset=utf-8", "The page's style", false },
-    { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives", false },
-    { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down", false },
-    { "/openapi.json", KD_GET, kd_handle_openapi, JSON, "This description", false },
-    { "/v1/device", KD_GET, kd_handle_device, JSON, "Device, driver, precision, memory, versions", false },
-    { "/v1/presets", KD_GET, kd_handle_presets, JSON, "Names and titles of the presets", false },
-    { "/v1/presets/", KD_GET, kd_handle_preset, JSON, "The scene of a preset", false },
-    { "/v1/schema", KD_GET, kd_handle_schema, "application/schema+json", "JSON Schema of a scene", false },
+    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page that shows the default picture" },
+    { "/app.js", KD_GET, kd_handle_page, "text/javascript; charset=utf-8", "The page's script" },
+    { "/style.css", KD_GET, kd_handle_page, "text/css; charset=utf-8", "The page's style" },
+    { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives" },
+    { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down" },
+    { "/openapi.json", KD_GET, kd_handle_openapi, JSON, "This description" },
+    { "/v1/device", KD_GET, kd_handle_device, JSON, "Device, driver, precision, memory, versions" },
+    { "/v1/presets", KD_GET, kd_handle_presets, JSON, "Names and titles of the presets" },
+    { "/v1/presets/", KD_GET, kd_handle_preset, JSON, "The scene of a preset" },
+    { "/v1/schema", KD_GET, kd_handle_schema, "application/schema+json", "JSON Schema of a scene" },
     { "/v1/plan", KD_POST, kd_handle_plan, JSON,
-      "What a scene requires: passes, rays, bytes, estimated time, approximations", true },
-    { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", true },
+      "What a scene requires: passes, rays, bytes, estimated time, approximations", KD_TAKES_SCENE },
+    { "/v1/rays", KD_POST, kd_handle_rays, JSON,
+      "End points of listed rays: equatorial crossings, redshift, delay, direction of escape, error", KD_TAKES_RAYS },
+    { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;
 

@@ -12,13 +12,19 @@ struct kd_request;
 
 enum { KD_GET = 1, KD_POST = 2 }; /* HEAD goes with GET */
 
+enum kd_takes {
+    KD_TAKES_NOTHING,
+    KD_TAKES_SCENE, /* in the body, or with GET in the query */
+    KD_TAKES_RAYS,  /* in the body, JSON or NPY */
+};
+
 struct kd_route {
     const char *path; /* one that ends in "/" and is longer takes any one further segment */
     unsigned methods;
     /* Called when the whole body is there, and again when the render it has asked for is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
     const char *answer, *summary; /* media type, and a sentence for openapi.json */
-    bool scene;                   /* takes a scene: in the body, or with GET in the query */
+    enum kd_takes takes;
 };
 
 extern const struct kd_route kd_routes[];
@@ -40,5 +46,6 @@ enum MHD_Result kd_handle_schema(struct kd_request *request);
 enum MHD_Result kd_handle_openapi(struct kd_request *request); /* openapi.c */
 enum MHD_Result kd_handle_plan(struct kd_request *request);    /* renders.c */
 enum MHD_Result kd_handle_render(struct kd_request *request);
+enum MHD_Result kd_handle_rays(struct kd_request *request); /* rays.c */
 
 #endif

@@ -118,6 +118,12 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         return status;
     }
     set_etag_tail(server);
+    status = kd_rays_queue_create(or_default(params->queue, 16), server->renders, &server->reply_bytes, KD_REPLIES_MAX,
+                                  &server->rays, error);
+    if (status) {
+        close(fd);
+        return status;
+    }
     status = start_daemon(server, fd, connections, error);
     return status ? status : start_keeper(server, error);
 }
@@ -175,6 +181,7 @@ void kd_server_destroy(struct kd_server *server)
     } else if (server->daemon) {
         MHD_stop_daemon(server->daemon);
     }
+    kd_rays_queue_destroy(server->rays);
     kd_render_queue_destroy(server->renders);
     kd_connections_destroy(server->connections);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)

@@ -1,11 +1,12 @@
 /* What the parts of the HTTP service share. Private to src/server.
  *
  * Threads: libmicrohttpd's one thread runs every request handler; the render queue has its render thread and
- * encoders; the keeper (server.c) watches deadlines, vanished clients and the way down. */
+ * encoders, the queue of ray requests its workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
 #ifndef KD_SERVER_SERVICE_H
 #define KD_SERVER_SERVICE_H
 
 #include "server/connections.h"
+#include "server/rays_queue.h"
 #include "server/render_queue.h"
 #include "server/server.h"
 
@@ -14,9 +15,9 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes */
-#define KD_BODIES_MAX ((size_t)64 << 20)   /* of all requests being received */
-#define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures not yet taken by their clients */
+#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes; that for rays: KD_RAYS_BODY_MAX */
+#define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received */
+#define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures and rays not yet taken by their clients; one may exceed it */
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
 #define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
@@ -37,6 +38,7 @@ struct kd_server {
     unsigned drain_ms, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
+    struct kd_rays_queue *rays;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;

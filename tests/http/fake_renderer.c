@@ -2,9 +2,11 @@
  * ones.
  *
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
- * -2 runs out of memory, -3 fails. */
-#include "render/render.h"
+ * -2 runs out of memory, -3 fails. Rays on the device cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there
+ * is no double precision, with steps 12 each takes a millisecond. */
+#include "render/rays.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -106,4 +108,29 @@ void kd_frame_finish(struct kd_frame *frame)
 {
     free(frame->pixels);
     *frame = (struct kd_frame) { 0 };
+}
+
+/* As in render/internal.h, which knows another renderer. */
+enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
+
+enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    (void)renderer;
+    if (params->steps == 8) {
+        kd_error_field(error, "/accuracy/precision", "no double precision here");
+        return error->status = KD_EDEVICE;
+    }
+    enum kd_status status = pass_time(params->steps == 12 ? (double)n : 0, progress, user, error);
+    for (size_t i = 0; i < n && !status; i++) {
+        for (uint32_t k = 0; k < params->orders; k++)
+            crossings[i * params->orders + k] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
+        crossings[i * params->orders] =
+            (struct kd_ray_crossing) { 10 + fabs(alpha_beta[2 * i]), alpha_beta[2 * i + 1], 0, NAN };
+        ends[i] = (struct kd_ray_end) { KD_RAY_CAPTURED, 1, NAN, NAN, 1e-6 };
+    }
+    return status;
 }

@@ -1,0 +1,302 @@
+#include "image/npy.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MAGIC "\x93NUMPY"
+
+static const struct {
+    const char *code;
+    size_t size;
+} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_U1] = { "|u1", 1 } };
+
+size_t kd_npy_item_size(const struct kd_npy *array)
+{
+    size_t size = 0;
+    for (size_t i = 0; i < array->n_fields; i++) {
+        const struct kd_npy_field *field = &array->fields[i];
+        size += types[field->type].size * (field->count ? field->count : 1);
+    }
+    return size;
+}
+
+static enum kd_status write_type(const struct kd_npy *array, struct kd_buffer *text)
+{
+    if (!array->fields[0].name[0])
+        return kd_buffer_printf(text, "'%s'", types[array->fields[0].type].code);
+    enum kd_status status = kd_buffer_printf(text, "[");
+    for (size_t i = 0; i < array->n_fields && !status; i++) {
+        const struct kd_npy_field *field = &array->fields[i];
+        status = kd_buffer_printf(text, "%s('%s', '%s'", i ? ", " : "", field->name, types[field->type].code);
+        if (!status && field->count)
+            status = kd_buffer_printf(text, ", (%u,)", field->count);
+        if (!status)
+            status = kd_buffer_printf(text, ")");
+    }
+    return status ? status : kd_buffer_printf(text, "]");
+}
+
+enum kd_status kd_npy_write_header(const struct kd_npy *array, struct kd_buffer *out)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_buffer_printf(&text, "{'descr': ");
+    if (!status)
+        status = write_type(array, &text);
+    if (!status)
+        status = kd_buffer_printf(&text, ", 'fortran_order': False, 'shape': (");
+    for (size_t i = 0; i < array->n_dimensions && !status; i++)
+        status = kd_buffer_printf(&text, "%s%llu%s", i ? " " : "", (unsigned long long)array->shape[i],
+                                  i + 1 < array->n_dimensions || array->n_dimensions == 1 ? "," : "");
+    if (!status)
+        status = kd_buffer_printf(&text, "), }");
+    size_t bare = sizeof MAGIC - 1 + 4 + text.size + 1, padded = (bare + 63) / 64 * 64;
+    if (!status)
+        status = kd_buffer_printf(&text, "%*s\n", (int)(padded - bare), "");
+    uint8_t start[10] = { [6] = 1, [8] = (uint8_t)text.size, [9] = (uint8_t)(text.size >> 8) };
+    memcpy(start, MAGIC, sizeof MAGIC - 1);
+    if (!status)
+        status = kd_buffer_append(out, start, sizeof start);
+    if (!status)
+        status = kd_buffer_append(out, text.data, text.size);
+    kd_buffer_finish(&text);
+    return status;
+}
+
+/* The header is a Python dict of three known keys; what follows reads just that much Python. */
+struct reader {
+    const char *at; /* NUL at the end of the header */
+    struct kd_npy *array;
+    struct kd_error *error;
+};
+
+static enum kd_status fail(struct reader *r, const char *what)
+{
+    return kd_error_set(r->error, KD_EINVAL, "not a usable NPY array: %s", what);
+}
+
+static void skip_blanks(struct reader *r)
+{
+    r->at += strspn(r->at, " \t\n");
+}
+
+static bool take(struct reader *r, char c)
+{
+    skip_blanks(r);
+    if (*r->at != c)
+        return false;
+    r->at++;
+    return true;
+}
+
+static bool take_word(struct reader *r, const char *word)
+{
+    skip_blanks(r);
+    size_t n = strlen(word);
+    if (strncmp(r->at, word, n))
+        return false;
+    r->at += n;
+    return true;
+}
+
+/* 'text' or "text", without escapes. */
+static bool take_string(struct reader *r, char *out, size_t size)
+{
+    skip_blanks(r);
+    char quote = *r->at;
+    if (quote != '\'' && quote != '"')
+        return false;
+    size_t n = strcspn(r->at + 1, "'\"\\\n");
+    if (r->at[1 + n] != quote || n >= size)
+        return false;
+    memcpy(out, r->at + 1, n);
+    out[n] = 0;
+    r->at += n + 2;
+    return true;
+}
+
+static bool take_number(struct reader *r, uint64_t *out)
+{
+    skip_blanks(r);
+    const char *start = r->at;
+    uint64_t value = 0;
+    for (; *r->at >= '0' && *r->at <= '9'; r->at++)
+        if (__builtin_mul_overflow(value, (uint64_t)10, &value) ||
+            __builtin_add_overflow(value, (uint64_t)(*r->at - '0'), &value))
+            return false;
+    *out = value;
+    return r->at > start && (*start != '0' || r->at == start + 1);
+}
+
+/* (), (3,), (3, 2) */
+static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most, size_t *n)
+{
+    bool comma = true;
+    *n = 0;
+    if (!take(r, '('))
+        return fail(r, "the shape is no tuple");
+    while (!take(r, ')')) {
+        if (!comma)
+            return fail(r, "the shape is no tuple of whole numbers");
+        if (*n == most)
+            return fail(r, "it has too many dimensions");
+        if (!take_number(r, &shape[(*n)++]))
+            return fail(r, "the shape is no tuple of whole numbers below 2^64");
+        comma = take(r, ',');
+    }
+    return *n == 1 && !comma ? fail(r, "the shape is no tuple") : KD_OK;
+}
+
+static enum kd_status take_type(struct reader *r, enum kd_npy_type *out)
+{
+    char code[16], what[80];
+    if (!take_string(r, code, sizeof code))
+        return fail(r, "an element type is no plain string");
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        if (!strcmp(code, types[i].code)) {
+            *out = (enum kd_npy_type)i;
+            return KD_OK;
+        }
+    for (char *p = code; *p; p++)
+        if (*p < ' ' || *p > '~')
+            *p = '?';
+    snprintf(what, sizeof what, "the element type is %s, taken are <f8 and |u1", code);
+    return fail(r, what);
+}
+
+static bool good_name(const struct kd_npy *array, const char *name)
+{
+    for (size_t i = 0; i + 1 < array->n_fields; i++)
+        if (!strcmp(array->fields[i].name, name))
+            return false;
+    return *name &&
+           !name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
+}
+
+/* ('name', '<f8') or ('name', '<f8', (3,)) */
+static enum kd_status take_field(struct reader *r)
+{
+    struct kd_npy *array = r->array;
+    uint64_t count;
+    size_t n;
+    if (array->n_fields == KD_NPY_FIELDS)
+        return fail(r, "it has more than 16 fields");
+    struct kd_npy_field *field = &array->fields[array->n_fields++];
+    *field = (struct kd_npy_field) { 0 };
+    if (!take(r, '(') || !take_string(r, field->name, sizeof field->name) || !take(r, ',') ||
+        !good_name(array, field->name))
+        return fail(r, "a field has no name of its own of up to 31 letters, digits and _");
+    enum kd_status status = take_type(r, &field->type);
+    if (!status && take(r, ',')) {
+        skip_blanks(r);
+        if (*r->at != ')') {
+            status = take_shape(r, &count, 1, &n);
+            if (!status && (n != 1 || !count || count > UINT32_MAX / 64))
+                status = fail(r, "a field's shape is not one length");
+            field->count = status ? 0 : (uint32_t)count;
+        }
+    }
+    return status || take(r, ')') ? status : fail(r, "a field does not end");
+}
+
+static enum kd_status take_descr(struct reader *r)
+{
+    struct kd_npy *array = r->array;
+    if (!take(r, '[')) {
+        array->fields[0] = (struct kd_npy_field) { 0 };
+        array->n_fields = 1;
+        return take_type(r, &array->fields[0].type);
+    }
+    bool comma = true;
+    array->n_fields = 0;
+    while (!take(r, ']')) {
+        enum kd_status status = comma ? take_field(r) : fail(r, "its fields are no list");
+        if (status)
+            return status;
+        comma = take(r, ',');
+    }
+    return array->n_fields ? KD_OK : fail(r, "it has no fields");
+}
+
+static enum kd_status take_entry(struct reader *r, bool seen[3])
+{
+    static const char *const keys[] = { "descr", "fortran_order", "shape" };
+    char key[16];
+    int which = 0;
+    if (!take_string(r, key, sizeof key) || !take(r, ':'))
+        return fail(r, "its header is no dictionary");
+    while (which < 3 && strcmp(key, keys[which]))
+        which++;
+    if (which == 3 || seen[which])
+        return fail(r, "its header has keys other than descr, fortran_order and shape, once each");
+    seen[which] = true;
+    switch (which) {
+    case 0: return take_descr(r);
+    case 1:
+        return take_word(r, "False")  ? KD_OK
+               : take_word(r, "True") ? fail(r, "it is in Fortran order, taken is C order")
+                                      : fail(r, "fortran_order is neither True nor False");
+    default: return take_shape(r, r->array->shape, KD_NPY_DIMENSIONS, &r->array->n_dimensions);
+    }
+}
+
+static enum kd_status take_header(struct reader *r)
+{
+    bool seen[3] = { false }, comma = true;
+    if (!take(r, '{'))
+        return fail(r, "its header is no dictionary");
+    while (!take(r, '}')) {
+        enum kd_status status = comma ? take_entry(r, seen) : fail(r, "its header is no dictionary");
+        if (status)
+            return status;
+        comma = take(r, ',');
+    }
+    skip_blanks(r);
+    if (*r->at)
+        return fail(r, "text follows its header");
+    return seen[0] && seen[1] && seen[2] ? KD_OK : fail(r, "its header lacks descr, fortran_order or shape");
+}
+
+/* Of the header, and where it starts; 0 when this is no NPY file of a known version. */
+static size_t find_header(const uint8_t *p, size_t size, size_t *length)
+{
+    if (size < 10 || memcmp(p, MAGIC, sizeof MAGIC - 1) || p[7] || p[6] < 1 || p[6] > 2 || (p[6] == 2 && size < 12))
+        return 0;
+    *length = p[8] | (size_t)p[9] << 8;
+    if (p[6] == 2)
+        *length |= (size_t)p[10] << 16 | (size_t)p[11] << 24;
+    return p[6] == 1 ? 10 : 12;
+}
+
+enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error)
+{
+    char header[KD_NPY_HEADER_MAX + 1];
+    struct reader r = { .at = header, .array = out, .error = error };
+    size_t length = 0, start = find_header(data, size, &length);
+    *out = (struct kd_npy) { 0 };
+    if (!start)
+        return fail(&r, "it does not start as NPY of version 1.0 or 2.0 does");
+    if (length > KD_NPY_HEADER_MAX || length > size - start)
+        return fail(&r, length > KD_NPY_HEADER_MAX ? "its header has more than 10000 bytes"
+                                                   : "it ends within its header");
+    memcpy(header, (const char *)data + start, length);
+    header[length] = 0;
+    if (strlen(header) != length)
+        return fail(&r, "its header holds a NUL");
+    enum kd_status status = take_header(&r);
+    if (status)
+        return status;
+    uint64_t items = 1, bytes;
+    out->header_size = start + length;
+    out->item_size = kd_npy_item_size(out);
+    bool overflow = false; /* also where a zero follows, as NumPy has it */
+    for (size_t i = 0; i < out->n_dimensions; i++)
+        overflow |= __builtin_mul_overflow(items, out->shape[i], &items);
+    if (overflow || __builtin_mul_overflow(items, (uint64_t)out->item_size, &bytes))
+        return fail(&r, "its shape is larger than any memory");
+    out->items = items;
+    if (bytes != size - out->header_size)
+        return kd_error_set(error, KD_EINVAL, "not a usable NPY array: %zu bytes follow its header, its shape has %llu",
+                            size - out->header_size, (unsigned long long)bytes);
+    return KD_OK;
+}

@@ -1,0 +1,67 @@
+#include "render/rays.h"
+
+#include "physics/disk.h"
+#include "physics/kerr.h"
+#include "render/internal.h"
+#include "render/rays_check.h"
+
+#include <math.h>
+
+const char *kd_engine_name(enum kd_engine engine)
+{
+    static const char *const names[KD_ENGINE_COUNT] = {
+        [KD_ENGINE_CLOSED] = "closed",   [KD_ENGINE_MINO_RKN6] = "mino-rkn6", [KD_ENGINE_KS_EULER] = "ks-euler",
+        [KD_ENGINE_KS_RK4] = "ks-rk4",   [KD_ENGINE_KS_TAO6] = "ks-tao6",
+    };
+    return (unsigned)engine < KD_ENGINE_COUNT ? names[engine] : "unknown";
+}
+
+const char *kd_precision_name(enum kd_precision precision)
+{
+    return precision == KD_PRECISION_F32 ? "f32" : "f64";
+}
+
+/* Exact at the quarter turns, where observers like to sit. */
+static double sine(double degrees)
+{
+    return degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
+}
+
+/* The engines of the device know positions alone. */
+static void add_redshift(const struct kd_rays_params *p, const double *alpha_beta, size_t n,
+                         struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
+{
+    double s = sine(p->inclination_deg), isco = kd_kerr_isco(p->spin);
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
+            struct kd_ray_crossing *c = &crossings[i * p->orders + k];
+            if (c->r >= isco)
+                c->g = kd_disk_redshift(p->spin, c->r, -alpha_beta[2 * i] * s);
+        }
+}
+
+static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                                      const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                                      struct kd_ray_end *ends, kd_progress_fn progress, void *user,
+                                      struct kd_error *error)
+{
+    if (!renderer)
+        return kd_error_field(error, "/accuracy/engine", "engine %s needs a device", kd_engine_name(params->engine));
+    enum kd_status status =
+        kd_rays_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+    if (!status)
+        add_redshift(params, alpha_beta, n, crossings, ends);
+    return status;
+}
+
+enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    enum kd_status status = kd_rays_check(params, alpha_beta, n, error);
+    if (status)
+        return status;
+    if (params->engine == KD_ENGINE_CLOSED)
+        return kd_error_field(error, "/accuracy/engine", "engine closed is not in this build");
+    return trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+}

@@ -1,0 +1,232 @@
+"""POST /v1/rays: what is asked, what is refused, in which form it comes back, and that large requests disturb nobody."""
+import ast
+import concurrent.futures
+import json
+import math
+import socket
+import struct
+import time
+import unittest
+
+import daemon
+
+RAYS = '/v1/rays'
+DEVICE = {'engine': 'mino-rkn6'}
+
+
+def npy(rays, descr='<f8', shape=None):
+    """The file that numpy.save makes of an (n, 2) array."""
+    text = repr({'descr': descr, 'fortran_order': False, 'shape': shape or (len(rays), 2)}).encode()
+    text += b' ' * (-(len(text) + 11) % 64) + b'\n'
+    return b'\x93NUMPY\1\0' + struct.pack('<H', len(text)) + text + b''.join(struct.pack('<2d', *ray) for ray in rays)
+
+
+def records(data):
+    """The structured array in an answer, as a list of dictionaries."""
+    assert data[:8] == b'\x93NUMPY\1\0', data[:80]
+    start = 10 + struct.unpack('<H', data[8:10])[0]
+    header = ast.literal_eval(data[10:start].decode())
+    fields = [(f[0], f[2][0] if len(f) > 2 else None, f[1]) for f in header['descr']]
+    form = '<' + ''.join({'<f8': 'd', '|u1': 'B'}[kind] * (count or 1) for _, count, kind in fields)
+    rows = []
+    for values in struct.iter_unpack(form, data[start:]):
+        row, at = {}, 0
+        for name, count, _ in fields:
+            row[name] = values[at] if count is None else list(values[at:at + count])
+            at += count or 1
+        rows.append(row)
+    assert header['shape'] == (len(rows),)
+    return rows
+
+
+def flat(ray, orders):
+    """A ray of the JSON form as a record."""
+    fates = ['captured', 'escaped', 'undecided']
+    nan = math.nan
+    row = {'fate': fates.index(ray['fate']), 'n_crossings': len(ray['crossings']), 'error': ray.get('error', nan),
+           'sky_theta': ray.get('sky', {}).get('theta', nan), 'sky_phi': ray.get('sky', {}).get('phi', nan)}
+    for name in ('r', 'phi', 'delay', 'g'):
+        row[name] = [c.get(name, nan) for c in ray['crossings']] + [nan] * (orders - len(ray['crossings']))
+    return row
+
+
+def strict(body):
+    """Parsed by a reader that does not know NaN or Infinity."""
+    def refuse(word):
+        raise AssertionError(f'{word} in the answer')
+    return json.loads(body, parse_constant=refuse)
+
+
+def some_rays(n):
+    return [[(i * 37 % 1001) / 50 - 10, (i * 61 % 997) / 50 - 10 + 1e-3] for i in range(n)]
+
+
+class Requests(daemon.Case):
+    def post(self, document, **headers):
+        return self.daemon.post(RAYS, document, **headers)
+
+    def test_not_json(self):
+        for body in ('', '{', '[', '{"rays":[[1,2]]', '{"rays":[[1,2]}', '{"rays":[[1,2]]}}', '{"rays":[[1,2]]} x',
+                     '{"rays":[[1,2],]}', '{"rays":[,[1,2]]}', '{"rays":[[1 2]]}', '{"rays":[[1,2]', '{"rays":[[1,2',
+                     '{"rays":[[1', '{"rays":[', '{"rays":[[01,2]]}', '{"rays":[[1.,2]]}', '{"rays":[[+1,2]]}',
+                     '{"rays":[[NaN,2]]}', '{"rays":[[1,Infinity]]}', '{"rays":[[1,-]]}', '{"rays":[[1,2]]"orders":3}',
+                     '{"rays":[[' + '1' * 61 + ',2]]}', "{'rays':[[1,2]]}", '{"rays":[[1,2]],}', 'null x', '\0',
+                     '{"rays":[[1,2]],"spin":.5}', '{"spin":0.5 "rays":[[1,2]]}', b'{"rays":[[1,2]],"\xff":1}',
+                     '{"spin":"\\u0000","rays":[[1,2]]}', '[' * 100000, '{"a":' * 5000 + '{}' + '}' * 5000,
+                     '{"a":[' + '0,' * 5000 + '0],"rays":[[1,2]]}'):
+            with self.subTest(body[:60]):
+                self.assertProblem(self.post(body), 400, 'malformed-json')
+
+    def test_places_in_bad_json_count_from_its_start(self):
+        body = '{"rays":[' + '[1,2],' * 1000 + '[1,2]],"spin":0.5}'
+        for wrong, place in ((body.replace('0.5', '0x5'), body.index('0.5') + 1), (body + 'x', len(body))):
+            self.assertIn(f'byte {place}', self.assertProblem(self.post(wrong), 400)['detail'])
+
+    def test_invalid(self):
+        one = '"rays":[[1,2]]'
+        table = (
+            ('[]', ''), ('"x"', ''), ('3', ''), ('null', ''), ('{}', '/rays'), ('{"rays":null}', '/rays'), ('{"rays":3}', '/rays'),
+            ('{"rays":{}}', '/rays'), ('{"rays":"x"}', '/rays'), ('{"rays":[]}', '/rays'), ('{"rays":[ ]}', '/rays'),
+            ('{"rays":[null]}', '/rays/0'), ('{"rays":[[1,2],3]}', '/rays/1'), ('{"rays":[[1,2],"x"]}', '/rays/1'),
+            ('{"rays":[[1,2],{}]}', '/rays/1'), ('{"rays":[[1,2],[1]]}', '/rays/1'), ('{"rays":[[1,2],[]]}', '/rays/1/0'),
+            ('{"rays":[[1,2],[1,2,3]]}', '/rays/1'), ('{"rays":[[1,2],[1,null]]}', '/rays/1/1'),
+            ('{"rays":[[1,2],["1",2]]}', '/rays/1/0'), ('{"rays":[[true,2]]}', '/rays/0/0'), ('{"rays":[[[1],2]]}', '/rays/0/0'),
+            ('{"rays":[[1,2],[1,1e999]]}', '/rays/1/1'), ('{"rays":[[-1e999,2]]}', '/rays/0/0'),
+            ('{"rays":[[1,2],[1.1e7,0]]}', '/rays/1/0'), ('{%s,%s}' % (one, one), '/rays'),
+            ('{%s,"r\\u0061ys":[[1,2]]}' % one, '/rays'), ('{"r\\u0061ys":[[1,2]]}', '/rays'),
+            ('{%s,"spin":1}' % one, '/spin'), ('{%s,"spin":-1}' % one, '/spin'), ('{%s,"spin":1.0000001}' % one, '/spin'),
+            ('{%s,"spin":1e999}' % one, '/spin'), ('{%s,"spin":null}' % one, '/spin'), ('{%s,"spin":"0.5"}' % one, '/spin'),
+            ('{%s,"spin":[0]}' % one, '/spin'), ('{"spin":0,%s,"spin":0}' % one, '/spin'), ('{%s,"mass":1}' % one, '/mass'),
+            ('{%s,"":1}' % one, '/'), ('{%s,"a/b~c":1}' % one, '/a~1b~0c'), ('{%s,"SPIN":1}' % one, '/SPIN'),
+            ('{%s,"observer":null}' % one, '/observer'), ('{%s,"observer":[]}' % one, '/observer'),
+            ('{%s,"observer":{},"observer":{}}' % one, '/observer'), ('{%s,"observer":{"x":1}}' % one, '/observer/x'),
+            ('{%s,"observer":{"r":"far"}}' % one, '/observer/r'), ('{%s,"observer":{"r":null}}' % one, '/observer/r'),
+            ('{%s,"observer":{"r":1.4},"spin":0.9}' % one, '/observer/r'), ('{%s,"observer":{"r":0}}' % one, '/observer/r'),
+            ('{%s,"observer":{"r":-10}}' % one, '/observer/r'), ('{%s,"observer":{"r":2},"spin":0}' % one, '/observer/r'),
+            ('{%s,"observer":{"r":1e8}}' % one, '/observer/r'), ('{%s,"observer":{"r":10,"r":10}}' % one, '/observer/r'),
+            ('{%s,"observer":{"inclination_deg":181}}' % one, '/observer/inclination_deg'),
+            ('{%s,"observer":{"inclination_deg":-0.1}}' % one, '/observer/inclination_deg'),
+            ('{%s,"orders":0}' % one, '/orders'), ('{%s,"orders":17}' % one, '/orders'), ('{%s,"orders":1.5}' % one, '/orders'),
+            ('{%s,"orders":-1}' % one, '/orders'), ('{%s,"orders":1e300}' % one, '/orders'), ('{%s,"orders":"3"}' % one, '/orders'),
+            ('{%s,"orders":4294967297}' % one, '/orders'), ('{%s,"accuracy":3}' % one, '/accuracy'),
+            ('{%s,"accuracy":{"engine":"fast"}}' % one, '/accuracy/engine'), ('{%s,"accuracy":{"engine":0}}' % one, '/accuracy/engine'),
+            ('{%s,"accuracy":{"precision":"f16"}}' % one, '/accuracy/precision'),
+            ('{%s,"accuracy":{"precision":"f32"}}' % one, '/accuracy/precision'),
+            ('{%s,"accuracy":{"steps":8}}' % one, '/accuracy/steps'),
+            ('{%s,"accuracy":{"engine":"mino-rkn6","steps":6}}' % one, '/accuracy/steps'),
+            ('{%s,"accuracy":{"engine":"mino-rkn6","steps":4100}}' % one, '/accuracy/steps'),
+            ('{%s,"accuracy":{"engine":"mino-rkn6","steps":8}}' % one, '/accuracy/precision'),
+            ('{%s,"accuracy":{"tolerance":1e-9}}' % one, '/accuracy/tolerance'),
+            ('{"rays":[[1,2],[100,0]],"observer":{"r":10}}', '/rays/1'),
+        )
+        for body, pointer in table:
+            with self.subTest(body):
+                problem = self.post(body)
+                if pointer:
+                    self.assertProblem(problem, 422, 'invalid-rays', pointer)
+                else:
+                    self.assertIn(problem.status, (400, 422))
+        self.assertIn('1 to 16', self.post('{"rays":[[1,2]],"orders":17}').json()['detail'])
+
+    def test_too_many_rays(self):
+        document = '{"rays":[' + '[1,2],' * 1000000 + '[1,2]]}'
+        self.assertProblem(self.post(document), 422, 'invalid-rays', '/rays')
+        array = npy([], shape=(1000001, 2)) + bytes(16 * 1000001)
+        self.assertProblem(self.post(array, Content_Type='application/x-npy'), 422, 'invalid-rays', '/rays')
+
+    def test_too_large_a_body(self):
+        with self.daemon.connect() as s:
+            s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+                      b'Content-Length: 67108865\r\n\r\n')
+            self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
+        with self.daemon.connect() as s:
+            s.sendall(b'POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+                      b'Content-Length: 1048577\r\n\r\n')
+            self.assertProblem(daemon.read_answer(s), 413, 'body-too-large')
+        self.assertEqual(self.post('{"rays":[[1,2]],"accuracy":{"engine":"mino-rkn6"}' + ' ' * (2 << 20) + '}').status, 400)
+
+    def test_queries(self):
+        self.assertProblem(self.daemon.post(RAYS + '?spin=0.5', '{"rays":[[1,2]]}'), 422, 'invalid-rays')
+        for query, pointer in (('spin=1', '/spin'), ('spin=', '/spin'), ('spin', '/spin'), ('spin=0.5x', '/spin'),
+                               ('spin=nan', '/spin'), ('r=1', '/observer/r'), ('r=far', '/observer/r'), ('mass=1', '/mass'),
+                               ('inclination_deg=200', '/observer/inclination_deg'), ('orders=0', '/orders'),
+                               ('engine=x', '/accuracy/engine'), ('precision=f16', '/accuracy/precision'),
+                               ('steps=3', '/accuracy/steps'), ('observer.r=10', '/observer.r'), ('rays=1', '/rays')):
+            with self.subTest(query):
+                answer = self.daemon.post(f'{RAYS}?{query}', npy([[1, 2]]), Content_Type='application/x-npy')
+                self.assertProblem(answer, 422, 'invalid-rays', pointer)
+        answer = self.daemon.post(f'{RAYS}?spin=0&spin=0', npy([[1, 2]]), Content_Type='application/x-npy')
+        self.assertProblem(answer, 422, 'invalid-rays')
+
+    def test_bad_arrays(self):
+        good = npy([[1, 2], [3, 4]])
+        nan = npy([[1, 2], [math.nan, 4]])
+        for body, pointer in ((b'', '/rays'), (b'{"rays":[[1,2]]}', '/rays'), (good[:-1], '/rays'), (good + b'\0', '/rays'),
+                              (good[:20], '/rays'), (npy([[1, 2]], '>f8'), '/rays'), (npy([[1, 2]], '<i8'), '/rays'),
+                              (npy([[1, 2]], shape=(2,)), '/rays'), (npy([[1, 2]], shape=(1, 1, 2)), '/rays'),
+                              (npy([[1, 2]], shape=(2, 1)), '/rays'), (npy([], shape=(0, 2)), '/rays'), (nan, '/rays/1/0'),
+                              (npy([[1, 2]], [('alpha', '<f8'), ('beta', '<f8')], (1,)), '/rays'),
+                              (npy([[math.inf, 2]]), '/rays/0/0'), (npy([], shape=(2**61, 2)), '/rays')):
+            with self.subTest(body[:100]):
+                answer = self.daemon.post(RAYS, body, Content_Type='application/x-npy')
+                self.assertProblem(answer, 422, 'invalid-rays', pointer)
+
+    def test_media_types(self):
+        for kind in ('text/plain', 'application/octet-stream', 'application/x-www-form-urlencoded', ''):
+            with self.subTest(kind):
+                problem = self.assertProblem(self.post('{"rays":[[1,2]]}', Content_Type=kind), 415)
+                self.assertEqual(problem['offered'], 'application/json, application/x-npy')
+        self.assertProblem(self.daemon.post('/v1/plan', npy([[1, 2]]), Content_Type='application/x-npy'), 415)
+        document = {'rays': [[1, 2]], 'accuracy': DEVICE}
+        for accept, kind in (('application/json', 'application/json'), ('application/x-npy', 'application/x-npy'),
+                             ('*/*', 'application/json'), ('', 'application/json'), ('application/*', 'application/json'),
+                             ('application/x-npy, */*;q=0.1', 'application/x-npy'),
+                             ('application/x-npy;q=0.5, application/json', 'application/json'),
+                             ('text/html, application/x-npy', 'application/x-npy')):
+            with self.subTest(accept):
+                answer = self.post(document, Accept=accept)
+                self.assertEqual((answer.status, answer.header('Content-Type')), (200, kind))
+        for accept in ('text/html', 'application/json;q=0', 'text/csv'):
+            with self.subTest(accept):
+                problem = self.assertProblem(self.post(document, Accept=accept), 406, 'not-acceptable')
+                self.assertEqual(problem['offered'], 'application/json, application/x-npy')
+
+    def test_openapi(self):
+        post = self.daemon.get('/openapi.json').json()['paths'][RAYS]['post']
+        self.assertEqual(set(post['requestBody']['content']), {'application/json', 'application/x-npy'})
+        self.assertEqual(set(post['responses']['200']['content']), {'application/json', 'application/x-npy'})
+        self.assertEqual([p['name'] for p in post['parameters']],
+                         ['spin', 'r', 'inclination_deg', 'orders', 'engine', 'precision', 'steps'])
+        engines = post['requestBody']['content']['application/json']['schema']['properties']['accuracy']['properties']['engine']
+        detail = self.post('{"rays":[[1,2]],"accuracy":{"engine":"x"}}').json()['detail']
+        for engine in engines['enum']:
+            self.assertIn(f'"{engine}"', detail)
+        self.assertEqual(detail.count('"'), 2 + 2 * len(engines['enum']))
+
+
+class Device(daemon.Case):
+    """What asks for an engine of the device takes the render thread's turn."""
+    options = ('--queue', 2)
+
+    def test_answer(self):
+        answer = strict(self.daemon.post(RAYS, {'spin': 0.5, 'observer': {'r': 'infinity', 'inclination_deg': 30}, 'orders': 2,
+                                                'rays': [[1, 2], [-3.5, 0.25]], 'accuracy': DEVICE}).body)
+        self.assertEqual([(c['order'], c['r'], c['phi']) for ray in answer['rays'] for c in ray['crossings']],
+                         [(0, 11, 2), (0, 13.5, 0.25)])
+        self.assertEqual(answer['accuracy'], {'engine': 'mino-rkn6', 'precision': 'f64', 'steps': 0, 'rays': 2, 'undecided': 0,
+                                              'worst_error': 1e-6, 'median_error': 1e-6})
+
+    def test_waits_for_renders_and_is_dropped_with_its_client(self):
+        slow = {'rays': some_rays(100000), 'accuracy': {'engine': 'mino-rkn6', 'steps': 12}}
+        body = json.dumps(slow).encode()
+        with self.daemon.connect() as s:
+            s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+                      b'Content-Length: %d\r\n\r\n' % len(body) + body)
+            time.sleep(0.3)
+        begun = time.monotonic()
+        self.assertEqual(self.daemon.get('/v1/render?' + daemon.SMALL).status, 200)
+        self.assertLess(time.monotonic() - begun, 5)
+
+
+if __name__ == '__main__':
+    daemon.main()
