@@ -97,10 +97,9 @@ kd_pair drift_b(kd_pair y, float h)
     y.a.x += h * k.x;
     return y;
 }
-/* Rotation that binds the copies: (x - x', p - p') turns by 2 omega h. */
-kd_pair bind(kd_pair y, float h)
+/* Rotation that binds the copies: (x - x', p - p') turns by 2 omega h, whose cosine and sine are t. */
+kd_pair bind(kd_pair y, kd_turn t)
 {
-    kd_turn t = kd_cos_sin(2.0 * KD_BIND * h);
     vec3 sx = 0.5 * (y.a.x + y.b.x), sp = 0.5 * (y.a.p + y.b.p), dx = 0.5 * (y.a.x - y.b.x), dp = 0.5 * (y.a.p - y.b.p);
     vec3 rx = t.c * dx + t.s * dp, rp = t.c * dp - t.s * dx;
     y.a.x = sx + rx;
@@ -109,19 +108,22 @@ kd_pair bind(kd_pair y, float h)
     y.b.p = sp - rp;
     return y;
 }
-kd_pair tao_2(kd_pair y, float h)
+kd_pair tao_2(kd_pair y, float h, kd_turn t)
 {
     y = drift_a(y, 0.5 * h);
     y = drift_b(y, 0.5 * h);
-    y = bind(y, h);
+    y = bind(y, t);
     y = drift_b(y, 0.5 * h);
     return drift_a(y, 0.5 * h);
 }
-kd_pair tao_6(kd_pair y, float h)
+const float YOSHIDA[4] = float[4](0.784513610477560, 0.235573213359357, -1.17767998417887, 1.315186320683906);
+
+kd_pair tao_6(kd_pair y, float h, kd_turn turns[4])
 {
-    const float w[4] = float[4](0.784513610477560, 0.235573213359357, -1.17767998417887, 1.315186320683906);
-    for (int i = 0; i < 7; i++)
-        y = tao_2(y, h * w[i < 4 ? i : 6 - i]);
+    for (int i = 0; i < 7; i++) {
+        int k = i < 4 ? i : 6 - i;
+        y = tao_2(y, h * YOSHIDA[k], turns[k]);
+    }
     return y;
 }
 
@@ -159,6 +161,10 @@ void main()
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED;
     uint n = 0;
+    /* Once, not in each step: lavapipe leaves all loops of an invocation after 65535 rounds, and the series has ten. */
+    kd_turn turns[4];
+    for (int k = 0; k < 4; k++)
+        turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
     for (uint step_ = 0; step_ < 64 * STEPS; step_++) {
         kd_point before = y.a;
         if (METHOD == 0)
@@ -166,7 +172,7 @@ void main()
         else if (METHOD == 1)
             y.a = runge_kutta(y.a, h);
         else
-            y = tao_6(y, h);
+            y = tao_6(y, h, turns);
         float z0 = before.x.z, z1 = y.a.x.z, r = radius(y.a.x);
         if (z0 != 0.0 && (z0 > 0.0) != (z1 > 0.0) && n < ORDERS && step_ > 0) {
             vec3 d0 = h * flow(before.x, before.p).x, d1 = h * flow(y.a.x, y.a.p).x;
