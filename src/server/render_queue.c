@@ -1,6 +1,7 @@
 #include "server/render_queue.h"
 
 #include "base/log.h"
+#include "render/accuracy_store.h"
 #include "render/picture.h"
 #include "server/clock.h"
 #include "server/connections.h"
@@ -302,6 +303,12 @@ enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct
     enum kd_status status = kd_buffer_append(out, queue->device_json.data, queue->device_json.size);
     pthread_mutex_unlock(&queue->lock);
     return status;
+}
+
+enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
+                                             struct kd_error *error)
+{
+    return kd_renderer_accuracy_json(queue->renderer, out, error);
 }
 
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)

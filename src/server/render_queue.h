@@ -48,6 +48,9 @@ void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity 
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
 /* As after the latest render. */
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
+/* As now on disk; errors as kd_renderer_accuracy_json. */
+enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
+                                             struct kd_error *error);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue); /* estimated, of all that is accepted */

@@ -14,6 +14,8 @@ const struct kd_route kd_routes[] = {
     { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down" },
     { "/openapi.json", KD_GET, kd_handle_openapi, JSON, "This description" },
     { "/v1/device", KD_GET, kd_handle_device, JSON, "Device, driver, precision, memory, versions" },
+    { "/v1/accuracy", KD_GET, kd_handle_accuracy, JSON,
+      "Measured speed and error of the engines on this device; made by `kerrd bench accuracy`" },
     { "/v1/presets", KD_GET, kd_handle_presets, JSON, "Names and titles of the presets" },
     { "/v1/presets/", KD_GET, kd_handle_preset, JSON, "The scene of a preset" },
     { "/v1/schema", KD_GET, kd_handle_schema, "application/schema+json", "JSON Schema of a scene" },

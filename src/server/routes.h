@@ -47,5 +47,6 @@ enum MHD_Result kd_handle_openapi(struct kd_request *request); /* openapi.c */
 enum MHD_Result kd_handle_plan(struct kd_request *request);    /* renders.c */
 enum MHD_Result kd_handle_render(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* rays.c */
+enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* accuracy.c */
 
 #endif

@@ -2,15 +2,13 @@
 
 #include "base/buffer.h"
 #include "base/log.h"
+#include "base/replace.h"
 #include "vk/device.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* Before the driver's data: drivers trust what they are given more than they should, so damage is found here.
  */
@@ -19,6 +17,7 @@ struct envelope {
     uint64_t bytes, hash;
 };
 static const char magic[8] = "kdpipe1";
+#define SUFFIX ".pipelines"
 
 /* FNV-1a, 64 bits: against damage, not against malice; the directory is the user's own. */
 static uint64_t hash_of(const uint8_t *data, size_t size)
@@ -43,18 +42,6 @@ static bool header_fits(const struct kd_vk *vk, const uint8_t *data, size_t size
            !memcmp(data + sizeof words, device->pipelineCacheUUID, VK_UUID_SIZE);
 }
 
-static bool make_directories(char *path)
-{
-    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = 0;
-        int failed = mkdir(path, 0700) && errno != EEXIST;
-        *slash = '/';
-        if (failed)
-            return false;
-    }
-    return true;
-}
-
 /* NULL when there is to be none, or nowhere to put it. */
 static char *path_of(const struct kd_vk *vk, const char *dir)
 {
@@ -74,7 +61,7 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
         return NULL;
     for (unsigned i = 0; i < VK_UUID_SIZE; i++)
         snprintf(uuid + 2 * i, 3, "%02x", device->pipelineCacheUUID[i]);
-    if (asprintf(&path, "%s/%04x-%04x-%08x-%s.pipelines", base, device->vendorID, device->deviceID,
+    if (asprintf(&path, "%s/%04x-%04x-%08x-%s" SUFFIX, base, device->vendorID, device->deviceID,
                  device->driverVersion, uuid) < 0)
         return NULL;
     return path;
@@ -134,53 +121,30 @@ fail:
     return status;
 }
 
-static bool write_all(int fd, const void *data, size_t size)
-{
-    const uint8_t *at = data;
-    while (size) {
-        ssize_t n = write(fd, at, size);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return false;
-        at += n;
-        size -= (size_t)n;
-    }
-    return true;
-}
-
-/* Readers see the old file or the new one, even after a power cut. */
-static bool replace(const char *path, const struct envelope *envelope, const uint8_t *data)
-{
-    char *temporary = NULL, *directories = strdup(path);
-    bool good = directories && make_directories(directories) && asprintf(&temporary, "%s.XXXXXX", path) > 0;
-    free(directories);
-    int fd = good ? mkostemp(temporary, O_CLOEXEC) : -1;
-    if (fd >= 0) {
-        good =
-            write_all(fd, envelope, sizeof *envelope) && write_all(fd, data, envelope->bytes) && !fsync(fd);
-        good = !close(fd) && good && !rename(temporary, path);
-        if (!good)
-            unlink(temporary);
-    }
-    free(temporary);
-    return good && fd >= 0;
-}
-
 static void save(struct kd_vk *vk)
 {
     struct kd_vk_cache *cache = &vk->cache;
     size_t size = 0;
     if (vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, NULL) < 0 || !size)
         return;
-    uint8_t *data = malloc(size);
-    if (data && vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, data) == VK_SUCCESS) {
-        struct envelope envelope = { .bytes = size, .hash = hash_of(data, size) };
+    uint8_t *file = malloc(sizeof(struct envelope) + size);
+    if (file && vk->fn.GetPipelineCacheData(vk->device, cache->handle, &size, file + sizeof(struct envelope)) == VK_SUCCESS) {
+        struct envelope envelope = { .bytes = size, .hash = hash_of(file + sizeof envelope, size) };
         memcpy(envelope.magic, magic, sizeof magic);
-        if (envelope.hash != cache->hash && !replace(cache->path, &envelope, data))
+        memcpy(file, &envelope, sizeof envelope);
+        if (envelope.hash != cache->hash && !kd_replace_file(cache->path, file, sizeof envelope + size))
             kd_log(KD_LOG_DEBUG, "cannot write %s: %s", cache->path, strerror(errno));
     }
-    free(data);
+    free(file);
+}
+
+char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix)
+{
+    const char *path = vk->cache.path;
+    char *out = NULL;
+    if (!path || asprintf(&out, "%.*s%s", (int)(strlen(path) - strlen(SUFFIX)), path, suffix) < 0)
+        return NULL;
+    return out;
 }
 
 void kd_vk_cache_finish(struct kd_vk *vk)

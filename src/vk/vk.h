@@ -53,6 +53,9 @@ void kd_vk_destroy(struct kd_vk *vk);
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and errors so far    */
+/* Path of a file in the cache directory that belongs to this device and this version of its driver, as the pipeline cache
+ * does; malloc'd. NULL where there is no such directory. Any thread. */
+char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
 /* Buffers: suballocated from few large allocations. DEVICE: storage + transfer. UPLOAD and READBACK are
  * host-visible, coherent, persistently mapped (storage + transfer as well). */

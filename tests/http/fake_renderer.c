@@ -4,7 +4,7 @@
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
  * -2 runs out of memory, -3 fails. Rays on the device cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there
  * is no double precision, with steps 12 each takes a millisecond. */
-#include "render/rays.h"
+#include "render/accuracy_store.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,6 +13,7 @@
 
 struct kd_renderer {
     char lens_key[65];
+    bool measured;
 };
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -21,6 +22,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     if (params->device && !strcmp(params->device, "none"))
         return kd_error_set(error, KD_EDEVICE, "there is no device called none");
     *out = calloc(1, sizeof **out);
+    if (*out)
+        (*out)->measured = params->device && !strcmp(params->device, "measured");
     return *out ? KD_OK : KD_ENOMEM;
 }
 
@@ -44,6 +47,13 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
 {
     (void)renderer;
     return kd_buffer_printf(out, "{\"name\":\"fake\"}\n");
+}
+
+/* A device called "measured" has a table. */
+enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out, struct kd_error *error)
+{
+    return renderer->measured ? kd_buffer_printf(out, "{\"format\":1}\n")
+                              : kd_error_set(error, KD_EIO, "there is no table: `kerrd bench accuracy` makes one");
 }
 
 const char *kd_renderer_device_name(const struct kd_renderer *renderer)

@@ -55,6 +55,10 @@ class Routes(daemon.Case):
         names = [p['name'] for p in document['paths']['/v1/render']['get']['parameters']]
         self.assertIn('camera.inclination_deg', names)
 
+    def test_no_accuracy_table_yet(self):
+        problem = self.assertProblem(self.daemon.get('/v1/accuracy'), 404, 'not-found')
+        self.assertIn('kerrd bench accuracy', problem['detail'])
+
     def test_unknown_path(self):
         for path in ('/nothing', '/v1/presets/', '/v1/presets/nobody', '/v1/presets/a/b', '//', '/v1/render/',
                      '/healthz/', '/..%2f', 'http://127.0.0.1/healthz', '*'):
@@ -81,6 +85,16 @@ class Routes(daemon.Case):
                 s.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost:1\r\n\r\n'.encode())
                 answer = daemon.read_answer(s)
                 self.assertEqual(answer.status, 404 if path == '/nothing' else 200)
+
+
+class Measured(daemon.Case):
+    options = ('--device', 'measured')
+
+    def test_accuracy_table(self):
+        answer, head = self.daemon.get('/v1/accuracy'), self.daemon.request('HEAD', '/v1/accuracy')
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/json'))
+        self.assertEqual((head.status, head.body, answer.json()), (200, b'', {'format': 1}))
+        self.assertIn('/v1/accuracy', self.daemon.get('/openapi.json').json()['paths'])
 
 
 if __name__ == '__main__':

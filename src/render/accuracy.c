@@ -1,0 +1,52 @@
+#include "render/accuracy.h"
+
+#include <math.h>
+
+const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES] = {
+    [KD_ACCURACY_R] = "r", [KD_ACCURACY_PHI] = "phi", [KD_ACCURACY_DELAY] = "delay", [KD_ACCURACY_G] = "g"
+};
+
+/* What a row can be relied on for; infinite if it cannot. */
+static double held(const struct kd_accuracy_row *row)
+{
+    const struct kd_accuracy_entry *bulk = &row->sets[KD_ACCURACY_BULK];
+    double median = bulk->of[KD_ACCURACY_R].median;
+    bool judged = bulk->rays && bulk->crossings && bulk->rays_per_s > 0 && median >= 0;
+    return judged && bulk->differ <= KD_ACCURACY_STRAY * bulk->rays ? KD_ACCURACY_SAFETY * median : INFINITY;
+}
+
+static enum kd_status refuse(const struct kd_accuracy_row *best, double tolerance, struct kd_error *error)
+{
+    if (!best)
+        return kd_error_field(error, "/accuracy/tolerance", "the accuracy table of this device has no row that can be relied on; "
+                              "`kerrd bench accuracy` makes a new one");
+    /* Rounded up: whoever asks for this number gets it. */
+    return kd_error_field(error, "/accuracy/tolerance",
+                          "tolerance is %.3g, this device was measured to hold %.3g and above (%s %s with %u steps); the engine "
+                          "\"closed\" is what it was measured against",
+                          tolerance, 1.01 * held(best), kd_engine_name(best->engine), kd_precision_name(best->precision),
+                          best->steps);
+}
+
+enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, struct kd_accuracy_choice *out,
+                                  struct kd_error *error)
+{
+    const struct kd_accuracy_row *found = NULL, *best = NULL;
+    if (!(tolerance > 0 && tolerance < 1))
+        return kd_error_field(error, "/accuracy/tolerance", "tolerance is %.9g, allowed are numbers above 0 and below 1", tolerance);
+    for (uint32_t i = 0; i < table->n; i++) {
+        const struct kd_accuracy_row *row = &table->rows[i];
+        if (isinf(held(row)))
+            continue;
+        if (!best || held(row) < held(best))
+            best = row;
+        if (held(row) <= tolerance &&
+            (!found || row->sets[KD_ACCURACY_BULK].rays_per_s > found->sets[KD_ACCURACY_BULK].rays_per_s))
+            found = row;
+    }
+    if (!found)
+        return refuse(best, tolerance, error);
+    *out = (struct kd_accuracy_choice) { found->engine, found->precision, found->steps, held(found),
+                                         found->sets[KD_ACCURACY_BULK].rays_per_s };
+    return KD_OK;
+}

@@ -1,0 +1,72 @@
+/* What each engine, precision and number of steps costs on one device, and how wrong it is: the table that
+ * `kerrd bench accuracy` measures, GET /v1/accuracy serves and a tolerance is looked up in. Plain values; any thread.
+ *
+ * Errors are those of render/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy_sets.h), all orders
+ * together, over the crossings that both have from the ISCO to KD_ACCURACY_FAR: relative ones of r and g, absolute ones of
+ * phi (radians) and delay (M). A ray with another fate or another number of crossings is counted in `differ`. */
+#ifndef KD_RENDER_ACCURACY_H
+#define KD_RENDER_ACCURACY_H
+
+#include "base/buffer.h"
+#include "render/accuracy_sets.h"
+#include "render/rays.h"
+
+#define KD_ACCURACY_ORDERS 3
+#define KD_ACCURACY_FAR 1e3 /* M: w = 1/r is what is computed, its error absolute, so that of r grows as r */
+#define KD_ACCURACY_ROWS 48
+/* A tolerance is held if this times the median over the bulk set is not above it: medians of other spins and inclinations
+ * are up to 3.5 times those of the most favourable (docs/accuracy.md). */
+#define KD_ACCURACY_SAFETY 4
+#define KD_ACCURACY_STRAY 0.01 /* nor may more of the bulk's rays than this differ */
+
+enum kd_accuracy_quantity { KD_ACCURACY_R, KD_ACCURACY_PHI, KD_ACCURACY_DELAY, KD_ACCURACY_G, KD_ACCURACY_QUANTITIES };
+extern const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES]; /* "r", "phi", "delay", "g" */
+
+struct kd_accuracy_errors { double median, p99, worst; }; /* NaN: the engine has no such quantity */
+
+struct kd_accuracy_entry {
+    double rays_per_s; /* by the device's clock, or the host's where it has none */
+    uint32_t rays, crossings, differ;
+    struct kd_accuracy_errors of[KD_ACCURACY_QUANTITIES];
+};
+
+struct kd_accuracy_row {
+    enum kd_engine engine; /* KD_ENGINE_CLOSED: its speed alone, on one core of the host */
+    enum kd_precision precision;
+    uint32_t steps;
+    struct kd_accuracy_entry sets[KD_ACCURACY_SETS];
+};
+
+struct kd_accuracy_table {
+    char version[32], date[32]; /* of kerrd; UTC, ISO 8601 */
+    char command[256];
+    char machine[256], device[800]; /* the processor and system; the Vulkan device with its driver */
+    char skipped[400];              /* what this device cannot do, "" if it can do all */
+    uint32_t cores;                 /* that the device computes on, 0 where it is no CPU */
+    bool device_clock, quick;
+    double seconds; /* of device time that a speed was measured over, at least */
+    uint32_t n;
+    struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
+};
+
+struct kd_accuracy_choice {
+    enum kd_engine engine;
+    enum kd_precision precision;
+    uint32_t steps;
+    double error, rays_per_s; /* KD_ACCURACY_SAFETY times the bulk's median; over the bulk */
+};
+
+/* The fastest row that holds a relative error of the crossing radius. KD_EINVAL at "/accuracy/tolerance", saying what this
+ * device can hold, if none does. */
+enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, struct kd_accuracy_choice *out,
+                                  struct kd_error *error);
+
+/* The document of GET /v1/accuracy, appended, and back: KD_EINVAL for text that is no such document. */
+enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);
+enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_accuracy_table *out,
+                                     struct kd_error *error);
+
+/* Markdown: the machine, then a table a set. */
+enum kd_status kd_accuracy_to_markdown(const struct kd_accuracy_table *table, struct kd_buffer *out);
+
+#endif

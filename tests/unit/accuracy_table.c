@@ -1,0 +1,300 @@
+/* The accuracy table: the choice from made-up ones, the document there and back, the file, and the rays. */
+#include "physics/kerr.h"
+#include "render/accuracy_store.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct kd_accuracy_table table, again;
+static struct kd_error error;
+
+static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision precision, uint32_t steps, double speed, double median)
+{
+    struct kd_accuracy_row *row = &table.rows[table.n++];
+    *row = (struct kd_accuracy_row) { .engine = engine, .precision = precision, .steps = steps };
+    for (int k = 0; k < KD_ACCURACY_SETS; k++) {
+        struct kd_accuracy_entry *e = &row->sets[k];
+        *e = (struct kd_accuracy_entry) { .rays_per_s = speed, .rays = 1000, .crossings = 1500 };
+        /* Only the bulk's radii are to be looked at. */
+        for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++)
+            e->of[q] = k || q ? (struct kd_accuracy_errors) { 1, 1, 1 } : (struct kd_accuracy_errors) { median, 9 * median, 1 };
+    }
+    return row;
+}
+
+/* Errors are a quarter of what is held. */
+static int made_up(void **state)
+{
+    (void)state;
+    table = (struct kd_accuracy_table) { .version = "1.2.3", .date = "2026-01-02T03:04:05Z", .command = "kerrd bench accuracy",
+                                         .machine = "a \"machine\"", .device = "a device", .skipped = "nothing", .cores = 2,
+                                         .device_clock = true, .quick = true, .seconds = 0.25 };
+    error = (struct kd_error) { 0 };
+    add(KD_ENGINE_CLOSED, KD_PRECISION_F64, 0, 1e9, NAN);
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4, 4e6, 0.25e-5);
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 8, 2e6, 0.25e-6);
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6); /* rounding has taken over */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8, 2.5e6, 0.25e-8); /* a device quicker in double */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16, 1e5, 0.25e-11);
+    add(KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64, 3e6, 0.25e-4);
+    return 0;
+}
+
+static void expect(double tolerance, enum kd_engine engine, enum kd_precision precision, uint32_t steps)
+{
+    struct kd_accuracy_choice choice;
+    if (kd_accuracy_choose(&table, tolerance, &choice, &error))
+        fail_msg("%g: %s", tolerance, error.message);
+    assert_int_equal(choice.engine, engine);
+    assert_int_equal(choice.precision, precision);
+    assert_int_equal(choice.steps, steps);
+    assert_true(choice.error <= tolerance && choice.error > 0 && choice.rays_per_s > 0);
+}
+
+static void the_cheapest_that_holds(void **state)
+{
+    (void)state;
+    expect(0.5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
+    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8); /* the fastest below, not the least exact */
+    expect(1e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
+    expect(0.99e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
+    expect(1e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
+    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* now Runge and Kutta are the fastest at 1e-4 */
+    expect(1e-4, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
+}
+
+static void refused(double tolerance, const char *part)
+{
+    struct kd_accuracy_choice choice;
+    assert_int_equal(kd_accuracy_choose(&table, tolerance, &choice, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/accuracy/tolerance");
+    if (!strstr(error.message, part))
+        fail_msg("%g: %s", tolerance, error.message);
+}
+
+static void what_none_holds(void **state)
+{
+    (void)state;
+    refused(0.99e-11, "1.01e-11 and above (mino-rkn6 f64 with 16 steps)");
+    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* what it offers it takes */
+    table.n = 4;                                                 /* a device without double precision */
+    refused(0.99e-6, "mino-rkn6 f32 with 8 steps");
+    refused(0, "above 0");
+    refused(-1e-6, "above 0");
+    refused(NAN, "nan");
+    refused(1, "below 1");
+    table.n = 1; /* the closed form's errors are not in its own table */
+    refused(0.5, "kerrd bench accuracy");
+    table.n = 0;
+    refused(0.5, "kerrd bench accuracy");
+}
+
+/* A row that loses rays, or has no figures, cannot be relied on. */
+static void rows_to_be_left_out(void **state)
+{
+    (void)state;
+    struct kd_accuracy_entry *bulk = &table.rows[1].sets[KD_ACCURACY_BULK];
+    bulk->differ = 10;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
+    bulk->differ = 11;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
+    bulk->differ = 0;
+    bulk->of[KD_ACCURACY_R].median = NAN;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
+    bulk->of[KD_ACCURACY_R].median = 0.25e-5;
+    bulk->crossings = 0;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
+    bulk->crossings = 1;
+    bulk->rays_per_s = NAN;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
+}
+
+static void same(double a, double b)
+{
+    if (!(isnan(a) && isnan(b)) && !(fabs(a - b) <= 1e-3 * fabs(a)))
+        fail_msg("%g is not %g", a, b);
+}
+
+static void there_and_back(void **state)
+{
+    (void)state;
+    struct kd_buffer text = { 0 };
+    table.rows[6].sets[2].of[KD_ACCURACY_DELAY] = (struct kd_accuracy_errors) { NAN, NAN, NAN };
+    assert_int_equal(kd_accuracy_to_json(&table, &text), KD_OK);
+    assert_int_equal(kd_accuracy_from_json((const char *)text.data, text.size, &again, &error), KD_OK);
+    assert_string_equal(again.version, table.version);
+    assert_string_equal(again.date, table.date);
+    assert_string_equal(again.command, table.command);
+    assert_string_equal(again.machine, table.machine);
+    assert_string_equal(again.device, table.device);
+    assert_string_equal(again.skipped, table.skipped);
+    assert_true(again.cores == 2 && again.quick && again.device_clock && again.seconds == 0.25 && again.n == table.n);
+    for (uint32_t i = 0; i < table.n; i++) {
+        const struct kd_accuracy_row *a = &table.rows[i], *b = &again.rows[i];
+        assert_true(a->engine == b->engine && a->precision == b->precision && a->steps == b->steps);
+        for (int k = 0; k < KD_ACCURACY_SETS; k++) {
+            const struct kd_accuracy_entry *x = &a->sets[k], *y = &b->sets[k];
+            assert_true(x->rays == y->rays && x->crossings == y->crossings && x->differ == y->differ);
+            same(x->rays_per_s, y->rays_per_s);
+            for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++) {
+                same(x->of[q].median, y->of[q].median);
+                same(x->of[q].p99, isnan(x->of[q].median) ? x->of[q].p99 : y->of[q].p99);
+                same(x->of[q].worst, isnan(x->of[q].median) ? x->of[q].worst : y->of[q].worst);
+            }
+        }
+    }
+    kd_buffer_finish(&text);
+}
+
+/* Every prefix, and damaged documents: an error, never a table. */
+static void no_table(void **state)
+{
+    (void)state;
+    static const char *const bad[] = { "", "null", "[]", "{}", "{\"format\":1}", "{\"format\":1,\"rows\":[]}" };
+    struct kd_buffer text = { 0 };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_int_equal(kd_accuracy_from_json(bad[i], strlen(bad[i]), &again, &error), KD_EINVAL);
+    assert_int_equal(kd_accuracy_to_json(&table, &text), KD_OK);
+    for (size_t n = 0; n + 2 < text.size; n += 7)
+        assert_int_equal(kd_accuracy_from_json((const char *)text.data, n, &again, &error), KD_EINVAL);
+    static const struct { const char *from, *to; } damage[] = {
+        { "\"format\":\t1", "\"format\":\t2" }, { "mino-rkn6", "mino-rkn7" }, { "\"f32\"", "\"f16\"" },
+        { "\"steps\":\t8", "\"steps\":\t.8" },  { "\"rays\":\t10", "\"rays\":\t-1" }, { "\"differ\":\t0", "\"differ\":\t\"" },
+    };
+    for (size_t i = 0; i < sizeof damage / sizeof *damage; i++) {
+        char *copy = strdup((const char *)text.data), *at = strstr(copy, damage[i].from);
+        if (!at)
+            fail_msg("%s is not in the document", damage[i].from);
+        memcpy(at, damage[i].to, strlen(damage[i].to));
+        assert_int_equal(kd_accuracy_from_json(copy, text.size, &again, &error), KD_EINVAL);
+        free(copy);
+    }
+    kd_buffer_finish(&text);
+}
+
+static void kept(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/kerrd-accuracy-XXXXXX", path[100], inner[80];
+    assert_non_null(mkdtemp(folder));
+    snprintf(inner, sizeof inner, "%s/a", folder);
+    snprintf(path, sizeof path, "%s/table.json", inner);
+    assert_int_equal(kd_accuracy_load(path, &again, &error), KD_EIO);
+    assert_non_null(strstr(error.message, "kerrd bench accuracy"));
+    assert_int_equal(kd_accuracy_load(NULL, &again, &error), KD_EIO);
+    assert_int_equal(kd_accuracy_save(&table, path, &error), KD_OK); /* makes the folder */
+    assert_int_equal(kd_accuracy_load(path, &again, &error), KD_OK);
+    assert_int_equal(again.n, table.n);
+    table.n = 2;
+    assert_int_equal(kd_accuracy_save(&table, path, &error), KD_OK);
+    assert_int_equal(kd_accuracy_load(path, &again, &error), KD_OK);
+    assert_int_equal(again.n, 2);
+    assert_int_equal(truncate(path, 100), 0);
+    assert_int_equal(kd_accuracy_load(path, &again, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "kerrd bench accuracy"));
+    assert_int_equal(kd_accuracy_load(inner, &again, &error), KD_EIO); /* a directory */
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(inner), 0); /* and nothing else was left there */
+    assert_int_equal(kd_accuracy_save(&table, "/proc/kerrd/table.json", &error), KD_EIO);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static void markdown(void **state)
+{
+    (void)state;
+    struct kd_buffer text = { 0 };
+    int columns = 0, lines = 0;
+    assert_int_equal(kd_accuracy_to_markdown(&table, &text), KD_OK);
+    for (char *save, *line = strtok_r((char *)text.data, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
+        int bars = 0;
+        for (const char *c = line; line[0] == '|' && *c; c++)
+            bars += *c == '|' && (c == line || c[-1] == ' ' || c[-1] == '-');
+        if (line[0] != '|')
+            continue;
+        columns = columns ? columns : bars;
+        assert_int_equal(bars, columns);
+        lines++;
+    }
+    assert_int_equal(lines, KD_ACCURACY_SETS * (2 + table.n));
+    kd_buffer_finish(&text);
+}
+
+/* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root outside the
+ * horizon, and beside it none or two (Bardeen 1973): its least value there, which is looked for by trying. */
+static double least_potential(double a, double inclination_deg, const double *x)
+{
+    double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;
+    double l = -x[0] * s, eta = (x[0] * x[0] - a * a) * u2 + x[1] * x[1], least = INFINITY;
+    for (double r = kd_kerr_horizon(a) * 1.0001; r < 6; r += 1e-5) {
+        double q = r * r + a * a - a * l, delta = (r - 2) * r + a * a;
+        least = fmin(least, q * q - delta * (eta + (l - a) * (l - a)));
+    }
+    return least;
+}
+
+static void critical_curve(void **state)
+{
+    (void)state;
+    static const double spins[] = { 0.9, -0.6, 0.9999 }, inclinations[] = { 70, 17, 130 };
+    for (int i = 0; i < 3; i++)
+        for (double t = 0.03; t < 1; t += 0.23) {
+            double x[2], outside[2], inside[2], a = spins[i];
+            kd_critical_point(a, inclinations[i], t, x);
+            for (int k = 0; k < 2; k++)
+                outside[k] = x[k] * 1.001, inside[k] = x[k] * 0.999;
+            double on = least_potential(a, inclinations[i], x);
+            /* 1e-5 beside a double root R is 1e-10 of its second derivative, some ten. */
+            if (!(fabs(on) < 1e-7) || !(least_potential(a, inclinations[i], outside) < -1e-4) ||
+                !(least_potential(a, inclinations[i], inside) > 1e-4))
+                fail_msg("a = %g, t = %g: R is %g at best", a, t, on);
+        }
+}
+
+static void lists_of_rays(void **state)
+{
+    (void)state;
+    enum { N = 600 };
+    double first[2 * N], rays[2 * N];
+    struct kd_accuracy_view views[KD_ACCURACY_VIEWS];
+    for (int set = 0; set < KD_ACCURACY_SETS; set++) {
+        uint32_t n_views = kd_accuracy_views((enum kd_accuracy_set)set, views);
+        assert_in_range(n_views, 1, KD_ACCURACY_VIEWS);
+        for (uint32_t v = 0; v < n_views; v++) {
+            kd_accuracy_rays((enum kd_accuracy_set)set, v, 50, first);
+            kd_accuracy_rays((enum kd_accuracy_set)set, v, N, rays);
+            assert_memory_equal(first, rays, 100 * sizeof(double)); /* a longer list starts as a shorter one */
+            int quadrants[4] = { 0 };
+            for (int k = 0; k < N; k++) {
+                assert_true(fabs(rays[2 * k]) <= 12 && fabs(rays[2 * k + 1]) <= 12);
+                quadrants[2 * (rays[2 * k] > 0) + (rays[2 * k + 1] > 0)]++;
+            }
+            for (int k = 0; k < 4; k++)
+                assert_in_range(quadrants[k], N / 12, N / 2);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(the_cheapest_that_holds, made_up),
+        cmocka_unit_test_setup(what_none_holds, made_up),
+        cmocka_unit_test_setup(rows_to_be_left_out, made_up),
+        cmocka_unit_test_setup(there_and_back, made_up),
+        cmocka_unit_test_setup(no_table, made_up),
+        cmocka_unit_test_setup(kept, made_up),
+        cmocka_unit_test_setup(markdown, made_up),
+        cmocka_unit_test(critical_curve),
+        cmocka_unit_test(lists_of_rays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
