@@ -1,4 +1,5 @@
 /* POST /v1/plan, and /v1/render from the scene to the picture. */
+#include "render/picture.h"
 #include "server/negotiate.h"
 #include "server/reply.h"
 #include "server/scene_source.h"
@@ -80,6 +81,13 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     return response;
 }
 
+static void add_accuracy(struct MHD_Response *response, const struct kd_render_job *job)
+{
+    char text[KD_ACCURACY_TEXT];
+    kd_accuracy_text(&job->frame.accuracy, job->plan.rays, text);
+    MHD_add_response_header(response, "Kerrd-Accuracy", text);
+}
+
 static void add_timings(struct MHD_Response *response, const struct kd_render_job *job)
 {
     struct kd_buffer list = { 0 };
@@ -140,8 +148,10 @@ static enum MHD_Result deliver(struct kd_request *request)
         return kd_reply_error(request, &job->error);
     }
     struct MHD_Response *response = describe(request, picture_response(request), &job->plan);
-    if (response)
+    if (response) {
+        add_accuracy(response, job);
         add_timings(response, job);
+    }
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 

@@ -50,6 +50,14 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(first.body, again.body)
         self.assertEqual(first.header('ETag'), again.header('ETag'))
 
+    def test_the_answer_knows_its_error(self):
+        header = self.daemon.get(TARGET + '&spacetime.spin=0.6').header('Kerrd-Accuracy')
+        figure = dict(pair.split('=') for pair in header.split())
+        self.assertEqual(int(figure['rays']), 320 * 180)
+        if int(figure['sampled']):
+            self.assertGreater(int(figure['crossings']), 100)
+            self.assertTrue(0 < float(figure['median']) < 1e-6, header)
+
     def test_every_preset(self):
         for preset in self.daemon.get('/v1/presets').json()['presets']:
             with self.subTest(preset['name']):
