@@ -1,0 +1,290 @@
+/* Null geodesics in closed form against Taylor series to 20 digits (tests/oracle/null_reference.py): every
+ * case of roots, start and degeneracy, and rays 1e-10 from the critical curve. */
+#include "physics/null_geodesic.h"
+
+#include "null_reference.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define COUNT(x) (sizeof(x) / sizeof *(x))
+
+static struct kd_null_ray ray_of(const struct null_reference *e)
+{
+    return (struct kd_null_ray) { .spin = e->spin,
+                                  .radius = e->radius,
+                                  .cos_theta = e->cos_theta,
+                                  .alpha = e->alpha,
+                                  .beta = e->beta,
+                                  .outward = e->outward,
+                                  .orders = 4 };
+}
+
+/* Rays that meet the axis may pass it on either side: whole turns then mean nothing. Others are counted. */
+static double azimuth_off(const struct kd_null_ray *ray, double got, double want)
+{
+    return ray->alpha == 0 ? fabs(remainder(got - want, 2 * M_PI)) : fabs(got - want);
+}
+
+static void within(size_t row, int n, const char *what, double off, double bound)
+{
+    if (!(off <= bound))
+        fail_msg("row %zu, crossing %d: %s off by %.3g, estimated %.3g", row, n, what, off, bound);
+}
+
+static void crossings(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(null_reference); i++) {
+        const struct null_reference *e = &null_reference[i];
+        struct kd_null_ray ray = ray_of(e);
+        struct kd_null_path p = kd_null_trace(&ray);
+        if (p.crossings != e->crossings || p.fate != (e->captured ? KD_NULL_CAPTURED : KD_NULL_ESCAPED))
+            fail_msg("row %zu: %d crossings, not %d; fate %d", i, p.crossings, e->crossings, p.fate);
+        for (int n = 0; n < p.crossings; n++) {
+            const struct kd_null_crossing *x = &p.crossing[n];
+            const struct null_reference_crossing *y = &e->crossing[n];
+            within(i, n, "r", fabs(x->r / y->r - 1), x->error_r);
+            within(i, n, "phi", azimuth_off(&ray, x->phi, y->phi), x->error_phi);
+            within(i, n, "delay", fabs(x->delay - y->delay), x->error_delay);
+            assert_int_equal(x->sense, y->sense);
+        }
+        assert_int_equal(isnan(p.sky_u), e->captured);
+        if (!e->captured) {
+            within(i, -1, "sky u", fabs(p.sky_u - e->sky_u), p.sky_error);
+            within(i, -1, "sky phi", azimuth_off(&ray, p.sky_phi, e->sky_phi), p.sky_error);
+        }
+    }
+}
+
+/* The estimates are no excuses: the errors of direct images are a few roundings, those of the next order up
+ * to a hundred times more (half a turn near the photon sphere multiplies by up to e^pi), and the estimates in
+ * proportion. */
+static void accuracy(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(null_reference); i++) {
+        const struct null_reference *e = &null_reference[i];
+        struct kd_null_ray ray = ray_of(e);
+        struct kd_null_path p = kd_null_trace(&ray);
+        for (int n = 0; n < p.crossings && n < 2; n++) {
+            const struct kd_null_crossing *x = &p.crossing[n];
+            double wide = n == 0 ? 1 : 100;
+            within(i, n, "r, wanted", fabs(x->r / e->crossing[n].r - 1), 1e-14 * wide);
+            within(i, n, "phi, wanted", azimuth_off(&ray, x->phi, e->crossing[n].phi), 3e-14 * wide);
+            within(i, n, "delay, wanted", fabs(x->delay - e->crossing[n].delay),
+                   3e-14 * wide * (10 + fabs(e->crossing[n].delay) + x->r));
+            within(i, n, "estimate of r", x->error_r, 2e-13 * wide);
+        }
+    }
+}
+
+static void fast_is_the_same(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(null_reference); i++) {
+        struct kd_null_ray ray = ray_of(&null_reference[i]);
+        struct kd_null_path p = kd_null_trace(&ray), q = kd_null_trace_fast(&ray);
+        assert_int_equal(p.crossings, q.crossings);
+        for (int n = 0; n < p.crossings; n++)
+            assert_true(p.crossing[n].r == q.crossing[n].r && p.crossing[n].phi == q.crossing[n].phi &&
+                        q.crossing[n].error_r == 0);
+    }
+}
+
+/* What must hold exactly: the mirror image in the equator, and the hole turned over. */
+static void mirrors(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(null_reference); i++) {
+        struct kd_null_ray ray = ray_of(&null_reference[i]), flipped = ray, turned = ray;
+        flipped.cos_theta = -ray.cos_theta, flipped.beta = -ray.beta;
+        turned.spin = -ray.spin, turned.alpha = -ray.alpha;
+        struct kd_null_path p = kd_null_trace(&ray), f = kd_null_trace(&flipped), t = kd_null_trace(&turned);
+        assert_true(p.crossings == f.crossings && p.crossings == t.crossings && p.fate == f.fate &&
+                    p.fate == t.fate);
+        for (int n = 0; n < p.crossings; n++) {
+            const struct kd_null_crossing *x = &p.crossing[n];
+            assert_true(x->r == f.crossing[n].r && x->phi == f.crossing[n].phi &&
+                        x->delay == f.crossing[n].delay);
+            assert_true(x->r == t.crossing[n].r && x->delay == t.crossing[n].delay);
+            within(i, n, "phi turned over", azimuth_off(&ray, -x->phi, t.crossing[n].phi), 0);
+        }
+        if (p.fate == KD_NULL_ESCAPED)
+            assert_true(p.sky_u == -f.sky_u || (ray.cos_theta == 0 && ray.beta == 0));
+    }
+}
+
+/* No jump at a = 0, on the axis, at beta = 0 or in the plane: the answers differ by the slope times the
+ * disturbance. 1e-13 is far below any tolerance and some 500 roundings; slopes here are below 100. */
+static void continuity(void **state)
+{
+    (void)state;
+    static const double inclined[] = { 1, 0.9563, 0.342, 0, -0.7071, -1 };
+    for (size_t i = 0; i < COUNT(inclined); i++)
+        for (int k = 0; k < 24; k++) {
+            double angle = k * M_PI / 12 + 0.1, alpha = 7 * cos(angle), beta = 7 * sin(angle), tiny = 1e-13;
+            struct kd_null_ray still = {
+                .radius = INFINITY, .cos_theta = inclined[i], .alpha = alpha, .beta = beta, .orders = 2
+            };
+            struct kd_null_ray near[] = { still, still, still };
+            near[0].spin = tiny, near[1].spin = -tiny;
+            near[2].cos_theta = i == 0 ? 1 - 1e-15 : i == 5 ? -1 + 1e-15 : inclined[i];
+            struct kd_null_path p = kd_null_trace(&still);
+            for (size_t j = 0; j < COUNT(near); j++) {
+                struct kd_null_path q = kd_null_trace(&near[j]);
+                assert_int_equal(p.crossings, q.crossings);
+                for (int n = 0; n < p.crossings; n++) {
+                    double allowed = j < 2 ? 1e-11 : 1e-6; /* the axis: sqrt(2e-15) in the inclination */
+                    within(k, n, "r nearby", fabs(q.crossing[n].r / p.crossing[n].r - 1), allowed);
+                    within(k, n, "phi nearby", fabs(q.crossing[n].phi - p.crossing[n].phi), allowed);
+                    within(k, n, "delay nearby", fabs(q.crossing[n].delay - p.crossing[n].delay),
+                           allowed * 100);
+                }
+            }
+        }
+    /* Through beta = 0, where the start is a turning point. */
+    struct kd_null_ray turn = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0.5, .alpha = 8, .orders = 1 },
+                       up = turn, down = turn;
+    up.beta = 1e-13, down.beta = -1e-13;
+    double r = kd_null_trace(&turn).crossing[0].r;
+    within(0, 0, "r above beta = 0", fabs(kd_null_trace(&up).crossing[0].r / r - 1), 1e-12);
+    within(0, 0, "r below beta = 0", fabs(kd_null_trace(&down).crossing[0].r / r - 1), 1e-12);
+}
+
+/* Through the axis: alpha -> 0 from both sides gives pi more or less, and alpha = 0 exactly one of them. */
+static void the_axis(void **state)
+{
+    (void)state;
+    struct kd_null_ray ray = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0.5, .beta = 6.5, .orders = 1 };
+    double on = kd_null_trace(&ray).crossing[0].phi;
+    ray.alpha = 1e-9;
+    double right = kd_null_trace(&ray).crossing[0].phi;
+    ray.alpha = -1e-9;
+    double left = kd_null_trace(&ray).crossing[0].phi;
+    within(0, 0, "turn about the axis", fabs(right - left - 2 * M_PI), 1e-8);
+    within(0, 0, "phi on the axis", fmin(fabs(on - left), fabs(on - right)), 1e-8);
+}
+
+/* A ray that leaves and comes back to the observer's radius splits into two: the delays and azimuths of an
+ * outward start continue those of the inward one. Crossing seen from far, less what it takes to get to the
+ * observer nearby. */
+static void observers_along_a_ray(void **state)
+{
+    (void)state;
+    struct kd_null_ray far = {
+        .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = -7, .beta = 3, .orders = 2
+    };
+    struct kd_null_path p = kd_null_trace(&far);
+    far.radius = 1e7;
+    struct kd_null_path q = kd_null_trace(&far);
+    assert_true(p.crossings == q.crossings && p.crossings > 0);
+    for (int n = 0; n < p.crossings; n++) { /* what is left of the way beyond 1e7 is b^2/2r */
+        within(0, n, "r from 1e7", fabs(p.crossing[n].r / q.crossing[n].r - 1), 2e-5);
+        within(0, n, "delay from 1e7", fabs(q.crossing[n].delay - 1e7 - 2 * log(1e7) - p.crossing[n].delay),
+               1e-4);
+    }
+}
+
+static void degenerate_input(void **state)
+{
+    (void)state;
+    const struct kd_null_ray good = {
+        .spin = 0.9, .radius = 10, .cos_theta = 0.5, .alpha = 3, .beta = 3, .orders = 2
+    };
+    assert_int_equal(kd_null_trace(&good).status, KD_NULL_OK);
+    struct kd_null_ray bad[9];
+    for (size_t i = 0; i < COUNT(bad); i++)
+        bad[i] = good;
+    bad[0].spin = 1, bad[1].spin = NAN, bad[2].radius = 1.4, bad[3].radius = NAN,
+    bad[4].cos_theta = 1.0000001;
+    bad[5].alpha = INFINITY, bad[6].beta = NAN, bad[7].orders = KD_NULL_ORDERS + 1, bad[8].orders = -1;
+    for (size_t i = 0; i < COUNT(bad); i++) {
+        struct kd_null_path p = kd_null_trace(&bad[i]);
+        assert_int_equal(p.status, KD_NULL_BAD_INPUT);
+        assert_true(p.crossings == 0 && isnan(p.sky_u));
+    }
+    struct kd_null_ray beyond = good; /* b = 50 does not come within 10 */
+    beyond.alpha = 50;
+    assert_int_equal(kd_null_trace(&beyond).status, KD_NULL_NO_RAY);
+    struct kd_null_ray plane = { .spin = 0.9, .radius = INFINITY, .cos_theta = 0, .alpha = 7, .orders = 3 };
+    assert_int_equal(kd_null_trace(&plane).status, KD_NULL_IN_PLANE);
+    assert_int_equal(kd_null_trace(&plane).crossings, 0);
+}
+
+/* The principal null congruence and rays of no impact parameter: nothing divides by zero. */
+static void principal_rays(void **state)
+{
+    (void)state;
+    struct kd_null_ray centre = { .radius = 10, .cos_theta = 0.5, .orders = 3, .outward = true };
+    struct kd_null_path p = kd_null_trace(&centre);
+    assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0 && p.sky_u == 0.5 && fabs(p.sky_phi) == 0);
+    centre.outward = false;
+    assert_int_equal(kd_null_trace(&centre).fate, KD_NULL_CAPTURED);
+    /* lambda = a sin^2, eta = -(a cos^2)^2: theta constant, dphi/dr = a/Delta outwards, against phi on the
+     * way back */
+    double a = 0.9, s = sqrt(0.75), plus = 1 + sqrt(1 - a * a), minus = 1 - sqrt(1 - a * a);
+    struct kd_null_ray principal = {
+        .spin = a, .radius = 10, .cos_theta = 0.5, .alpha = -a * s, .orders = 3, .outward = true
+    };
+    p = kd_null_trace(&principal);
+    double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
+    assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0);
+    within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
+           1e-7); /* a double root of U: rounding of alpha under a root */
+    within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
+    struct kd_null_ray axis = { .spin = a, .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
+    p = kd_null_trace(&axis);
+    assert_true(p.fate == KD_NULL_ESCAPED && p.sky_u == 1);
+    struct kd_null_ray equatorial = {
+        .spin = a, .radius = 10, .cos_theta = 0, .alpha = -a, .orders = 3, .outward = true
+    };
+    p = kd_null_trace(&equatorial);
+    assert_true(p.fate == KD_NULL_ESCAPED && p.sky_u == 0);
+    within(0, 0, "phi in the plane", fabs(p.sky_phi + turn), 1e-14);
+}
+
+/* All 32 orders near the critical curve: each half turn the same time later, until the errors have grown to
+ * the distance from the photon sphere; nothing but finite numbers, estimates that grow. */
+static void many_orders(void **state)
+{
+    (void)state;
+    double b = sqrt(27) * (1 + 1e-14);
+    struct kd_null_ray ray = {
+        .radius = INFINITY, .cos_theta = 0.5, .alpha = b * 0.6, .beta = b * 0.8, .orders = KD_NULL_ORDERS
+    };
+    struct kd_null_path p = kd_null_trace(&ray);
+    assert_in_range(p.crossings, 8, 20);
+    for (int n = 1; n < p.crossings; n++) {
+        assert_true(p.crossing[n].r > 2 && p.crossing[n].delay > p.crossing[n - 1].delay);
+        within(0, n, "half a turn", fabs(fabs(p.crossing[n].phi - p.crossing[n - 1].phi) - M_PI), 1e-12);
+        assert_true(isnan(p.crossing[n].error_r) == 0 && p.crossing[n].error_r > 0);
+    }
+    for (int n = 2; n < 5; n++) /* 3 M per radian: pi sqrt(27) */
+        within(0, n, "delay of half a turn",
+               fabs(p.crossing[n].delay - p.crossing[n - 1].delay - M_PI * sqrt(27)), 0.1);
+    assert_true(p.crossing[4].error_r > 100 * p.crossing[2].error_r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(crossings),
+        cmocka_unit_test(accuracy),
+        cmocka_unit_test(fast_is_the_same),
+        cmocka_unit_test(mirrors),
+        cmocka_unit_test(continuity),
+        cmocka_unit_test(the_axis),
+        cmocka_unit_test(observers_along_a_ray),
+        cmocka_unit_test(degenerate_input),
+        cmocka_unit_test(principal_rays),
+        cmocka_unit_test(many_orders),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
