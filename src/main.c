@@ -14,6 +14,7 @@ static const struct command {
 } commands[] = {
     { "render", kd_cli_render },   { "plan", kd_cli_plan },   { "scene", kd_cli_scene },
     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
+    { "bench", kd_cli_bench },
 };
 
 struct choice {
@@ -31,7 +32,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
                 choice->command = &commands[i];
         if (!choice->command)
             argp_error(state,
-                       "there is no command \"%s\"; known are render, plan, scene, presets, serve, doctor",
+                       "there is no command \"%s\"; known are render, plan, scene, presets, serve, doctor, bench",
                        text);
         choice->index = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
@@ -52,6 +53,7 @@ static const struct argp argp = {
            "  presets   the scenes known by name\n"
            "  serve     the HTTP service\n"
            "  doctor    what this machine can do and what it lacks\n"
+           "  bench     how fast and how exact each engine is on this device\n"
            "\n"
            "Exit codes: 0 done, 1 failed, 2 bad input or usage.",
 };

@@ -17,6 +17,7 @@ int kd_cli_scene(int argc, char **argv);
 int kd_cli_presets(int argc, char **argv);
 int kd_cli_serve(int argc, char **argv);
 int kd_cli_doctor(int argc, char **argv);
+int kd_cli_bench(int argc, char **argv);
 
 /* Children for argp: --log-level (no input), and --device with a `const char *` as its input, which
  * starts as $KERRD_DEVICE or "auto". */

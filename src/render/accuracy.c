@@ -6,13 +6,21 @@ const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES] = {
     [KD_ACCURACY_R] = "r", [KD_ACCURACY_PHI] = "phi", [KD_ACCURACY_DELAY] = "delay", [KD_ACCURACY_G] = "g"
 };
 
-/* What a row can be relied on for; infinite if it cannot. */
-static double held(const struct kd_accuracy_row *row)
+double kd_accuracy_holds(const struct kd_accuracy_row *row)
 {
-    const struct kd_accuracy_entry *bulk = &row->sets[KD_ACCURACY_BULK];
-    double median = bulk->of[KD_ACCURACY_R].median;
-    bool judged = bulk->rays && bulk->crossings && bulk->rays_per_s > 0 && median >= 0;
-    return judged && bulk->differ <= KD_ACCURACY_STRAY * bulk->rays ? KD_ACCURACY_SAFETY * median : INFINITY;
+    double out = 0;
+    if (!(row->sets[KD_ACCURACY_BULK].rays_per_s > 0))
+        return INFINITY;
+    for (int k = 0; k < KD_ACCURACY_SETS; k++) {
+        const struct kd_accuracy_entry *e = &row->sets[k];
+        double median = e->of[KD_ACCURACY_R].median;
+        if (k == KD_ACCURACY_NEAR_CRITICAL)
+            continue;
+        if (!e->rays || !e->crossings || !(median >= 0) || e->differ > KD_ACCURACY_STRAY * e->rays)
+            return INFINITY;
+        out = fmax(out, k == KD_ACCURACY_BULK ? KD_ACCURACY_SAFETY * median : median);
+    }
+    return out;
 }
 
 static enum kd_status refuse(const struct kd_accuracy_row *best, double tolerance, struct kd_error *error)
@@ -24,7 +32,7 @@ static enum kd_status refuse(const struct kd_accuracy_row *best, double toleranc
     return kd_error_field(error, "/accuracy/tolerance",
                           "tolerance is %.3g, this device was measured to hold %.3g and above (%s %s with %u steps); the engine "
                           "\"closed\" is what it was measured against",
-                          tolerance, 1.01 * held(best), kd_engine_name(best->engine), kd_precision_name(best->precision),
+                          tolerance, 1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine), kd_precision_name(best->precision),
                           best->steps);
 }
 
@@ -36,17 +44,17 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
         return kd_error_field(error, "/accuracy/tolerance", "tolerance is %.9g, allowed are numbers above 0 and below 1", tolerance);
     for (uint32_t i = 0; i < table->n; i++) {
         const struct kd_accuracy_row *row = &table->rows[i];
-        if (isinf(held(row)))
+        if (isinf(kd_accuracy_holds(row)))
             continue;
-        if (!best || held(row) < held(best))
+        if (!best || kd_accuracy_holds(row) < kd_accuracy_holds(best))
             best = row;
-        if (held(row) <= tolerance &&
+        if (kd_accuracy_holds(row) <= tolerance &&
             (!found || row->sets[KD_ACCURACY_BULK].rays_per_s > found->sets[KD_ACCURACY_BULK].rays_per_s))
             found = row;
     }
     if (!found)
         return refuse(best, tolerance, error);
-    *out = (struct kd_accuracy_choice) { found->engine, found->precision, found->steps, held(found),
+    *out = (struct kd_accuracy_choice) { found->engine, found->precision, found->steps, kd_accuracy_holds(found),
                                          found->sets[KD_ACCURACY_BULK].rays_per_s };
     return KD_OK;
 }

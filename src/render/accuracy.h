@@ -14,10 +14,11 @@
 #define KD_ACCURACY_ORDERS 3
 #define KD_ACCURACY_FAR 1e3 /* M: w = 1/r is what is computed, its error absolute, so that of r grows as r */
 #define KD_ACCURACY_ROWS 48
-/* A tolerance is held if this times the median over the bulk set is not above it: medians of other spins and inclinations
- * are up to 3.5 times those of the most favourable (docs/accuracy.md). */
+/* What a row is said to hold: this times the median over the bulk set, since medians of common spins and inclinations lie
+ * within 3.5 of one another (docs/accuracy.md), or the median of any other set if that is larger: few steps lose up to forty
+ * times as much edge-on. Near the critical curve no number of steps helps, so that set is left out. */
 #define KD_ACCURACY_SAFETY 4
-#define KD_ACCURACY_STRAY 0.01 /* nor may more of the bulk's rays than this differ */
+#define KD_ACCURACY_STRAY 0.01 /* a row of which more rays than this differ in one of these sets holds nothing */
 
 enum kd_accuracy_quantity { KD_ACCURACY_R, KD_ACCURACY_PHI, KD_ACCURACY_DELAY, KD_ACCURACY_G, KD_ACCURACY_QUANTITIES };
 extern const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES]; /* "r", "phi", "delay", "g" */
@@ -44,7 +45,7 @@ struct kd_accuracy_table {
     char skipped[400];              /* what this device cannot do, "" if it can do all */
     uint32_t cores;                 /* that the device computes on, 0 where it is no CPU */
     bool device_clock, quick;
-    double seconds; /* of device time that a speed was measured over, at least */
+    double seconds; /* of device time that a speed was measured over, less where a million rays take less */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };
@@ -53,8 +54,11 @@ struct kd_accuracy_choice {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps;
-    double error, rays_per_s; /* KD_ACCURACY_SAFETY times the bulk's median; over the bulk */
+    double error, rays_per_s; /* what it holds; speed over the bulk */
 };
+
+/* The tolerance that a row holds; INFINITY if none. */
+double kd_accuracy_holds(const struct kd_accuracy_row *row);
 
 /* The fastest row that holds a relative error of the crossing radius. KD_EINVAL at "/accuracy/tolerance", saying what this
  * device can hold, if none does. */

@@ -44,6 +44,7 @@ static cJSON *row_to_json(const struct kd_accuracy_table *table, const struct kd
     cJSON_AddStringToObject(o, "engine", kd_engine_name(row->engine));
     cJSON_AddStringToObject(o, "precision", kd_precision_name(row->precision));
     cJSON_AddNumberToObject(o, "steps", row->steps);
+    add_figure(o, "holds", kd_accuracy_holds(row)); /* for readers; derived from the rest */
     cJSON *sets = cJSON_AddObjectToObject(o, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
         if (row->sets[k].rays)

@@ -9,9 +9,9 @@ KERRD = os.path.abspath(sys.argv.pop(1))
 SMALL = ["--set", "image.width=64", "--set", "image.height=36"]
 
 
-def run(*args, stdin=b"", **kwargs):
+def run(*args, stdin=b"", seconds=60, **kwargs):
     kwargs.setdefault("stdout", subprocess.PIPE)
-    return subprocess.run([KERRD, *args], input=stdin, stderr=subprocess.PIPE, timeout=60, **kwargs)
+    return subprocess.run([KERRD, *args], input=stdin, stderr=subprocess.PIPE, timeout=seconds, **kwargs)
 
 
 class Case(unittest.TestCase):

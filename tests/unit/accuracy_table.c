@@ -23,9 +23,10 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         struct kd_accuracy_entry *e = &row->sets[k];
         *e = (struct kd_accuracy_entry) { .rays_per_s = speed, .rays = 1000, .crossings = 1500 };
-        /* Only the bulk's radii are to be looked at. */
+        /* Only radii are to be looked at, and nothing near the critical curve. */
         for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++)
-            e->of[q] = k || q ? (struct kd_accuracy_errors) { 1, 1, 1 } : (struct kd_accuracy_errors) { median, 9 * median, 1 };
+            e->of[q] = k == KD_ACCURACY_NEAR_CRITICAL || q ? (struct kd_accuracy_errors) { 1, 1, 1 }
+                                                           : (struct kd_accuracy_errors) { median, 9 * median, 1 };
     }
     return row;
 }
@@ -96,6 +97,22 @@ static void what_none_holds(void **state)
     refused(0.5, "kerrd bench accuracy");
     table.n = 0;
     refused(0.5, "kerrd bench accuracy");
+}
+
+/* Few steps may do for the bulk and not edge-on. */
+static void other_sets(void **state)
+{
+    (void)state;
+    struct kd_accuracy_entry *edge_on = &table.rows[1].sets[KD_ACCURACY_EDGE_ON];
+    edge_on->of[KD_ACCURACY_R].median = 1e-5;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
+    edge_on->of[KD_ACCURACY_R].median = 1.1e-5;
+    expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
+    expect(1.1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
+    edge_on->differ = 11;
+    expect(0.5, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
+    table.rows[6].sets[KD_ACCURACY_NEAR_CRITICAL].differ = 1000;
+    expect(0.5, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
 }
 
 /* A row that loses rays, or has no figures, cannot be relied on. */
@@ -288,6 +305,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(the_cheapest_that_holds, made_up),
         cmocka_unit_test_setup(what_none_holds, made_up),
+        cmocka_unit_test_setup(other_sets, made_up),
         cmocka_unit_test_setup(rows_to_be_left_out, made_up),
         cmocka_unit_test_setup(there_and_back, made_up),
         cmocka_unit_test_setup(no_table, made_up),

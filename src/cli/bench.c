@@ -1,0 +1,195 @@
+/* kerrd bench: what this device can do, measured. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "render/accuracy_measure.h"
+#include "render/accuracy_store.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct arguments {
+    const char *device, *json, *markdown, *subject;
+    struct kd_accuracy_params params;
+};
+
+enum { KEY_MARKDOWN = 0x100, KEY_QUICK, KEY_SECONDS };
+
+static const struct argp_option options[] = {
+    { "output", 'o', "FILE", 0, "write the table here as JSON, - for standard output", 0 },
+    { "markdown", KEY_MARKDOWN, "FILE", 0, "write it here as Markdown", 0 },
+    { "quick", KEY_QUICK, NULL, 0, "fewer rays and shorter timing: seconds instead of minutes", 0 },
+    { "seconds", KEY_SECONDS, "S", 0, "device time that each speed is measured over (default 0.5; quick 0.02)", 0 },
+    { 0 },
+};
+
+static double seconds_of(const struct argp_state *state, const char *text)
+{
+    char *end;
+    double value = strtod(text, &end);
+    if (end == text || *end || !(value >= 0.001 && value <= 60))
+        argp_error(state, "--seconds %s: a number from 0.001 to 60", text);
+    return value;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
+    case 'o': arguments->json = text; return 0;
+    case KEY_MARKDOWN: arguments->markdown = text; return 0;
+    case KEY_QUICK: arguments->params.quick = true; return 0;
+    case KEY_SECONDS: arguments->params.seconds = seconds_of(state, text); return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->subject || strcmp(text, "accuracy") != 0)
+            argp_error(state, "%s: there is one benchmark, accuracy", text);
+        arguments->subject = text;
+        return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "the benchmark is missing: accuracy"); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static enum kd_status put_error(struct kd_buffer *out, double value)
+{
+    return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
+}
+
+/* Speed and median errors over the bulk, and what that and the other sets hold: one line a row. */
+static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_printf(out, "%s\n%s\n\n%-10s %-9s %5s %12s %9s %9s %9s %7s %9s\n", t->device,
+                                             kd_accuracy_set_rays[KD_ACCURACY_BULK], "engine", "precision", "steps",
+                                             t->cores ? "Mray/s/core" : "Mray/s", "r", "phi", "delay", "differ", "holds");
+    for (uint32_t i = 0; i < t->n && !status; i++) {
+        const struct kd_accuracy_row *row = &t->rows[i];
+        const struct kd_accuracy_entry *e = &row->sets[KD_ACCURACY_BULK];
+        bool closed = row->engine == KD_ENGINE_CLOSED;
+        status = kd_buffer_printf(out, "%-10s %-9s %5u %12.3g", kd_engine_name(row->engine), kd_precision_name(row->precision),
+                                  row->steps, e->rays_per_s * 1e-6 / (closed || !t->cores ? 1 : t->cores));
+        for (int q = 0; q < KD_ACCURACY_G && !status; q++)
+            status = put_error(out, e->of[q].median);
+        if (!status)
+            status = closed ? kd_buffer_printf(out, " %7s", "-") : kd_buffer_printf(out, " %7u", e->differ);
+        if (!status)
+            status = put_error(out, kd_accuracy_holds(row));
+        if (!status)
+            status = kd_buffer_printf(out, "\n");
+    }
+    return status || !t->skipped[0] ? status : kd_buffer_printf(out, "skipped: %s\n", t->skipped);
+}
+
+static enum kd_status write_as(const struct kd_accuracy_table *table, const char *path, struct kd_error *error,
+                               enum kd_status (*format)(const struct kd_accuracy_table *, struct kd_buffer *))
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = KD_OK;
+    if (path && format(table, &text))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the table");
+    else if (path)
+        status = kd_file_write(path, &text, error);
+    kd_buffer_finish(&text);
+    return status;
+}
+
+/* A quick table does not replace a thorough one of the same version. */
+static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_accuracy_table *table, struct kd_buffer *said,
+                           struct kd_error *error)
+{
+    struct kd_accuracy_table *old = malloc(sizeof *old);
+    char *path = kd_accuracy_path(renderer);
+    enum kd_status status = KD_OK, told;
+    if (!path)
+        told = kd_buffer_printf(said, "\nnot kept: there is no cache directory\n");
+    else if (old && table->quick && !kd_accuracy_load(path, old, NULL) && !old->quick && !strcmp(old->version, table->version))
+        told = kd_buffer_printf(said, "\nnot kept: %s is no quick one\n", path);
+    else if (!(status = kd_accuracy_save(table, path, error)))
+        told = kd_buffer_printf(said, "\nkept in %s\n", path);
+    else
+        told = status;
+    free(path);
+    free(old);
+    return told && !status ? kd_error_set(error, told, "out of memory") : status;
+}
+
+static enum kd_status measure(struct arguments *a, struct kd_accuracy_table *t, struct kd_buffer *said, struct kd_error *error)
+{
+    struct kd_renderer *renderer = NULL;
+    struct kd_progress progress;
+    enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = a->device }, &renderer, error);
+    if (status)
+        return status;
+    kd_progress_init(&progress);
+    kd_progress_catch_signals();
+    status = kd_accuracy_measure(renderer, &a->params, kd_progress_update, &progress, t, error);
+    kd_progress_finish(&progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    if (!status && summarise(t, said))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory");
+    if (!status)
+        status = keep(renderer, t, said, error);
+    kd_renderer_destroy(renderer);
+    kd_progress_reraise();
+    return status;
+}
+
+static enum kd_status bench(struct arguments *a, struct kd_buffer *said, struct kd_error *error)
+{
+    struct kd_accuracy_table *t = malloc(sizeof *t);
+    enum kd_status status = t ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the table");
+    if (!status && a->json)
+        status = kd_file_check(a->json, error);
+    if (!status && a->markdown)
+        status = kd_file_check(a->markdown, error);
+    if (!status)
+        status = measure(a, t, said, error);
+    if (!status)
+        status = write_as(t, a->json, error, kd_accuracy_to_json);
+    if (!status)
+        status = write_as(t, a->markdown, error, kd_accuracy_to_markdown);
+    free(t);
+    return status;
+}
+
+/* As it was typed, but for quoting. */
+static char *command_of(int argc, char **argv)
+{
+    struct kd_buffer text = { 0 };
+    for (int i = 0; i < argc; i++)
+        if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i]))
+            break;
+    return (char *)text.data;
+}
+
+int kd_cli_bench(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        .options = options,
+        .parser = parse,
+        .args_doc = "accuracy",
+        .doc = "Measure speed and error of every engine, precision and number of steps on this device, against the closed form.\v"
+               "The table is kept for this device, and GET /v1/accuracy serves it. Errors are those of the crossings of the "
+               "equatorial plane, speeds the device's own time. Without --quick it takes some minutes.",
+        .children = children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_buffer said = { 0 };
+    struct kd_error error = { 0 };
+
+    char *command = command_of(argc, argv);
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    arguments.params.command = command;
+    enum kd_status status = bench(&arguments, &said, &error);
+    free(command);
+    bool loud = (arguments.json && !strcmp(arguments.json, "-")) || (arguments.markdown && !strcmp(arguments.markdown, "-"));
+    int code = status ? kd_cli_fail(&error) : loud ? KD_EXIT_OK : kd_cli_print(said.data, said.size);
+    kd_buffer_finish(&said);
+    return code;
+}

@@ -1,0 +1,140 @@
+"""kerrd bench accuracy, once, on a real device: what the table says must be plausible, kept, and served."""
+import json
+import math
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import unittest
+import urllib.error
+import urllib.request
+
+from support import KERRD, Case, main, run
+
+SETS = ["bulk", "near-critical", "near-axis", "edge-on", "near-extremal"]
+
+
+def serve(cache, path):
+    """Status and document of one GET from a daemon of its own."""
+    daemon = subprocess.Popen([KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache})
+    try:
+        url = re.search(r"http://\S+", daemon.stdout.readline().decode())[0]
+        with urllib.request.urlopen(url + path, timeout=30) as answer:
+            return answer.status, answer.headers["Content-Type"], json.load(answer)
+    except urllib.error.HTTPError as answer:
+        return answer.code, answer.headers["Content-Type"], json.load(answer)
+    finally:
+        daemon.send_signal(signal.SIGTERM)
+        daemon.wait(30)
+        daemon.stdout.close()
+
+
+class Accuracy(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.cache = folder.name
+        cls.before = serve(cls.cache, "v1/accuracy")
+        files = [os.path.join(folder.name, name) for name in ("table.json", "table.md")]
+        done = run("bench", "accuracy", "--quick", "-o", files[0], "--markdown", files[1],
+                   env={**os.environ, "XDG_CACHE_HOME": cls.cache}, seconds=500)
+        assert (done.returncode, done.stderr) == (0, b""), done
+        cls.said = done.stdout.decode()
+        with open(files[0], encoding="utf-8") as file:
+            cls.table = json.load(file)
+        with open(files[1], encoding="utf-8") as file:
+            cls.markdown = file.read()
+        cls.rows = {(row["engine"], row["precision"], row["steps"]): row["sets"] for row in cls.table["rows"]}
+
+    def test_says_where_it_comes_from(self):
+        self.assertEqual(self.table["command"].split()[:3], ["kerrd", "bench", "accuracy"])
+        self.assertRegex(self.table["date"], r"^20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        for key in "kerrd", "machine", "device", "clock", "reference":
+            self.assertTrue(self.table[key], key)
+        self.assertEqual((self.table["quick"], self.table["reference"]), (True, "closed"))
+        self.assertEqual(list(self.table["sets"]), SETS)
+
+    def test_every_setting(self):
+        steps = {"mino-rkn6": (4, 128), "ks-rk4": (16, 256), "ks-euler": (64, 1024), "ks-tao6": (32, 256)}
+        precisions = ["f32"] if self.table["skipped"] else ["f32", "f64"]
+        wanted = {("closed", "f64", 0)} | {(engine, precision, first << k) for engine, (first, last) in steps.items()
+                                           for precision in precisions for k in range(int(math.log2(last // first)) + 1)}
+        self.assertEqual(set(self.rows), wanted)
+        for key, sets in self.rows.items():
+            self.assertEqual(list(sets), SETS)
+            for name, entry in sets.items():
+                with self.subTest(f"{key} {name}"):
+                    self.assertGreater(entry["rays_per_s"], 0)
+                    self.assertGreaterEqual(entry["rays"], 200)
+                    self.assertEqual("r" in entry, key[0] != "closed")
+                    self.assertEqual("delay" in entry, key[0] == "mino-rkn6")
+                    for quantity in {"r", "phi", "delay", "g"} & set(entry):
+                        figures = entry[quantity]
+                        self.assertTrue(0 <= figures["median"] <= figures["p99"] <= figures["worst"], figures)
+
+    def bulk(self, engine, precision, steps):
+        return self.rows[engine, precision, steps]["bulk"]
+
+    def test_single_precision(self):
+        bulk = self.bulk("mino-rkn6", "f32", 16)
+        self.assertLessEqual(bulk["r"]["median"], 2e-7)
+        self.assertLessEqual(bulk["phi"]["median"], 2e-7)
+        self.assertEqual(bulk["differ"], 0)
+        # Single precision holds b to 6e-8: a millionth beside the critical curve a fate may still come out wrong now and then.
+        self.assertLess(self.rows["mino-rkn6", "f32", 16]["near-critical"]["differ"], 8)
+
+    def test_double_precision(self):
+        if self.table["skipped"]:
+            self.skipTest(self.table["skipped"])
+        bulk = self.bulk("mino-rkn6", "f64", 64)
+        self.assertLessEqual(bulk["r"]["median"], 1e-12)
+        self.assertLessEqual(bulk["phi"]["median"], 1e-12)
+        self.assertLessEqual(bulk["delay"]["median"], 1e-10)
+        for name in SETS:
+            self.assertEqual(self.rows["mino-rkn6", "f64", 64][name]["differ"], 0, name)
+        # Order 6 and order 4: errors of the bulk fall by at least half of 2^order.
+        for engine, coarse, ratio in (("mino-rkn6", 8, 32), ("ks-rk4", 32, 8), ("ks-euler", 64, 1)):
+            self.assertGreater(self.bulk(engine, "f64", coarse)["r"]["median"] /
+                               self.bulk(engine, "f64", 2 * coarse)["r"]["median"], ratio, engine)
+
+    def test_mino_time_pays(self):
+        """Printed, not asserted: times are no gates."""
+        def fastest(engine, precisions, bound):
+            return max((sets["bulk"]["rays_per_s"] for (name, precision, _), sets in self.rows.items()
+                        if name == engine and precision in precisions and sets["bulk"]["r"]["median"] <= bound), default=None)
+        mino, other = fastest("mino-rkn6", ("f32",), 1e-6), fastest("ks-rk4", ("f32", "f64"), 1e-6)
+        self.assertIsNotNone(mino)
+        print(f"at a median error of 1e-6: mino-rkn6 {mino:.3g} rays/s, ks-rk4 " +
+              (f"{other:.3g}, ratio {mino / other:.0f}" if other else "never"))
+
+    def test_kept_and_served(self):
+        kept = re.search(r"^kept in (.+)$", self.said, re.M)[1]
+        self.assertTrue(kept.startswith(self.cache + "/kerrd/"))
+        status, kind, problem = self.before
+        self.assertEqual((status, kind), (404, "application/problem+json"))
+        self.assertIn("kerrd bench accuracy", problem["detail"])
+        self.assertEqual(serve(self.cache, "v1/accuracy"), (200, "application/json", self.table))
+        with open(kept, "r+", encoding="utf-8") as file:
+            file.truncate(1000)
+        status, _, problem = serve(self.cache, "v1/accuracy")
+        self.assertEqual(status, 404)
+        self.assertIn("damaged", problem["detail"])
+
+    def test_markdown(self):
+        self.assertEqual(self.markdown.count("\n| mino-rkn6 | f32 | 16 |"), len(SETS))
+        self.assertIn(self.table["device"], self.markdown)
+
+
+class Usage(Case):
+    def test_usage(self):
+        self.bad(2, "the benchmark is missing", "bench")
+        self.bad(2, "there is one benchmark", "bench", "speed")
+        for seconds in "0", "x", "1e3", "nan", "":
+            self.bad(2, "a number from 0.001 to 60", "bench", "accuracy", "--seconds", seconds)
+        self.bad(2, "it is a directory", "bench", "accuracy", "-o", self.folder)
+
+
+if __name__ == "__main__":
+    main(needs_device=True)
