@@ -229,7 +229,7 @@ static void add_slopes(const struct kd_null_ray *ray, const struct kd_null_path 
 }
 
 /* Roundings per chain of operations, from some 1e5 rays repeated with 64-bit significands: the worst error
- * was 2.1 times its estimate, and one in ten thousand exceeded it. Near maximal spin three roots crowd at the
+ * was 2.5 times its estimate, and one in ten thousand exceeded it. Near maximal spin three roots crowd at the
  * horizon and disturbances that slopes in alpha and beta do not show weigh 1/(r+ - r-). */
 static double weight_of(const struct kd_null_ray *ray)
 {

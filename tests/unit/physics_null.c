@@ -272,6 +272,66 @@ static void many_orders(void **state)
     assert_true(p.crossing[4].error_r > 100 * p.crossing[2].error_r);
 }
 
+/* The scale at which the direction (x, y) of the image meets the critical curve, to the last bit. */
+static double critical_scale(struct kd_null_ray ray, double x, double y)
+{
+    double low = 1, high = 20;
+    for (int i = 0; i < 80; i++) {
+        double middle = 0.5 * (low + high);
+        ray.alpha = middle * x, ray.beta = middle * y;
+        *(kd_null_trace_fast(&ray).fate == KD_NULL_CAPTURED ? &low : &high) = middle;
+    }
+    return high;
+}
+
+/* Rays a few roundings apart agree to within their estimates, also where they linger at the photon sphere and
+ * where they reach the horizon: places at which a rounded r moves phi and t by thousands of roundings. */
+static void neighbours(void **state)
+{
+    (void)state;
+    static const double spins[] = { 0, 0.5, 0.9, -0.9, 0.998 },
+                        off[] = { 1e-3, 1e-6, 1e-10, -1e-3, -1e-6, -1e-10 };
+    for (size_t i = 0; i < COUNT(spins) * COUNT(off) * 6; i++) {
+        struct kd_null_ray ray = {
+            .spin = spins[i % COUNT(spins)], .radius = INFINITY, .cos_theta = 0.6, .orders = 4
+        };
+        double angle = 1 + (double)(i / COUNT(spins) / COUNT(off)), x = cos(angle), y = sin(angle);
+        double b = critical_scale(ray, x, y) * (1 + off[i / COUNT(spins) % COUNT(off)]);
+        ray.alpha = b * x, ray.beta = b * y;
+        struct kd_null_path p = kd_null_trace(&ray);
+        for (int k = 1; k <= 8; k++) {
+            struct kd_null_ray beside = ray;
+            beside.alpha *= 1 + k * DBL_EPSILON, beside.beta *= 1 + k * DBL_EPSILON;
+            struct kd_null_path q = kd_null_trace_fast(&beside);
+            assert_int_equal(p.crossings, q.crossings);
+            for (int n = 0; n < p.crossings; n++) {
+                const struct kd_null_crossing *c = &p.crossing[n], *d = &q.crossing[n];
+                within(i, n, "r beside", fabs(d->r / c->r - 1), 2 * c->error_r);
+                within(i, n, "phi beside", fabs(d->phi - c->phi), 2 * c->error_phi);
+                within(i, n, "delay beside", fabs(d->delay - c->delay), 2 * c->error_delay);
+            }
+        }
+    }
+}
+
+/* On the critical curve to the last bits a ray is still traced, and says that its fate is a guess. */
+static void exactly_critical(void **state)
+{
+    (void)state;
+    int uncertain = 0;
+    for (int k = -50; k <= 50; k++) {
+        struct kd_null_ray ray = {
+            .radius = INFINITY, .cos_theta = 0.6, .alpha = sqrt(27) * (1 + k * DBL_EPSILON), .orders = 3
+        };
+        struct kd_null_path p = kd_null_trace(&ray);
+        uncertain += p.status == KD_NULL_CRITICAL;
+        assert_int_equal(p.crossings, 3);
+        for (int n = 1; n < 3; n++)
+            within(k + 50, n, "r at the photon sphere", fabs(p.crossing[n].r - 3), n == 1 ? 0.05 : 0.003);
+    }
+    assert_in_range(uncertain, 10, 60); /* some 16 roundings to either side */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -284,6 +344,8 @@ int main(void)
         cmocka_unit_test(observers_along_a_ray),
         cmocka_unit_test(degenerate_input),
         cmocka_unit_test(principal_rays),
+        cmocka_unit_test(neighbours),
+        cmocka_unit_test(exactly_critical),
         cmocka_unit_test(many_orders),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
