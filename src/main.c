@@ -12,7 +12,7 @@ static const struct command {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    { "render", kd_cli_render },   { "plan", kd_cli_plan },   { "scene", kd_cli_scene },
+    { "render", kd_cli_render },   { "rays", kd_cli_rays },   { "plan", kd_cli_plan },   { "scene", kd_cli_scene },
     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
     { "bench", kd_cli_bench },
 };
@@ -32,7 +32,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
                 choice->command = &commands[i];
         if (!choice->command)
             argp_error(state,
-                       "there is no command \"%s\"; known are render, plan, scene, presets, serve, doctor, bench",
+                       "there is no command \"%s\"; known are render, rays, plan, scene, presets, serve, doctor, bench",
                        text);
         choice->index = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
@@ -48,6 +48,7 @@ static const struct argp argp = {
     .doc = "Pictures of black holes: a Kerr renderer on a Vulkan device.\v"
            "Commands (`kerrd COMMAND --help` says more):\n"
            "  render    a scene to a PNG file\n"
+           "  rays      end points of listed rays: crossings, redshift, delay\n"
            "  plan      what a scene costs on this device\n"
            "  scene     the merged scene, every field named\n"
            "  presets   the scenes known by name\n"

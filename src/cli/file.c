@@ -92,8 +92,8 @@ enum kd_status kd_file_check(const char *path, struct kd_error *error)
     if (strcmp(path, "-") == 0) {
         if (isatty(STDOUT_FILENO))
             return kd_error_set(error, KD_EINVAL,
-                                "-o - would write a picture to the terminal: redirect it, or "
-                                "name a file");
+                                "-o - would write bytes to the terminal: redirect it, or name "
+                                "a file");
         return KD_OK;
     }
     struct target target;
@@ -116,10 +116,15 @@ enum kd_status kd_file_check(const char *path, struct kd_error *error)
     return status;
 }
 
-static bool write_all(int fd, const struct kd_buffer *data)
+struct source {
+    size_t (*read)(void *user, void *to, size_t size);
+    void *user;
+};
+
+static bool write_bytes(int fd, const char *from, size_t size)
 {
-    for (size_t done = 0; done < data->size;) {
-        ssize_t n = write(fd, data->data + done, data->size - done);
+    for (size_t done = 0; done < size;) {
+        ssize_t n = write(fd, from + done, size - done);
         if (n < 0 && errno != EINTR)
             return false;
         done += n > 0 ? (size_t)n : 0;
@@ -127,7 +132,17 @@ static bool write_all(int fd, const struct kd_buffer *data)
     return true;
 }
 
-static bool replace(const char *path, const struct kd_buffer *data)
+static bool write_all(int fd, const struct source *source)
+{
+    char chunk[64 * 1024];
+    size_t n;
+    while ((n = source->read(source->user, chunk, sizeof chunk)))
+        if (!write_bytes(fd, chunk, n))
+            return false;
+    return true;
+}
+
+static bool replace(const char *path, const struct source *data)
 {
     char *temporary;
     int fd = open_beside(path, &temporary);
@@ -145,7 +160,7 @@ static bool replace(const char *path, const struct kd_buffer *data)
     return good;
 }
 
-static bool write_in_place(const char *path, const struct kd_buffer *data)
+static bool write_in_place(const char *path, const struct source *data)
 {
     int fd = open(path, O_WRONLY | O_CLOEXEC);
     if (fd < 0)
@@ -154,18 +169,40 @@ static bool write_in_place(const char *path, const struct kd_buffer *data)
     return close(fd) == 0 && good;
 }
 
-enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error)
+enum kd_status kd_file_stream(const char *path, size_t (*read)(void *user, void *to, size_t size), void *user,
+                              struct kd_error *error)
 {
+    const struct source data = { read, user };
     if (strcmp(path, "-") == 0)
-        return write_all(STDOUT_FILENO, data)
+        return write_all(STDOUT_FILENO, &data)
                    ? KD_OK
                    : kd_error_set(error, KD_EIO, "cannot write to standard output: %s", strerror(errno));
     struct target target;
     enum kd_status status = find_target(path, &target, error);
     if (status)
         return status;
-    if (!(target.in_place ? write_in_place(target.path, data) : replace(target.path, data)))
+    if (!(target.in_place ? write_in_place(target.path, &data) : replace(target.path, &data)))
         status = kd_error_set(error, KD_EIO, "cannot write %s: %s", path, strerror(errno));
     free(target.path);
     return status;
+}
+
+struct memory {
+    const struct kd_buffer *data;
+    size_t at;
+};
+
+static size_t read_memory(void *user, void *to, size_t size)
+{
+    struct memory *memory = user;
+    size_t left = memory->data->size - memory->at, n = left < size ? left : size;
+    if (n)
+        memcpy(to, memory->data->data + memory->at, n);
+    memory->at += n;
+    return n;
+}
+
+enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error)
+{
+    return kd_file_stream(path, read_memory, &(struct memory) { data, 0 }, error);
 }

@@ -5,6 +5,8 @@
 #include "base/buffer.h"
 #include "base/error.h"
 
+#include <stddef.h>
+
 /* KD_EINVAL when there is no such file to read or it has more than `most` bytes. Finish *out in any case. */
 enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out, struct kd_error *error);
 
@@ -13,5 +15,9 @@ enum kd_status kd_file_check(const char *path, struct kd_error *error);
 
 /* Under a temporary name, then renamed: nobody ever sees half a file. A device or a pipe is written to. */
 enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error);
+
+/* The same for bytes that are made while they are written: `read` gives up to `size` more, 0 at the end. */
+enum kd_status kd_file_stream(const char *path, size_t (*read)(void *user, void *to, size_t size), void *user,
+                              struct kd_error *error);
 
 #endif

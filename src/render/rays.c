@@ -1,11 +1,8 @@
 #include "render/rays.h"
 
-#include "physics/disk.h"
-#include "physics/kerr.h"
 #include "render/internal.h"
 #include "render/rays_check.h"
-
-#include <math.h>
+#include "render/rays_closed.h"
 
 const char *kd_engine_name(enum kd_engine engine)
 {
@@ -21,25 +18,6 @@ const char *kd_precision_name(enum kd_precision precision)
     return precision == KD_PRECISION_F32 ? "f32" : "f64";
 }
 
-/* Exact at the quarter turns, where observers like to sit. */
-static double sine(double degrees)
-{
-    return degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
-}
-
-/* The engines of the device know positions alone. */
-static void add_redshift(const struct kd_rays_params *p, const double *alpha_beta, size_t n,
-                         struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
-{
-    double s = sine(p->inclination_deg), isco = kd_kerr_isco(p->spin);
-    for (size_t i = 0; i < n; i++)
-        for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
-            struct kd_ray_crossing *c = &crossings[i * p->orders + k];
-            if (c->r >= isco)
-                c->g = kd_disk_redshift(p->spin, c->r, -alpha_beta[2 * i] * s);
-        }
-}
-
 static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                                       const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
                                       struct kd_ray_end *ends, kd_progress_fn progress, void *user,
@@ -50,7 +28,7 @@ static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct
     enum kd_status status =
         kd_rays_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
     if (!status)
-        add_redshift(params, alpha_beta, n, crossings, ends);
+        kd_rays_redshift(params, alpha_beta, n, crossings, ends);
     return status;
 }
 
@@ -62,6 +40,6 @@ enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_
     if (status)
         return status;
     if (params->engine == KD_ENGINE_CLOSED)
-        return kd_error_field(error, "/accuracy/engine", "engine closed is not in this build");
+        return kd_rays_closed(params, alpha_beta, n, crossings, ends, progress, user, error);
     return trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
 }

@@ -48,7 +48,7 @@ enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd
     answer->undecided = 0;
     for (size_t i = 0; i < answer->n; i++) {
         answer->undecided += answer->ends[i].fate == KD_RAY_UNDECIDED;
-        if (!isnan(answer->ends[i].error))
+        if (isfinite(answer->ends[i].error))
             errors[n++] = answer->ends[i].error;
     }
     qsort(errors, n, sizeof *errors, ascending);

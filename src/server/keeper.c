@@ -54,8 +54,10 @@ static bool step_down(struct kd_server *server, double *since)
             enter(server, KD_REFUSING, since);
         return false;
     case KD_REFUSING:
-        if (atomic_load(&server->abandon))
-            kd_render_queue_cancel(server->renders), kd_rays_queue_cancel(server->rays);
+        if (atomic_load(&server->abandon)) {
+            kd_render_queue_cancel(server->renders);
+            kd_rays_queue_cancel(server->rays);
+        }
         if (kd_render_queue_unfinished(server->renders) || kd_rays_queue_unfinished(server->rays))
             return false;
         stop_listening(server);

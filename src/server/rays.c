@@ -76,9 +76,12 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
              job->trace_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
     MHD_add_response_header(response, "Vary", "Accept");
-    snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s undecided=%zu median=%.1e worst=%.1e", answer->n,
-             kd_engine_name(answer->params.engine), kd_precision_name(answer->params.precision), answer->undecided,
-             answer->median_error, answer->worst_error);
+    int n = snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s undecided=%zu", answer->n,
+                     kd_engine_name(answer->params.engine), kd_precision_name(answer->params.precision),
+                     answer->undecided);
+    if (!isnan(answer->worst_error))
+        snprintf(accuracy + n, sizeof accuracy - (size_t)n, " median=%.1e worst=%.1e", answer->median_error,
+                 answer->worst_error);
     MHD_add_response_header(response, "Kerrd-Accuracy", accuracy);
     enum kd_status status = KD_OK;
     for (size_t i = 0; !status && (sentence = kd_rays_approximation(&answer->params, i)); i++)

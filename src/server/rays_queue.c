@@ -8,9 +8,9 @@
 #include <stdlib.h>
 
 #define WORKERS_MAX 16
-#define SLICE 4096             /* rays: some 20 ms of one core */
+#define SLICE 4096             /* rays: some 35 ms of one core */
 #define BYTES_PER_RAY 32       /* of a body not yet read: to guess from */
-#define GUESS_RAYS_PER_MS 200. /* of one worker, until it has been measured */
+#define GUESS_RAYS_PER_MS 120. /* of one worker, until it has been measured */
 
 struct kd_rays_queue {
     struct kd_render_queue *renders;
@@ -23,7 +23,7 @@ struct kd_rays_queue {
     pthread_cond_t changed;
     bool closing;
     struct kd_rays_job *first, **end; /* have work for a worker, in the order of their turns */
-    unsigned unfinished;
+    unsigned accepted, unfinished; /* the former no longer counts what is being handed back */
     double backlog_rays; /* of all that is unfinished */
     double rays_per_ms;  /* of one worker, smoothed */
     pthread_t workers[WORKERS_MAX];
@@ -215,6 +215,9 @@ static void finish(struct kd_rays_queue *queue, struct kd_rays_job *job) /* as b
     job->trace_ms = kd_clock_ms() - job->traced_from_ms;
     if (!job->status)
         job->status = kd_rays_answer_summarise(&job->answer, &job->error);
+    pthread_mutex_lock(&queue->lock);
+    queue->accepted--;
+    pthread_mutex_unlock(&queue->lock);
     job->done(job);
     pthread_mutex_lock(&queue->lock);
     queue->unfinished--;
@@ -288,7 +291,9 @@ void kd_rays_queue_destroy(struct kd_rays_queue *queue)
 
 enum kd_status kd_rays_queue_admit(struct kd_rays_queue *queue, struct kd_error *error)
 {
-    unsigned n = kd_rays_queue_unfinished(queue);
+    pthread_mutex_lock(&queue->lock);
+    unsigned n = queue->accepted;
+    pthread_mutex_unlock(&queue->lock);
     return n < queue->limit ? KD_OK
                             : kd_error_set(error, KD_EBUSY, "%u requests for rays are under way, as many as may", n);
 }
@@ -306,6 +311,7 @@ void kd_rays_queue_push(struct kd_rays_queue *queue, struct kd_rays_job *job)
     job->queue = queue;
     job->submitted_ms = kd_clock_ms();
     pthread_mutex_lock(&queue->lock);
+    queue->accepted++;
     queue->unfinished++;
     queue->backlog_rays += guess_rays(job);
     append(queue, job);

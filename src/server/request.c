@@ -107,12 +107,12 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
             (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;
     }
-    bool npy = request->route->takes == KD_TAKES_RAYS;
+    bool rays = request->route->takes == KD_TAKES_RAYS;
     if (!kd_media_type_is(request->header.content_type, "application/json") &&
-        !(npy && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {
+        !(rays && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {
         *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE,
-                                         .offered = npy ? "application/json, " KD_NPY_TYPE : "application/json",
-                                         .detail = npy ? "a body must say Content-Type: application/json or " KD_NPY_TYPE
+                                         .offered = rays ? "application/json, " KD_NPY_TYPE : "application/json",
+                                         .detail = rays ? "a body must say Content-Type: application/json or " KD_NPY_TYPE
                                                        : "a body must say Content-Type: application/json" };
         return true;
     }

@@ -78,6 +78,22 @@ class Kerrd(unittest.TestCase):
             together = [a.body for a in pool.map(self.daemon.get, targets)]
         self.assertEqual(together, [self.daemon.get(t).body for t in targets])
 
+    def test_rays_of_the_device_are_those_of_the_closed_form(self):
+        rays = [[a / 3 - 9, b / 3 - 8.9] for a in range(55) for b in range(55)]
+        answers = []
+        for engine in ('closed', 'mino-rkn6'):
+            answers.append(self.daemon.post('/v1/rays', {'spin': 0.5, 'rays': rays, 'accuracy': {'engine': engine}}).json())
+        inside = 0
+        for closed, device in zip(*(answer['rays'] for answer in answers)):
+            self.assertEqual(closed['fate'], device['fate'])
+            self.assertEqual(len(closed['crossings']), len(device['crossings']))
+            for one, other in zip(closed['crossings'], device['crossings']):
+                bound = max(1e-9, 10 * device['error'])
+                self.assertLess(abs(one['r'] / other['r'] - 1), bound)
+                self.assertLess(abs(one['g'] / other['g'] - 1), 30 * bound)
+                inside += one['r'] < 4.2
+        self.assertGreater(inside, 50)  # where the redshift depends on which way the light left
+
     def test_a_vanished_client_stops_its_render(self):
         for _ in range(3):
             with self.daemon.connect() as s:

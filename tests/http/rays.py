@@ -3,7 +3,6 @@ import ast
 import concurrent.futures
 import json
 import math
-import socket
 import struct
 import time
 import unittest
@@ -43,10 +42,11 @@ def flat(ray, orders):
     """A ray of the JSON form as a record."""
     fates = ['captured', 'escaped', 'undecided']
     nan = math.nan
-    row = {'fate': fates.index(ray['fate']), 'n_crossings': len(ray['crossings']), 'error': ray.get('error', nan),
-           'sky_theta': ray.get('sky', {}).get('theta', nan), 'sky_phi': ray.get('sky', {}).get('phi', nan)}
+    sky = ray.get('sky', {})
+    row = {'fate': fates.index(ray['fate']), 'n_crossings': len(ray['crossings']), 'error': float(ray.get('error', nan)),
+           'sky_theta': float(sky.get('theta', nan)), 'sky_phi': float(sky.get('phi', nan))}
     for name in ('r', 'phi', 'delay', 'g'):
-        row[name] = [c.get(name, nan) for c in ray['crossings']] + [nan] * (orders - len(ray['crossings']))
+        row[name] = [float(c.get(name, nan)) for c in ray['crossings']] + [nan] * (orders - len(ray['crossings']))
     return row
 
 
@@ -226,6 +226,183 @@ class Device(daemon.Case):
         begun = time.monotonic()
         self.assertEqual(self.daemon.get('/v1/render?' + daemon.SMALL).status, 200)
         self.assertLess(time.monotonic() - begun, 5)
+
+
+# spin, inclination, alpha, beta, fate, crossings (r, phi), sky: by the oracle of tests/oracle, from r = 1e6. Azimuths to a turn.
+ORACLE = (
+    (0.9, 60, -5, 1, 'escaped', [(4.05136443, -2.08075964)], (1.9273608, 1.5264424)),
+    (0.9, 60, -3, 4, 'escaped', [(3.72775338, -3.01493976)], (2.3354472, 0.5571441)),
+    (0.9, 60, 6, -3, 'escaped', [(8.1466402, 0.76557325), (5.25075292, -2.74900311)], (0.89439331, -1.0578717)),
+    (0.9, 60, -7, 0.5, 'escaped', [(6.06079001, -1.76341207)], (1.9959776, 2.1969629)),
+    (0, 45, 3, 4.5, 'escaped', [(3.80055775, 2.70108199), (9.24076804, -0.440510663)], (1.0092031, -0.16890403)),
+    (-0.7, 120, 2, 6, 'escaped', [(12.0708891, 0.170894046), (10.2209045, -2.81388108)], (2.1991564, -2.5971981)),
+    (0.99, 17, -4.5, 1.5, 'escaped', [(3.70033159, -2.06414067), (7.20449414, 0.475904547)], (0.91610881, 0.22428623)),
+    (0.5, 85, 5.2, 0.3, 'captured', [(3.24076347, 1.99910433)], None),
+    (0.9, 60, 1, 1, 'captured', [], None),
+)
+
+
+class Closed(daemon.Case):
+    def ask(self, **document):
+        answer = self.daemon.post(RAYS, document)
+        self.assertEqual(answer.status, 200, answer.body[:500])
+        return strict(answer.body)
+
+    def test_against_the_oracle(self):
+        for spin, inclination, alpha, beta, fate, crossings, sky in ORACLE:
+            with self.subTest((spin, inclination, alpha, beta)):
+                ray, = self.ask(spin=spin, observer={'inclination_deg': inclination}, rays=[[alpha, beta]])['rays']
+                self.assertEqual((ray['fate'], len(ray['crossings'])), (fate, len(crossings)))
+                for order, (found, (r, phi)) in enumerate(zip(ray['crossings'], crossings)):
+                    self.assertEqual(found['order'], order)
+                    self.assertLess(abs(found['r'] / r - 1), 1e-7)
+                    self.assertLess(abs(math.remainder(found['phi'] - phi, 2 * math.pi)), 1e-7)
+                if sky:
+                    self.assertLess(abs(ray['sky']['theta'] - sky[0]), 1e-6)
+                    self.assertLess(abs(math.remainder(ray['sky']['phi'] - sky[1], 2 * math.pi)), 1e-6)
+                else:
+                    self.assertNotIn('sky', ray)
+
+    def test_redshift_of_circular_orbits(self):
+        a, inclination = 0.5, 70  # ISCO at 4.233
+        rays = [[-9, 2], [9, 2], [0.5, -6], [3, 7]]
+        for (alpha, _), ray in zip(rays, self.ask(spin=a, observer={'inclination_deg': inclination}, rays=rays)['rays']):
+            for c in ray['crossings']:
+                if c['r'] < 4.24:
+                    continue
+                r, rate = c['r'], 1 / (c['r'] ** 1.5 + a)
+                ut = (1 + a * r ** -1.5) / math.sqrt(1 - 3 / r + 2 * a * r ** -1.5)
+                g = 1 / (ut * (1 + rate * alpha * math.sin(math.radians(inclination))))
+                self.assertLess(abs(c['g'] / g - 1), 1e-12)
+
+    def test_gas_that_plunges(self):
+        # A hole seen from above: lambda = 0, and light that leaves inwards (after the turning point) is shifted less.
+        answer = self.ask(spin=0, observer={'inclination_deg': 0}, rays=[[5.1, 0], [5.22, 0]])
+        before = answer['rays'][0]['crossings'][0]  # captured, so on its way in
+        self.assertEqual(answer['rays'][0]['fate'], 'captured')
+        r, b = before['r'], 5.1
+        self.assertLess(r, 6)
+        # Falling from the ISCO: E = sqrt(8/9), p.u by hand for a = 0, with the photon outwards and the gas inwards.
+        e, ur = math.sqrt(8 / 9), -math.sqrt((6 / r - 1) ** 3 / 9)
+        pr = math.sqrt(1 - b * b * (1 - 2 / r) / r ** 2) / (1 - 2 / r)
+        self.assertLess(abs(before['g'] * (e / (1 - 2 / r) - pr * ur) - 1), 1e-12)
+
+    def test_slightly_above_the_critical_impact(self):
+        # Bozza 2002: deflection = -ln(b/b_c - 1) + ln(216 (7 - 4 sqrt 3)) - pi, error of order (b/b_c - 1) ln(b/b_c - 1).
+        # Seen from above, the ray turns by pi + deflection in a plane through the axis.
+        for excess in (1e-4, 1e-6):
+            ray, = self.ask(spin=0, observer={'inclination_deg': 0}, orders=16,
+                            rays=[[0, 3 * math.sqrt(3) * (1 + excess)]])['rays']
+            self.assertEqual(ray['fate'], 'escaped')
+            turned = -math.log(excess) + math.log(216 * (7 - 4 * math.sqrt(3)))
+            self.assertLess(abs(math.cos(ray['sky']['theta']) - math.cos(turned)), 30 * excess)
+            self.assertEqual(len(ray['crossings']), math.floor(turned / math.pi + 0.5))
+        ray, = self.ask(spin=0, observer={'inclination_deg': 0}, rays=[[0, 3 * math.sqrt(3) * (1 - 1e-6)]])['rays']
+        self.assertEqual(ray['fate'], 'captured')
+
+    def test_forms_agree_to_the_last_bit(self):
+        rays, parameters = some_rays(500), {'spin': -0.37, 'r': 40, 'inclination_deg': 63, 'orders': 5}
+        document = {'spin': -0.37, 'observer': {'r': 40, 'inclination_deg': 63}, 'orders': 5, 'rays': rays}
+        query = '?' + '&'.join(f'{k}={v}' for k, v in parameters.items())
+        found = strict(self.daemon.post(RAYS, document).body)
+        self.assertEqual((found['spin'], found['observer'], found['orders']), (-0.37, {'r': 40, 'inclination_deg': 63}, 5))
+        by_json = [flat(ray, 5) for ray in found['rays']]
+        answers = [self.daemon.post(RAYS, document, Accept='application/x-npy'),
+                   self.daemon.post(RAYS + query, npy(rays), Content_Type='application/x-npy', Accept='application/x-npy')]
+        self.assertEqual(answers[0].body, answers[1].body)
+        self.assertEqual(int(answers[0].header('Content-Length')), len(answers[0].body))
+        self.assertEqual(repr(records(answers[0].body)), repr(by_json))
+        again = strict(self.daemon.post(RAYS + query, npy(rays), Content_Type='application/x-npy').body)
+        self.assertEqual(again, found)
+
+    def test_summary_and_headers(self):
+        answer = self.daemon.post(RAYS, {'rays': some_rays(101), 'spin': 0.3})
+        found = strict(answer.body)
+        errors = sorted(ray['error'] for ray in found['rays'] if 'error' in ray)
+        self.assertEqual(found['accuracy'], {'engine': 'closed', 'precision': 'f64', 'steps': 0, 'rays': 101, 'undecided': 0,
+                                             'worst_error': errors[-1], 'median_error': errors[(len(errors) - 1) // 2]})
+        self.assertLess(errors[-1], 1e-6)
+        self.assertEqual((found['observer'], found['orders']), ({'r': 'infinity', 'inclination_deg': 82}, 3))
+        self.assertTrue(found['approximations'])
+        self.assertRegex(answer.header('Kerrd-Accuracy'), r'^rays=101 engine=closed precision=f64 undecided=0 ')
+        self.assertRegex(answer.header('Server-Timing'), r'^queue;dur=[0-9.]+, read;dur=[0-9.]+, trace;dur=[0-9.]+$')
+        self.assertTrue(answer.header('Kerrd-Approximations').startswith('"rays are null geodesics'))
+
+    def test_blanks_and_order_of_members_do_not_matter(self):
+        plain = self.ask(spin=0.5, rays=[[1, 2], [-3, 4e-1]])
+        for body in ('\n{ "rays" :\t[ [ 1 , 2 ] ,\r\n[ -3,0.4 ] ] , "spin" : 0.5 } \n', '{"spin":5e-1,"rays":[[1.0,2],[-3e0,0.40]]}',
+                     '{"accuracy":{"engine":"closed"},"rays":[[1,2],[-3,0.4]],"spin":0.5,"observer":{}}'):
+            self.assertEqual(strict(self.daemon.post(RAYS, body).body), plain)
+
+    def test_keep_alive(self):
+        body = b'{"rays":[[1,2]]}'
+        with self.daemon.connect() as s:
+            for _ in range(3):
+                s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+                          b'Content-Length: %d\r\n\r\n' % len(body) + body)
+                self.assertEqual(len(strict(daemon.read_answer(s).body)['rays']), 1)
+
+
+def send(server, document, accept='application/json'):
+    """A request on its way; the answer is not read."""
+    body = json.dumps(document).encode()
+    s = server.connect()
+    s.sendall(f'POST {RAYS} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nAccept: {accept}\r\n'
+              f'Content-Length: {len(body)}\r\n\r\n'.encode() + body)
+    return s
+
+
+class Load(daemon.Case):
+    options = ('--queue', 3)
+
+    def test_many_rays_disturb_nobody(self):
+        rays = some_rays(1000) * 200
+        with send(self.daemon, {'rays': rays, 'orders': 2}, 'application/x-npy') as s:
+            slowest = 0
+            for _ in range(20):
+                begun = time.monotonic()
+                self.assertEqual(self.daemon.post(RAYS, {'rays': [[1, 2]]}).status, 200)
+                self.assertEqual(self.daemon.get('/healthz').status, 200)
+                slowest = max(slowest, time.monotonic() - begun)
+                time.sleep(0.02)
+            data = daemon.read_answer(s).body
+        self.assertLess(slowest, 5, 'a turn lasts some 50 ms, ten times that under a sanitizer')
+        start = 10 + struct.unpack('<H', data[8:10])[0]
+        row = (len(data) - start) // len(rays)
+        self.assertEqual(row, 2 + 8 * (3 + 4 * 2))
+        for k in (1, 100, 199):
+            self.assertEqual(data[start:start + 1000 * row], data[start + k * 1000 * row:start + (k + 1) * 1000 * row])
+
+    def test_vanished_clients_free_their_places(self):
+        held = [send(self.daemon, {'rays': some_rays(1000) * 300}) for _ in range(3)]
+        for s in held:
+            s.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.post(RAYS, {'rays': [[1, 2]]}).status == 200))
+
+    def test_a_client_that_leaves_in_the_middle_of_its_answer(self):
+        files = self.daemon.open_files()
+        for _ in range(3):
+            with send(self.daemon, {'rays': some_rays(1000) * 30}) as s:
+                s.recv(100000)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
+
+    def test_one_too_many(self):
+        slow = {'rays': some_rays(60000), 'accuracy': {'engine': 'mino-rkn6', 'steps': 12}}  # a minute each
+        held = [send(self.daemon, slow) for _ in range(3)]
+        time.sleep(1)
+        answer = self.daemon.post(RAYS, {'rays': [[1, 2]]})
+        self.assertProblem(answer, 503, 'queue-full')
+        self.assertGreaterEqual(int(answer.header('Retry-After')), 1)
+        self.assertEqual(self.daemon.get('/readyz').status, 200)
+        for s in held:
+            s.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.post(RAYS, {'rays': [[1, 2]]}).status == 200))
+
+    def test_many_at_once(self):
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            wanted = self.daemon.post(RAYS, {'rays': some_rays(300)}).body
+            for body in pool.map(lambda _: self.daemon.post(RAYS, {'rays': some_rays(300)}), range(60)):
+                self.assertEqual(body.body, wanted)
 
 
 if __name__ == '__main__':

@@ -1,0 +1,193 @@
+/* kerrd rays: end points of listed rays. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "render/rays_answer.h"
+#include "render/rays_request.h"
+#include "scene/number.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END };
+#define N_FIELDS (KEY_END - KEY_SPIN)
+
+/* In the order of the keys: as kd_rays_request_set calls them. */
+static const char *const names[N_FIELDS] = { "spin",   "r",         "inclination_deg", "orders",
+                                             "engine", "precision", "steps" };
+
+struct arguments {
+    const char *input, *output, *device, *format;
+    const char *fields[N_FIELDS]; /* NULL: not given */
+    struct kd_rays_request more;  /* the rays of --ray */
+};
+
+static const struct argp_option table[] = {
+    { "output", 'o', "FILE", 0, "where to write; .npy and .csv choose those formats (default: - for standard output)", 0 },
+    { "format", 'f', "FORMAT", 0, "json, npy or csv, whatever the name of the output", 0 },
+    { "ray", 'r', "ALPHA,BETA", 0, "one more ray, in M; may be repeated", 0 },
+    { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
+    { "r", KEY_R, "R", 0, "radius of the observer in M, or infinity", 0 },
+    { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
+    { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
+    { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn6, ks-euler, ks-rk4 or ks-tao6", 0 },
+    { "precision", KEY_PRECISION, "P", 0, "f64 (the default) or f32", 0 },
+    { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
+    { 0 },
+};
+
+static void add_ray(struct arguments *arguments, const char *text, struct argp_state *state)
+{
+    struct kd_error error;
+    size_t n = kd_number_span(text, strlen(text)), m = text[n] == ',' ? kd_number_span(text + n + 1, strlen(text + n + 1)) : 0;
+    if (!n || !m || text[n + 1 + m])
+        argp_error(state, "--ray %s: it takes ALPHA,BETA, as in --ray -5.2,0.1", text);
+    if (kd_rays_request_add(&arguments->more, kd_number_parse(text), kd_number_parse(text + n + 1), &error))
+        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    if (key >= KEY_SPIN && key < KEY_END) {
+        arguments->fields[key - KEY_SPIN] = text;
+        return 0;
+    }
+    switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
+    case 'o': arguments->output = text; return 0;
+    case 'f':
+        if (strcmp(text, "json") && strcmp(text, "npy") && strcmp(text, "csv"))
+            argp_error(state, "--format %s: json, npy or csv", text);
+        arguments->format = text;
+        return 0;
+    case 'r': add_ray(arguments, text, state); return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->input)
+            argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
+        arguments->input = text;
+        return 0;
+    case ARGP_KEY_END:
+        if (!arguments->input && !arguments->more.n)
+            argp_error(state, "there are no rays: name a file, or give --ray ALPHA,BETA");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static enum kd_rays_format format_of(const struct arguments *arguments)
+{
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    return !strcmp(format, "npy") ? KD_RAYS_NPY : !strcmp(format, "csv") ? KD_RAYS_CSV : KD_RAYS_JSON;
+}
+
+static enum kd_status load_file(const char *path, struct kd_rays_request *request, struct kd_error *error)
+{
+    struct kd_buffer file = { 0 };
+    enum kd_status status = kd_file_read(path, KD_RAYS_BODY_MAX, &file, error);
+    const char *start = file.data ? (const char *)file.data : "";
+    if (!status) {
+        status = kd_rays_request_is_npy(start, file.size) ? kd_rays_request_npy(request, start, file.size, error)
+                                                          : kd_rays_request_json(request, start, file.size, error);
+        if (status)
+            kd_cli_prefix(error, strcmp(path, "-") ? path : "standard input");
+    }
+    kd_buffer_finish(&file);
+    return status;
+}
+
+/* The file, then each option over what it said. */
+static enum kd_status load(const struct arguments *arguments, struct kd_rays_request *request, struct kd_error *error)
+{
+    enum kd_status status = arguments->input ? load_file(arguments->input, request, error) : KD_OK;
+    for (size_t i = 0; i < N_FIELDS && !status; i++)
+        if (arguments->fields[i])
+            status = kd_rays_request_set(request, names[i], arguments->fields[i], error);
+    for (size_t i = 0; i < arguments->more.n && !status; i++)
+        status = kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1], error);
+    return status ? status : kd_rays_request_check(request, error);
+}
+
+static enum kd_status trace(const struct arguments *arguments, struct kd_rays_answer *answer, struct kd_error *error)
+{
+    struct kd_renderer *renderer = NULL;
+    struct kd_progress progress;
+    enum kd_status status = KD_OK;
+    if (answer->params.engine != KD_ENGINE_CLOSED)
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer, error);
+    if (status)
+        return status;
+    kd_progress_init(&progress);
+    kd_progress_catch_signals();
+    status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings, answer->ends,
+                           kd_progress_update, &progress, error);
+    kd_progress_finish(&progress);
+    if (status == KD_EDEVICE && !*error->pointer) /* with a pointer it only lacks what was asked for */
+        kd_cli_device_lost(error);
+    kd_renderer_destroy(renderer);
+    return status ? status : kd_rays_answer_summarise(answer, error);
+}
+
+static size_t produce(void *user, void *to, size_t size)
+{
+    return kd_rays_stream_read(user, to, size);
+}
+
+static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
+{
+    struct kd_rays_request request;
+    struct kd_rays_answer answer = { 0 };
+    struct kd_rays_stream stream = { 0 };
+    enum kd_rays_format format = format_of(arguments);
+    const char *path = arguments->output ? arguments->output : "-";
+    kd_rays_request_init(&request);
+    enum kd_status status = load(arguments, &request, error);
+    if (!status && (strcmp(path, "-") || format == KD_RAYS_NPY))
+        status = kd_file_check(path, error);
+    if (!status) {
+        status = kd_rays_answer_init(&answer, &request.params, request.alpha_beta, request.n, error);
+        request.alpha_beta = NULL;
+    }
+    if (!status)
+        status = trace(arguments, &answer, error);
+    if (!status)
+        status = kd_rays_stream_init(&stream, &answer, format, error);
+    if (!status)
+        status = kd_file_stream(path, produce, &stream, error);
+    kd_rays_stream_finish(&stream);
+    kd_rays_answer_finish(&answer);
+    kd_rays_request_finish(&request);
+    return status;
+}
+
+int kd_cli_rays(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = "[FILE.json|FILE.npy|-]",
+        .doc = "Trace listed rays back from the observer: equatorial crossings with azimuth, delay and redshift, the "
+               "direction of escape, and an error for each.\v"
+               "FILE is what POST /v1/rays takes: a JSON document, or an NPY array of pairs (alpha, beta). Options "
+               "change what it says, and --ray adds to it. The closed engine needs no device.",
+        .children = children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &error);
+    kd_rays_request_finish(&arguments.more);
+    if (!status)
+        return KD_EXIT_OK;
+    int code = kd_cli_fail(&error);
+    if (status == KD_ECANCELLED)
+        kd_progress_reraise();
+    return code;
+}

@@ -1,0 +1,152 @@
+#include "render/rays_closed.h"
+
+#include "physics/disk.h"
+#include "physics/kerr.h"
+#include "physics/null_geodesic.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+
+#define SLICE 1024 /* rays: some milliseconds, and small beside what is worth another thread */
+#define THREADS_MAX 16
+
+_Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
+
+/* Exact at the quarter turns, where observers like to sit. */
+static double sine(double degrees)
+{
+    return degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
+}
+static double cosine(double degrees)
+{
+    return degrees == 90 ? 0 : cos(degrees * (M_PI / 180));
+}
+
+static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta)
+{
+    return (struct kd_null_ray) { .spin = p->spin,
+                                  .radius = p->r,
+                                  .cos_theta = cosine(p->inclination_deg),
+                                  .alpha = alpha_beta[0],
+                                  .beta = alpha_beta[1],
+                                  .orders = (int)p->orders };
+}
+
+/* outwards: of the real photon, as it leaves the gas. */
+static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
+{
+    double a = p->spin, s = sine(p->inclination_deg), c = cosine(p->inclination_deg);
+    double alpha = alpha_beta[0], beta = alpha_beta[1], lambda = -alpha * s;
+    if (r >= kd_kerr_isco(a))
+        return kd_disk_redshift(a, r, lambda);
+    return kd_disk_redshift_plunging(a, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
+}
+
+static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, struct kd_ray_crossing *crossings,
+                      struct kd_ray_end *end)
+{
+    const struct kd_null_ray ray = ray_of(p, alpha_beta);
+    const struct kd_null_path path = kd_null_trace(&ray);
+    bool sound = path.status == KD_NULL_OK || path.status == KD_NULL_IN_PLANE;
+    *end = (struct kd_ray_end) {
+        .fate = !sound                            ? KD_RAY_UNDECIDED
+                : path.fate == KD_NULL_ESCAPED ? KD_RAY_ESCAPED
+                                                  : KD_RAY_CAPTURED,
+        .n_crossings = (uint32_t)path.crossings,
+        .theta = NAN,
+        .phi = NAN,
+        .error = NAN,
+    };
+    if (end->fate == KD_RAY_ESCAPED) {
+        end->theta = acos(fmax(-1, fmin(1, path.sky_u)));
+        end->phi = remainder(path.sky_phi, 2 * M_PI); /* a direction: turns do not count */
+        end->error = path.crossings ? NAN : path.sky_error;
+    }
+    for (uint32_t k = 0; k < p->orders; k++) {
+        const struct kd_null_crossing *c = &path.crossing[k];
+        crossings[k] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
+        if (k >= end->n_crossings)
+            continue;
+        crossings[k] = (struct kd_ray_crossing) { c->r, c->phi, c->delay, redshift(p, alpha_beta, c->r, c->sense > 0) };
+        end->error = fmax(end->error, c->error_r); /* fmax passes over NaN */
+    }
+}
+
+struct share {
+    const struct kd_rays_params *params;
+    const double *alpha_beta;
+    size_t n;
+    struct kd_ray_crossing *crossings;
+    struct kd_ray_end *ends;
+    _Atomic size_t next;
+    _Atomic bool stop;
+};
+
+/* False when there is no more to do. */
+static bool trace_slice(struct share *share)
+{
+    size_t first = atomic_load(&share->stop) ? share->n : atomic_fetch_add(&share->next, SLICE);
+    for (size_t i = first; i < share->n && i < first + SLICE; i++)
+        trace_one(share->params, share->alpha_beta + 2 * i, share->crossings + i * share->params->orders, &share->ends[i]);
+    return first < share->n;
+}
+
+static void *work(void *user)
+{
+    while (trace_slice(user))
+        ;
+    return NULL;
+}
+
+/* Threads beside the calling one that are worth their start. */
+static size_t helpers(size_t n)
+{
+    cpu_set_t set;
+    size_t cores = sched_getaffinity(0, sizeof set, &set) ? 1 : (size_t)CPU_COUNT(&set), most = n / (8 * SLICE) + 1;
+    cores = cores > THREADS_MAX ? THREADS_MAX : cores;
+    return (cores < most ? cores : most) - 1;
+}
+
+enum kd_status kd_rays_closed(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
+                              void *user, struct kd_error *error)
+{
+    struct share share = { .params = params, .alpha_beta = alpha_beta, .n = n, .crossings = crossings, .ends = ends };
+    pthread_t threads[THREADS_MAX];
+    size_t begun = 0, wanted = helpers(n);
+    while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* fewer will do as well */
+        begun++;
+    while (trace_slice(&share)) {
+        size_t taken = atomic_load(&share.next);
+        if (progress && !progress(user, taken < n ? (double)taken / (double)n : 1))
+            atomic_store(&share.stop, true);
+    }
+    for (size_t i = 0; i < begun; i++)
+        pthread_join(threads[i], NULL);
+    return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
+}
+
+/* Which way the photon moves inside the ISCO the closed form says; a ray that falls in never turned. */
+static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, const struct kd_ray_end *end,
+                            uint32_t crossing)
+{
+    if (end->fate == KD_RAY_CAPTURED)
+        return true;
+    const struct kd_null_ray ray = ray_of(p, alpha_beta);
+    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    return (int)crossing >= path.crossings || path.crossing[crossing].sense > 0;
+}
+
+void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                      struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
+{
+    double isco = kd_kerr_isco(params->spin);
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
+            struct kd_ray_crossing *c = &crossings[i * params->orders + k];
+            bool outwards = c->r >= isco || leaves_outwards(params, alpha_beta + 2 * i, &ends[i], k);
+            c->g = redshift(params, alpha_beta + 2 * i, c->r, outwards);
+        }
+}

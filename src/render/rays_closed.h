@@ -1,0 +1,17 @@
+/* The closed engine, and the redshift of any engine's crossings. Private to src/render; any thread. */
+#ifndef KD_RENDER_RAYS_CLOSED_H
+#define KD_RENDER_RAYS_CLOSED_H
+
+#include "render/rays.h"
+
+/* kd_rays_trace for KD_ENGINE_CLOSED, params checked. Many rays are shared out among the cores; progress is called on the
+ * calling thread. */
+enum kd_status kd_rays_closed(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
+                              void *user, struct kd_error *error);
+
+/* Fill in g where an engine gave positions alone. */
+void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                      struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
+
+#endif
