@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define MAKE "`kerrd bench accuracy` makes one"
-#define FILE_MAX (1u << 20) /* a table has some 60 000 bytes */
+#define FILE_MAX (1u << 20) /* a table has some 100 000 bytes */
 
 char *kd_accuracy_path(const struct kd_renderer *renderer)
 {
