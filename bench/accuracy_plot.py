@@ -13,8 +13,8 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
-MARKERS = {"mino-rkn6": "o", "ks-rk4": "s", "ks-euler": "^", "ks-tao6": "D"}
-COLOURS = {"mino-rkn6": "#0072b2", "ks-rk4": "#d55e00", "ks-euler": "#009e73", "ks-tao6": "#cc79a7"} # Okabe and Ito
+MARKERS = {"mino-rkn4": "v", "mino-rkn6": "o", "ks-rk4": "s", "ks-euler": "^", "ks-tao6": "D"}
+COLOURS = {"mino-rkn4": "#56b4e9", "mino-rkn6": "#0072b2", "ks-rk4": "#d55e00", "ks-euler": "#009e73", "ks-tao6": "#cc79a7"} # Okabe and Ito
 FLOOR = 1e-16 # an error of nothing has to be drawn somewhere
 
 

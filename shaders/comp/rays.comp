@@ -2,7 +2,8 @@
  *
  * As lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated beside w: the smooth part
  * of the azimuth and of the delay need it. A second integration of w with half the steps, and the variation of w with
- * its start, give the error: what the steps lose, and what rounding loses.
+ * its start, give the error: what the steps lose, and what rounding loses. (An embedded pair is cheaper, but a hundred times looser:
+ * docs/rays.md.)
  *
  * Azimuth: psi + chi. psi' = L/(1 - u^2), of which polar_azimuth.glsl takes out the peak near the axis exactly; the rest is
  * L e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
@@ -14,13 +15,16 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
+
+layout(constant_id = 0) const uint ORDERS = 3;
+layout(constant_id = 1) const uint STEPS = 16; /* a half period; a multiple of 4 */
+layout(constant_id = 2) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
+#define KD_NYSTROEM_ORDER METHOD
 #include "kerr_ray.glsl"
 #include "polar.glsl"
 #include "radial_step.glsl"
 #include "path_step.glsl"
 
-layout(constant_id = 0) const uint ORDERS = 3;
-layout(constant_id = 1) const uint STEPS = 16; /* a half period; a multiple of 4 */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(push_constant) uniform Push { uint first, count; } push;
@@ -61,7 +65,10 @@ float delay_edge(kd_motion m, float w, float dw)
     return -dw / w - 2.0 * kd_log(0.5 * energy_and_fall(m, w, dw) / w);
 }
 
-float pow6(float x) { return x * x * x * x * x * x; }
+/* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: sixteen times what is left is a bound even
+ * where the steps are too coarse for that law. And what a half turn of such steps loses where no crossing says so. */
+const float LEFT = METHOD == 4 ? 1.0 : 0.25;
+float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
 void main()
 {
@@ -130,10 +137,9 @@ void main()
             ends[o + 3 * n] = w;
             ends[o + 3 * n + 1] = -turned;
             ends[o + 3 * n + 2] = delay + delay_edge(m, w, p.dy.x) - started;
-            /* Halving the steps of a method of order 6 loses 63 times what is left: a quarter of it is a bound even where the
-             * steps are too coarse for that law. Rounding: some ten operations of a unit each, which the variation
-             * amplifies, and as much in the time of the crossing. */
-            float lost = 0.25 * abs(w - half_.w);
+            /* Rounding: some ten operations of a unit each, which the variation amplifies, and as much in the time of the
+             * crossing. */
+            float lost = LEFT * abs(w - half_.w);
             float rounded = cam.epsilon * (4.0 * w + 8.0 * abs(p.y.z) + 8.0 * tau * abs(p.dy.x));
             error = max(error, (lost + rounded) / w);
             above = -above;
@@ -146,8 +152,8 @@ void main()
     }
 
     kd_escape end = kd_path_escape(m, ray, last);
-    if (error == 0.0) /* no crossing: nothing amplifies, and a method of order 6 loses about this over a half turn */
-        error = 1e3 * cam.epsilon + 0.1 * pow6(KD_PI / float(STEPS));
+    if (error == 0.0) /* no crossing: nothing amplifies */
+        error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
     at = o + 3 * ORDERS;
     ends[at] = end.u;
     ends[at + 1] = -end.phi;

@@ -47,7 +47,7 @@ vec4 kd_path_pull(kd_motion m, vec4 y)
 kd_path kd_path_step(kd_motion m, kd_path p, float h)
 {
     kd_path o;
-    KD_NYSTROEM_STEP(vec4, kd_path_pull, m, p.y, p.v, h, o.y, o.v);
+    KD_NYSTROEM_STEP(vec4, kd_path_pull, m, p.y, p.v, h, o.y, o.v)
     o.chi = p.chi;
     return o;
 }

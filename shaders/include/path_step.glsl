@@ -17,7 +17,7 @@ vec3 kd_full_pull(kd_motion m, vec3 y)
 kd_full kd_full_step(kd_motion m, kd_full p, float h)
 {
     kd_full o;
-    KD_NYSTROEM_STEP(vec3, kd_full_pull, m, p.y, p.dy, h, o.y, o.dy);
+    KD_NYSTROEM_STEP(vec3, kd_full_pull, m, p.y, p.dy, h, o.y, o.dy)
     return o;
 }
 

@@ -12,7 +12,7 @@ float kd_pull(kd_motion m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * 
 kd_state kd_radial_step(kd_motion m, kd_state y, float h)
 {
     kd_state o;
-    KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw);
+    KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw)
     return o;
 }
 

@@ -32,7 +32,7 @@ static const struct argp_option table[] = {
     { "r", KEY_R, "R", 0, "radius of the observer in M, or infinity", 0 },
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
     { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
-    { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn6, ks-euler, ks-rk4 or ks-tao6", 0 },
+    { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn4, mino-rkn6, ks-euler, ks-rk4 or ks-tao6", 0 },
     { "precision", KEY_PRECISION, "P", 0, "f64 (the default) or f32", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
     { 0 },

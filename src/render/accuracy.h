@@ -13,7 +13,7 @@
 
 #define KD_ACCURACY_ORDERS 3
 #define KD_ACCURACY_FAR 1e3 /* M: w = 1/r is what is computed, its error absolute, so that of r grows as r */
-#define KD_ACCURACY_ROWS 48
+#define KD_ACCURACY_ROWS 64
 /* What a row is said to hold: this times the median over the bulk set, since medians of common spins and inclinations lie
  * within 3.5 of one another (docs/accuracy.md), or the median of any other set if that is larger: few steps lose up to forty
  * times as much edge-on. Near the critical curve no number of steps helps, so that set is left out. */

@@ -18,6 +18,7 @@ static const struct span {
     enum kd_engine engine;
     uint32_t first, last;
 } spans[] = {
+    { KD_ENGINE_MINO_RKN4, 8, 256 },
     { KD_ENGINE_MINO_RKN6, 4, 128 },
     { KD_ENGINE_KS_RK4, 16, 256 },
     { KD_ENGINE_KS_EULER, 64, 1024 },
@@ -160,7 +161,7 @@ static void judge(struct bench *b, const struct kd_accuracy_row *row, const stru
                   size_t counts[KD_ACCURACY_QUANTITIES])
 {
     double inner = kd_kerr_isco(t->view.spin); /* phi and t of Boyer and Lindquist diverge at the horizon */
-    bool delays = row->engine == KD_ENGINE_MINO_RKN6;
+    bool delays = row->engine == KD_ENGINE_MINO_RKN4 || row->engine == KD_ENGINE_MINO_RKN6;
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_ray_end *end = &b->ends[i], *true_end = &t->ends[i];
         bool differs = end->n_crossings != true_end->n_crossings ||

@@ -7,8 +7,8 @@
 const char *kd_engine_name(enum kd_engine engine)
 {
     static const char *const names[KD_ENGINE_COUNT] = {
-        [KD_ENGINE_CLOSED] = "closed",   [KD_ENGINE_MINO_RKN6] = "mino-rkn6", [KD_ENGINE_KS_EULER] = "ks-euler",
-        [KD_ENGINE_KS_RK4] = "ks-rk4",   [KD_ENGINE_KS_TAO6] = "ks-tao6",
+        [KD_ENGINE_CLOSED] = "closed",       [KD_ENGINE_MINO_RKN4] = "mino-rkn4", [KD_ENGINE_MINO_RKN6] = "mino-rkn6",
+        [KD_ENGINE_KS_EULER] = "ks-euler",   [KD_ENGINE_KS_RK4] = "ks-rk4",       [KD_ENGINE_KS_TAO6] = "ks-tao6",
     };
     return (unsigned)engine < KD_ENGINE_COUNT ? names[engine] : "unknown";
 }

@@ -17,7 +17,8 @@
 
 enum kd_engine {
     KD_ENGINE_CLOSED,    /* elliptic functions on the CPU, double: the reference */
-    KD_ENGINE_MINO_RKN6, /* Mino time, Albrecht's Nystroem method of order 6, on the device */
+    KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4, */
+    KD_ENGINE_MINO_RKN6, /* Albrecht's of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler, */
     KD_ENGINE_KS_RK4,    /* classical Runge-Kutta, */
     KD_ENGINE_KS_TAO6,   /* Tao's extended phase space with Yoshida's order 6; no delay, and error is NaN for these three */
@@ -25,7 +26,7 @@ enum kd_engine {
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
 
-const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
+const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
 #define KD_RAYS_MAX 1000000

@@ -151,12 +151,13 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
         return kd_error_field(error, "/observer/inclination_deg",
                               "the Kerr-Schild engines cannot start on the axis at a finite radius; use mino-rkn6 or closed");
     size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK, per_start = w.kerr_schild ? 6 : 2;
-    const uint32_t steps = w.kerr_schild ? 64 : w.wide ? 64 : 16;
-    const uint32_t constants[] = { params->orders, params->steps ? params->steps : steps, params->engine - KD_ENGINE_KS_EULER };
+    const uint32_t method = w.kerr_schild ? params->engine - KD_ENGINE_KS_EULER : params->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
+    const uint32_t steps = w.kerr_schild ? 64 : method == 4 ? (w.wide ? 256 : 32) : w.wide ? 64 : 16;
+    const uint32_t constants[] = { params->orders, params->steps ? params->steps : steps, method };
     const struct kd_vk_pipeline *pipeline;
     enum kd_kernel kernel = w.kerr_schild ? KD_KERNEL_RAYS_KS_F32 : KD_KERNEL_RAYS_F32;
     enum kd_status status =
-        kd_kernels_get(&renderer->kernels, vk, kernel + w.wide, constants, w.kerr_schild ? 3 : 2, &pipeline, error);
+        kd_kernels_get(&renderer->kernels, vk, kernel + w.wide, constants, 3, &pipeline, error);
     if (!status)
         status = kd_vk_buffer_create(vk, (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &w.rays, error);
     if (!status)

@@ -7,7 +7,7 @@
 #define STRING(x) #x
 #define TEXT(x) STRING(x)
 #define NUMBER "{\"type\":\"number\"}"
-#define ENGINES "{\"enum\":[\"closed\",\"mino-rkn6\",\"ks-euler\",\"ks-rk4\",\"ks-tao6\"]}"
+#define ENGINES "{\"enum\":[\"closed\",\"mino-rkn4\",\"mino-rkn6\",\"ks-euler\",\"ks-rk4\",\"ks-tao6\"]}"
 #define PRECISIONS "{\"enum\":[\"f32\",\"f64\"]}"
 #define STEPS "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_RAYS_STEPS_MAX) ",\"multipleOf\":4}"
 #define ORDERS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_RAYS_MAX_ORDERS) "}"

@@ -83,19 +83,19 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
 }
 
 /* The oracle is good to some 2e-11 (its start at r = 1e6 and a thousand steps); its direction, taken at r = 1e8, to 3e-7. */
-static void check(enum kd_precision precision, double bound_r, double bound_phi, double bound_delay, double bound_sky)
+static void check(enum kd_engine engine, enum kd_precision precision, double bound_r, double bound_phi, double bound_delay, double bound_sky)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS];
     static struct kd_ray_end ends[RAYS];
     for (int h = 0; h < HOLES; h++) {
         struct kd_rays_params params = {
             .spin = holes[h].a, .r = INFINITY, .inclination_deg = holes[h].inclination, .orders = ORDERS,
-            .engine = KD_ENGINE_MINO_RKN6, .precision = precision,
+            .engine = engine, .precision = precision,
         };
         struct tally t = { 0 };
         OK(kd_rays_device(renderer, &params, lists[h], RAYS, crossings, ends, NULL, NULL, &error));
         judge(h, crossings, ends, precision == KD_PRECISION_F64 ? 1e-10 : 0, &t);
-        print_message("a %6.3f i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n", holes[h].a,
+        print_message("%s a %6.3f i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n", kd_engine_name(engine), holes[h].a,
                       holes[h].inclination, precision == KD_PRECISION_F64 ? "f64" : "f32", t.crossings, t.r, t.phi, t.delay, t.sky, t.bounded, t.rays);
         assert_true(t.r < bound_r);
         assert_true(t.phi < bound_phi);
@@ -109,7 +109,8 @@ static void test_single(void **state)
 {
     (void)state;
     /* The delay of a falling ray, unlike its azimuth, still meets the pole at the horizon. */
-    check(KD_PRECISION_F32, 5e-6, 2e-5, 2e-4, 2e-5);
+    check(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 5e-6, 2e-5, 2e-4, 2e-5);
+    check(KD_ENGINE_MINO_RKN4, KD_PRECISION_F32, 5e-6, 2e-5, 2e-4, 2e-5);
 }
 
 static void test_double(void **state)
@@ -119,7 +120,8 @@ static void test_double(void **state)
         print_message("SKIP: %s has no double precision\n", kd_renderer_device_name(renderer));
         skip();
     }
-    check(KD_PRECISION_F64, 5e-10, 2e-9, 1e-7, 1e-6);
+    check(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-10, 2e-9, 1e-7, 1e-6);
+    check(KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 1e-9, 2e-9, 1e-7, 1e-6);
 }
 
 static int by_value(const void *a, const void *b)
@@ -148,6 +150,52 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
     return errors[n / 2];
 }
 
+/* The estimate of the error against the error itself, by the closed form, where the steps are coarse and their law does not
+ * hold yet: a bound for 99 of 100 rays, and no more than a hundred times too large for half of them. */
+static void check_estimate(enum kd_engine engine, uint32_t steps)
+{
+    static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
+    static struct kd_ray_end ends[RAYS], exact_ends[RAYS];
+    static double ratios[HOLES * RAYS];
+    int rays = 0, bounded = 0;
+    for (int h = 0; h < HOLES; h++) {
+        struct kd_rays_params params = {
+            .spin = holes[h].a, .r = INFINITY, .inclination_deg = holes[h].inclination, .orders = ORDERS,
+            .engine = engine, .precision = KD_PRECISION_F64, .steps = steps,
+        };
+        OK(kd_rays_trace(renderer, &params, lists[h], RAYS, crossings, ends, NULL, NULL, &error));
+        params.engine = KD_ENGINE_CLOSED;
+        params.steps = 0;
+        OK(kd_rays_trace(NULL, &params, lists[h], RAYS, exact, exact_ends, NULL, NULL, &error));
+        for (int k = 0; k < RAYS; k++) {
+            double worst = 0;
+            if (!exact_ends[k].n_crossings || exact_ends[k].n_crossings != ends[k].n_crossings)
+                continue;
+            for (uint32_t n = 0; n < ends[k].n_crossings; n++)
+                worst = fmax(worst, fabs(crossings[k * ORDERS + (int)n].r / exact[k * ORDERS + (int)n].r - 1));
+            bounded += worst <= ends[k].error + exact_ends[k].error;
+            ratios[rays++] = ends[k].error / fmax(worst, 1e-300);
+        }
+    }
+    qsort(ratios, (size_t)rays, sizeof *ratios, by_value);
+    print_message("%s, %u steps: %d of %d bounded, estimate over error %.2g for 1 %%, %.2g for half, %.2g for 99 %% of the rays\n",
+                  kd_engine_name(engine), steps, bounded, rays, ratios[rays / 100], ratios[rays / 2], ratios[rays - rays / 100]);
+    assert_true(rays > 4000);
+    assert_true(bounded >= 0.99 * rays);
+    assert_true(ratios[rays / 2] < 100);
+}
+
+static void test_estimate(void **state)
+{
+    (void)state;
+    if (!kd_vk_info(renderer->vk)->float64)
+        skip();
+    for (uint32_t steps = 4; steps <= 64; steps *= 2) {
+        check_estimate(KD_ENGINE_MINO_RKN4, steps);
+        check_estimate(KD_ENGINE_MINO_RKN6, steps);
+    }
+}
+
 /* Each method converges by its order: twice the steps leave 1/2, 1/16, 1/64 of the error, less what the coarse end of the
  * range spoils. Tao's starts at r = 1000, whose series is good to 1e-7: its range ends above that. Mino's is judged on the second
  * crossing, where the oracle's 1e-11 does not yet show. */
@@ -158,11 +206,12 @@ static void test_orders(void **state)
         skip();
     static const struct { enum kd_engine engine; uint32_t steps; int order; double ratio, finest; } methods[] = {
         { KD_ENGINE_MINO_RKN6, 8, 1, 50, 1e-8 },
+        { KD_ENGINE_MINO_RKN4, 16, 1, 12, 1e-6 },
         { KD_ENGINE_KS_EULER, 64, 0, 1.8, 2e-3 },
         { KD_ENGINE_KS_RK4, 32, 0, 12, 2e-9 },
         { KD_ENGINE_KS_TAO6, 32, 0, 40, 1e-5 },
     };
-    for (int i = 0; i < 4; i++) {
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         double coarse = median_error(methods[i].engine, methods[i].steps, methods[i].order);
         double fine = median_error(methods[i].engine, 2 * methods[i].steps, methods[i].order);
         print_message("engine %d: %.1e with %u steps, %.1e with twice as many\n", (int)methods[i].engine, coarse, methods[i].steps,
@@ -179,6 +228,6 @@ int main(void)
         return status;
     prepare();
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_single), cmocka_unit_test(test_double),
-                                        cmocka_unit_test(test_orders) };
+                                        cmocka_unit_test(test_estimate), cmocka_unit_test(test_orders) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
