@@ -18,8 +18,8 @@ struct motion {
 
 static bool valid(const struct kd_null_ray *ray)
 {
-    if (!(fabs(ray->spin) < 1) || !(fabs(ray->cos_theta) <= 1) || !isfinite(ray->alpha) ||
-        !isfinite(ray->beta))
+    if (!(fabs(ray->spin) < 1) || !(fabs(ray->cos_theta) <= 1) || !(ray->sin_theta >= 0 && ray->sin_theta <= 1) ||
+        !isfinite(ray->alpha) || !isfinite(ray->beta))
         return false;
     if (ray->orders < 0 || ray->orders > KD_NULL_ORDERS || !(ray->radius > kd_kerr_horizon(ray->spin)))
         return false;
@@ -162,7 +162,7 @@ static struct kd_null_path follow(const struct kd_null_ray *ray)
     };
     if (!valid(ray))
         return path;
-    struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->alpha, ray->beta);
+    struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     enum kd_null_region region = kd_null_region_of(&roots, ray->radius);
     path.status = KD_NULL_NO_RAY;
@@ -257,7 +257,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     struct kd_null_path path = follow(ray);
     if (path.status == KD_NULL_NO_RAY || path.status == KD_NULL_BAD_INPUT)
         return path;
-    struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->alpha, ray->beta);
+    struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     /* Short against the distance from the critical curve, long against rounding; and away from that curve,
      * which the ray must not leave on the other side. */

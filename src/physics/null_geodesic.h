@@ -24,6 +24,7 @@ struct kd_null_ray {
     double spin;      /* |spin| < 1                                                                        */
     double radius;    /* of the observer: outside the horizon; INFINITY                                    */
     double cos_theta; /* of the observer: [-1, 1], exact 0 and +-1 included                                */
+    double sin_theta; /* 0: taken from cos_theta, which within 1e-5 of the axis knows it to 1e-6 only      */
     double alpha, beta;
     bool outward;     /* finite radius only: the traced ray starts outwards, the photon arrives moving inwards */
     int orders;       /* crossings wanted, 0 ... KD_NULL_ORDERS                                            */

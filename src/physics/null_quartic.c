@@ -3,10 +3,10 @@
 #include <float.h>
 #include <math.h>
 
-struct kd_null_motion kd_null_motion_of(double a, double cos_theta, double alpha, double beta)
+struct kd_null_motion kd_null_motion_of(double a, double cos_theta, double sin_theta, double alpha, double beta)
 {
     struct kd_null_motion m = { .a = a, .c = cos_theta, .alpha = alpha, .beta = beta };
-    m.s = sqrt((1 - cos_theta) * (1 + cos_theta));
+    m.s = sin_theta > 0 ? sin_theta : sqrt((1 - cos_theta) * (1 + cos_theta));
     m.lambda = -alpha * m.s;
     m.eta = (alpha - a) * (alpha + a) * m.c * m.c + beta * beta;
     m.quadratic = a * a * (1 + m.c * m.c) - alpha * alpha - beta * beta;

@@ -20,8 +20,8 @@ struct kd_null_motion {
     double lambda, eta, quadratic, k, constant; /* A is `quadratic`, C is `constant` */
 };
 
-/* cos_theta in [-1, 1]. */
-struct kd_null_motion kd_null_motion_of(double a, double cos_theta, double alpha, double beta);
+/* cos_theta in [-1, 1]; sin_theta, or 0 where cos_theta is all that is known. */
+struct kd_null_motion kd_null_motion_of(double a, double cos_theta, double sin_theta, double alpha, double beta);
 
 double kd_null_radial_potential(const struct kd_null_motion *m, double r);
 

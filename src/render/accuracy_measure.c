@@ -83,7 +83,7 @@ static void reference_of(const struct kd_accuracy_view *view, const double *rays
 {
     double i = view->inclination_deg * (M_PI / 180), begun = seconds_of(CLOCK_THREAD_CPUTIME_ID);
     struct kd_null_ray ray = { .spin = view->spin, .radius = INFINITY, .cos_theta = view->inclination_deg == 90 ? 0 : cos(i),
-                               .orders = ORDERS };
+                               .sin_theta = sin(i), .orders = ORDERS };
     for (size_t k = 0; k < n; k++) {
         ray.alpha = rays[2 * k];
         ray.beta = rays[2 * k + 1];

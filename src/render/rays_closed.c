@@ -29,6 +29,7 @@ static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *a
     return (struct kd_null_ray) { .spin = p->spin,
                                   .radius = p->r,
                                   .cos_theta = cosine(p->inclination_deg),
+                                  .sin_theta = sine(p->inclination_deg),
                                   .alpha = alpha_beta[0],
                                   .beta = alpha_beta[1],
                                   .orders = (int)p->orders };
