@@ -1,6 +1,7 @@
-/* kerrd doctor: what this machine can do, what it lacks, and a tiny picture as the proof. */
+/* kerrd doctor: what this machine can do, what it lacks, and a tiny picture as the proof; or a table of known numbers. */
 #include "cli/cli.h"
 #include "cli/progress.h"
+#include "cli/selftest.h"
 #include "render/render.h"
 #include "vk/vk.h"
 
@@ -14,11 +15,32 @@
 #define WIDTH "64"
 #define HEIGHT "36"
 
+struct arguments {
+    const char *device;
+    bool selftest, json;
+};
+
+enum { KEY_SELFTEST = 0x100, KEY_JSON };
+
+static const struct argp_option options[] = {
+    { "selftest", KEY_SELFTEST, NULL, 0,
+      "instead compute rays, orbits, radii and brightnesses that are known, and print each error beside its bound", 0 },
+    { "json", KEY_JSON, NULL, 0, "the self-test's table as JSON", 0 },
+    { 0 },
+};
+
 static error_t parse(int key, char *text, struct argp_state *state)
 {
+    struct arguments *arguments = state->input;
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = state->input; return 0;
+    case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
+    case KEY_SELFTEST: arguments->selftest = true; return 0;
+    case KEY_JSON: arguments->json = true; return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
+    case ARGP_KEY_END:
+        if (arguments->json && !arguments->selftest)
+            argp_error(state, "--json is for --selftest");
+        return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -146,21 +168,9 @@ static enum kd_status try_render(const char *device, struct kd_error *error)
     return status;
 }
 
-int kd_cli_doctor(int argc, char **argv)
+static int examine(const char *device)
 {
-    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
-    static const struct argp argp = {
-        .parser = parse,
-        .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
-               "The exit code is 0 if kerrd can work here and 1 if it cannot.",
-        .children = children,
-    };
-    const char *device = NULL;
     struct kd_error error = { 0 };
-
-    argp_parse(&argp, argc, argv, 0, NULL, &device);
     printf("kerrd %s\n", KD_VERSION);
     bool any = print_devices(&error);
     print_cache();
@@ -177,4 +187,32 @@ int kd_cli_doctor(int argc, char **argv)
         return kd_cli_print("", 0);
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
+}
+
+static int selftest(const struct arguments *arguments)
+{
+    struct kd_error error = { 0 };
+    unsigned failed = 0;
+    if (kd_cli_selftest(arguments->device, arguments->json, &failed, &error))
+        return kd_cli_fail(&error);
+    int code = kd_cli_print("", 0);
+    return failed ? KD_EXIT_FAILURE : code;
+}
+
+int kd_cli_doctor(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        .options = options,
+        .parser = parse,
+        .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
+               "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The self-test "
+               "takes some ten seconds; docs/accuracy.md says what it compares with what.",
+        .children = children,
+    };
+    struct arguments arguments = { 0 };
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    return arguments.selftest ? selftest(&arguments) : examine(arguments.device);
 }

@@ -25,6 +25,7 @@ class Usage(Case):
         self.bad(2, "no argument", "presets", "x")
         self.bad(2, "no argument", "serve", "x")
         self.bad(2, "no argument", "doctor", "x")
+        self.bad(2, "--json is for --selftest", "doctor", "--json")
         self.bad(2, "error, warn, info or debug", "scene", "--log-level", "loud")
         for port in ["", "-1", "65536", "80x", " 80", "99999999999999999999"]:
             self.bad(2, "0 to 65535", "serve", "--port", port)
