@@ -1,11 +1,13 @@
 #include "physics/colour.h"
 
+#include "physics/constants.h"
+
 #include <math.h>
 
 /* Planck's law, W m^-3 sr^-1, at a wavelength in m. */
 static double planck(double wavelength, double temperature)
 {
-    const double h = 6.62607015e-34, c = 299792458.0, k = 1.380649e-23; /* SI, exact */
+    const double h = KD_H_J_S, c = KD_C_M_S, k = KD_K_J_K;
     double x = h * c / (wavelength * k * temperature);
     return x > 700 ? 0 : 2 * h * c * c / (pow(wavelength, 5) * expm1(x));
 }
@@ -31,6 +33,11 @@ struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz c)
     };
 }
 
+double kd_colour_srgb_encode(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+}
+
 struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
 {
     struct kd_colour_xyz xyz = kd_colour_blackbody(temperature);
@@ -47,6 +54,5 @@ struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
 
 double kd_colour_luminous_fraction(double temperature)
 {
-    const double sigma_sb = 5.670374419184e-8;
-    return kd_colour_blackbody(temperature).y / (sigma_sb * pow(temperature, 4) / M_PI);
+    return kd_colour_blackbody(temperature).y / (KD_STEFAN_BOLTZMANN_SI * pow(temperature, 4) / M_PI);
 }

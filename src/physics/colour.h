@@ -18,6 +18,9 @@ struct kd_colour_xyz kd_colour_blackbody(double temperature);
 /* Linear sRGB (IEC 61966-2-1 primaries, D65 white), not clipped: components can be negative. */
 struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
 
+/* The encoding of a component of linear sRGB in [0, 1] (IEC 61966-2-1). */
+double kd_colour_srgb_encode(double linear);
+
 /* Colour of a black body as linear sRGB of luminance 1. Outside the sRGB gamut (below about 1900 K) it is moved towards
  * the grey of the same luminance until no component is negative. */
 struct kd_colour_rgb kd_colour_blackbody_unit(double temperature);

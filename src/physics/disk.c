@@ -1,5 +1,6 @@
 #include "physics/disk.h"
 
+#include "physics/constants.h"
 #include "physics/kerr.h"
 
 #include <math.h>
@@ -74,15 +75,19 @@ double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, 
     return r * r / (radial - (lambda - a) * j);
 }
 
+double kd_disk_rate(double a, double mass_msun, double mdot_edd)
+{
+    double luminosity = mdot_edd * 4 * M_PI * KD_GM_SUN_SI * mass_msun * KD_PROTON_KG * KD_C_M_S / KD_THOMSON_M2;
+    return luminosity / (kd_kerr_efficiency(a) * KD_C_M_S * KD_C_M_S);
+}
+
+double kd_disk_flux_si(double flux, double a, double mass_msun, double mdot_edd)
+{
+    double light_s = KD_M_SUN_S * mass_msun; /* c^2/M^2 in s^-2 */
+    return flux * kd_disk_rate(a, mass_msun, mdot_edd) / (light_s * light_s);
+}
+
 double kd_disk_temperature(double flux, double a, double mass_msun, double mdot_edd)
 {
-    const double gm_sun = 1.3271244e20;          /* m^3/s^2, IAU 2015 B3 */
-    const double c = 299792458.0;                /* m/s */
-    const double m_p = 1.67262192369e-27;        /* kg */
-    const double sigma_t = 6.6524587321e-29;     /* m^2 */
-    const double sigma_sb = 5.670374419184e-8;   /* W m^-2 K^-4 */
-    double gm = gm_sun * mass_msun, r_g = gm / (c * c);
-    double luminosity = mdot_edd * 4 * M_PI * gm * m_p * c / sigma_t;
-    double mdot_c2 = luminosity / kd_kerr_efficiency(a);
-    return pow(flux * mdot_c2 / (r_g * r_g) / sigma_sb, 0.25);
+    return pow(kd_disk_flux_si(flux, a, mass_msun, mdot_edd) / KD_STEFAN_BOLTZMANN_SI, 0.25);
 }

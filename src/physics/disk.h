@@ -27,8 +27,11 @@ double kd_disk_redshift(double a, double r, double lambda);
  * still on its way in. eta = Q/E^2; E > 0. Zero at the horizon for photons that leave outwards. */
 double kd_disk_redshift_plunging(double a, double r, double lambda, double eta, bool outwards);
 
-/* Effective temperature in K of flux F/Mdot (as above) for a mass in solar masses and an accretion rate in units of
- * L_Edd / (efficiency(a) c^2), with L_Edd = 4 pi G M m_p c / sigma_T. CODATA 2018, IAU 2015 solar mass parameter. */
+/* In SI units for a mass in solar masses and an accretion rate in units of L_Edd / (efficiency(a) c^2), with
+ * L_Edd = 4 pi G M m_p c / sigma_T: the rate in kg/s; a flux F/Mdot (as above) in W/m^2; and its effective temperature in K,
+ * sigma T^4 = F. Constants: physics/constants.h. */
+double kd_disk_rate(double a, double mass_msun, double mdot_edd);
+double kd_disk_flux_si(double flux, double a, double mass_msun, double mdot_edd);
 double kd_disk_temperature(double flux, double a, double mass_msun, double mdot_edd);
 
 #endif

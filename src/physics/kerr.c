@@ -89,3 +89,10 @@ double kd_kerr_dragging(double a, double r, double cos_theta)
     double delta = r * r - 2 * r + a * a, s2 = (1 - cos_theta) * (1 + cos_theta), w = r * r + a * a;
     return 2 * a * r / (w * w - a * a * delta * s2);
 }
+
+double kd_kerr_rotation_reach(double a, double r, double cos_theta, double sin_theta)
+{
+    double delta = fmax(0, (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a))), w = r * r + a * a;
+    double sigma = r * r + a * a * cos_theta * cos_theta;
+    return sqrt(delta) * sigma / ((w * w - a * a * delta * sin_theta * sin_theta) * sin_theta);
+}

@@ -33,4 +33,8 @@ double kd_kerr_efficiency(double a);
 /* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
 double kd_kerr_dragging(double a, double r, double cos_theta);
 
+/* Anything at r turns with d(phi)/dt within this of the frame dragging, where light does: sqrt(Delta) Sigma/(B sin(theta)),
+ * B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the axis. */
+double kd_kerr_rotation_reach(double a, double r, double cos_theta, double sin_theta);
+
 #endif

@@ -1,5 +1,6 @@
 /* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
  * table. */
+#include "server/openapi_physics.h"
 #include "server/openapi_rays.h"
 #include "server/reply.h"
 #include "server/request.h"
@@ -136,6 +137,10 @@ static cJSON *document(cJSON *schema)
         const struct kd_route *route = &kd_routes[i];
         size_t n = strlen(route->path);
         char path[80];
+        if (route->takes == KD_TAKES_QUANTITY) {
+            kd_openapi_physics_paths(paths);
+            continue;
+        }
         snprintf(path, sizeof path, "%s%s", route->path, n > 1 && route->path[n - 1] == '/' ? "{name}" : "");
         cJSON *item = cJSON_AddObjectToObject(paths, path);
         if (route->methods & KD_GET)

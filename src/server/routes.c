@@ -23,6 +23,9 @@ const struct kd_route kd_routes[] = {
       "What a scene requires: passes, rays, bytes, estimated time, approximations", KD_TAKES_SCENE },
     { "/v1/rays", KD_POST, kd_handle_rays, JSON,
       "End points of listed rays: equatorial crossings, redshift, delay, direction of escape, error", KD_TAKES_RAYS },
+    { "/v1/physics", KD_GET, kd_handle_quantities, JSON, "The quantities that /v1/physics/NAME gives" },
+    { "/v1/physics/", KD_GET, kd_handle_quantity, JSON, "A quantity at a point, or along ranges of its parameters",
+      KD_TAKES_QUANTITY },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Arrows point one way: base <- physics <- scene <- render -> vk, image; server and the command line on top.
+"""Arrows point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and the command line on top.
 
     arrows.py SRC     exit 1 naming every #include in SRC that points the wrong way, after proving that it finds some
 """
@@ -13,11 +13,12 @@ MODULES = {
     "base": set(),
     "physics": {"base"},
     "scene": {"base", "physics"},
+    "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
-    "server": {"base", "physics", "scene", "image", "render"},
-    "cli": {"base", "physics", "scene", "image", "vk", "render", "server"},
+    "server": {"base", "physics", "scene", "quantity", "image", "render"},
+    "cli": {"base", "physics", "scene", "quantity", "image", "vk", "render", "server"},
     "main.c": {"cli"},
 }
 # Headers of other projects, and who may include them.
@@ -68,7 +69,8 @@ def self_test():
         "vk/a.c": '#include "scene/scene.h"', "vk/b.c": "#include <microhttpd.h>",
         "image/a.c": '#include "scene/scene.h"', "server/a.c": '#include "vk/vk.h"',
         "server/b.c": "#include <vk/vk.h>", "render/a.c": '#include "server/server.h"',
-        "server/c.c": '#include "post.spv.h"', "render/b.c": '#include "plan.h"', "news/a.c": "",
+        "server/c.c": '#include "post.spv.h"', "render/b.c": '#include "plan.h"',
+        "quantity/a.c": '#include "render/plan.h"', "scene/b.c": '#include "quantity/quantity.h"', "news/a.c": "",
     }
     right = {"render/c.c": '#include "vk/vk.h"\n#include "post.spv.h"\n#include <math.h>', "server/d.c": '#include "render/plan.h"'}
     with tempfile.TemporaryDirectory() as folder:

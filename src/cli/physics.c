@@ -1,0 +1,147 @@
+/* kerrd physics: quantities by name. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "quantity/quantity.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_PARAMETER = 256, NAME_SIZE = 40, HELP_SIZE = 400 };
+
+struct arguments {
+    const struct kd_quantity *quantity;
+    const char *output, *format;
+    const char *given[KD_QUANTITY_PARAMETERS]; /* NULL: not given */
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    if (key >= KEY_PARAMETER && key < KEY_PARAMETER + KD_QUANTITY_PARAMETERS) {
+        arguments->given[key - KEY_PARAMETER] = text;
+        return 0;
+    }
+    switch (key) {
+    case 'o': arguments->output = text; return 0;
+    case 'f':
+        if (strcmp(text, "json") && strcmp(text, "csv"))
+            argp_error(state, "--format %s: json or csv", text);
+        arguments->format = text;
+        return 0;
+    case ARGP_KEY_ARG: argp_error(state, "%s: parameters are options, as in --%s VALUE", text, "spin"); return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* The options of one quantity, and the texts that they point into. */
+struct options {
+    struct argp_option table[KD_QUANTITY_PARAMETERS + 3];
+    char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], helps[KD_QUANTITY_PARAMETERS][HELP_SIZE];
+};
+
+static void make_options(const struct kd_quantity *quantity, struct options *options)
+{
+    size_t n = 0;
+    for (; n < quantity->n_parameters; n++) {
+        const struct kd_parameter *p = &quantity->parameters[n];
+        char *name = options->names[n], *help = options->helps[n], allowed[KD_ALLOWED_TEXT];
+        snprintf(name, NAME_SIZE, "%s", p->name);
+        for (char *c = name; *c; c++)
+            *c = *c == '_' ? '-' : *c;
+        kd_parameter_allowed(p, allowed);
+        snprintf(help, HELP_SIZE, "%s; %s (default: %s)", p->help, allowed, p->initial);
+        options->table[n] = (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? "WORD" : "VALUE", 0, help, 1 };
+    }
+    options->table[n++] = (struct argp_option) {
+        "output", 'o', "FILE", 0, "where to write; .csv chooses that format (default: - for standard output)", 2
+    };
+    options->table[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json or csv, whatever the name of the output", 2 };
+    options->table[n] = (struct argp_option) { 0 };
+}
+
+static enum kd_status answer_text(const struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_quantity_request request;
+    struct kd_quantity_answer answer;
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    enum kd_status status = KD_OK;
+    kd_quantity_request_init(&request, arguments->quantity);
+    for (size_t i = 0; i < arguments->quantity->n_parameters && !status; i++)
+        if (arguments->given[i])
+            status = kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error);
+    if (!status)
+        status = kd_quantity_evaluate(&request, &answer, error);
+    if (status)
+        return status;
+    status = strcmp(format, "csv") ? kd_quantity_json(&answer, out) : kd_quantity_csv(&answer, out);
+    if (status)
+        kd_error_set(error, status, "out of memory for %zu points", answer.points);
+    kd_quantity_answer_finish(&answer);
+    return status;
+}
+
+static int run_quantity(const struct kd_quantity *quantity, int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 3 }, { 0 } };
+    struct options options;
+    char doc[HELP_SIZE];
+    struct arguments arguments = { .quantity = quantity };
+    struct kd_buffer out = { 0 };
+    struct kd_error error = { 0 };
+
+    make_options(quantity, &options);
+    snprintf(doc, sizeof doc,
+             "%c%s.\vA VALUE is a number or a range, first:last:count. What each number of the answer means is in "
+             "docs/physics-quantities.md and in GET /v1/physics.",
+             quantity->summary[0] - 'a' + 'A', quantity->summary + 1);
+    const struct argp argp = { .options = options.table, .parser = parse, .doc = doc, .children = children };
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = answer_text(&arguments, &out, &error);
+    bool print = !arguments.output || !strcmp(arguments.output, "-");
+    if (!status && !print)
+        status = kd_file_write(arguments.output, &out, &error);
+    int code = status ? kd_cli_fail(&error) : print ? kd_cli_print(out.data, out.size) : KD_EXIT_OK;
+    kd_buffer_finish(&out);
+    return code;
+}
+
+static error_t parse_name(int key, char *text, struct argp_state *state)
+{
+    int *index = state->input;
+    char names[300];
+    if (key == ARGP_KEY_ARG) {
+        kd_quantity_names(names, sizeof names);
+        if (!kd_quantity_find(text))
+            argp_error(state, "there is no quantity \"%s\"; known are %s", text, names);
+        *index = state->next - 1;
+        state->next = state->argc; /* the rest is the quantity's */
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+int kd_cli_physics(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
+    static const struct argp argp = {
+        .parser = parse_name,
+        .args_doc = "[NAME [OPTION...]]",
+        .doc = "Numbers of a hole, an orbit, a disk as JSON or CSV, at a point or along a range of a parameter.\v"
+               "Without a NAME, list the quantities; `kerrd physics NAME --help` lists the parameters of one.",
+        .children = children,
+    };
+    int index = 0;
+    char name[64];
+    argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &index);
+    if (!index) {
+        for (size_t i = 0; i < kd_quantity_count; i++)
+            printf("%-16s %s\n", kd_quantities[i]->name, kd_quantities[i]->summary);
+        return kd_cli_print("", 0);
+    }
+    const struct kd_quantity *quantity = kd_quantity_find(argv[index]);
+    snprintf(name, sizeof name, "kerrd physics %s", quantity->name);
+    argv[index] = name;
+    return run_quantity(quantity, argc - index, argv + index);
+}

@@ -1,0 +1,54 @@
+/* How a quantity is written down. Private to src/quantity.
+ *
+ *     #define PARAMETERS(P) P(spin, .unit = "M", .initial = "0.9", ...) P(r, ...)
+ *     #define OUTPUTS(O) O(isco, .unit = "M", .fixed = true, .help = "...") ...
+ *     KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+ *     static enum kd_status evaluate(const double *in, double *out, ...)
+ *     { const struct parameters *p = KD_QUANTITY_IN(in); struct outputs *o = KD_QUANTITY_OUT(out); ... }
+ *     KD_QUANTITY(kerr, "kerr", "the hole in numbers", .point_us = 1)
+ *
+ * gives struct parameters and struct outputs their members, in the order of the tables, all double. */
+#ifndef KD_QUANTITY_DEFINE_H
+#define KD_QUANTITY_DEFINE_H
+
+#include "quantity/quantity.h"
+
+#include <math.h>
+
+#define KD_DEFINE_MEMBER(member, ...) double member;
+#define KD_DEFINE_ROW(member, ...) { .name = #member, __VA_ARGS__ },
+
+#define KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)                                                                       \
+    struct parameters { PARAMETERS(KD_DEFINE_MEMBER) };                                                               \
+    struct outputs { OUTPUTS(KD_DEFINE_MEMBER) };                                                                     \
+    static const struct kd_parameter parameter_rows[] = { PARAMETERS(KD_DEFINE_ROW) };                                \
+    static const struct kd_output output_rows[] = { OUTPUTS(KD_DEFINE_ROW) };                                         \
+    _Static_assert(sizeof(struct parameters) <= KD_QUANTITY_PARAMETERS * sizeof(double), "too many parameters");      \
+    _Static_assert(sizeof(struct outputs) <= KD_QUANTITY_OUTPUTS * sizeof(double), "too many outputs");
+
+#define KD_QUANTITY_IN(in) ((const struct parameters *)(const void *)(in))
+#define KD_QUANTITY_OUT(out) ((struct outputs *)(void *)(out))
+
+/* The file also has `evaluate`, and `sources` and `approximations`, ended by NULL. */
+#define KD_QUANTITY(symbol, name_, summary_, ...)                                                                     \
+    const struct kd_quantity kd_quantity_##symbol = {                                                                 \
+        .name = name_, .summary = summary_,                                                                           \
+        .parameters = parameter_rows, .n_parameters = sizeof parameter_rows / sizeof *parameter_rows,                 \
+        .outputs = output_rows, .n_outputs = sizeof output_rows / sizeof *output_rows,                                \
+        .sources = sources, .approximations = approximations, .evaluate = evaluate, __VA_ARGS__                       \
+    };
+
+/* Rows that many share. */
+#define KD_PARAMETER_SPIN(P)                                                                                          \
+    P(spin, .unit = "M", .initial = "0.9", .minimum = -1, .maximum = 1, .open = true,                                 \
+      .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")
+#define KD_PARAMETER_MASS(P)                                                                                          \
+    P(mass_msun, .unit = "solar masses", .initial = "1e8", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole")
+
+/* KD_EINVAL with "/name": "r is 1.2, " and the reason, which ends in what is allowed. */
+enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
+    __attribute__((format(printf, 4, 5)));
+/* r at or outside the horizon of spin a, or that error. */
+enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error);
+
+#endif

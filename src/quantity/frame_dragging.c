@@ -1,0 +1,46 @@
+#include "quantity/define.h"
+
+#include "physics/kerr.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    KD_PARAMETER_SPIN(P)                                                                                               \
+    P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, .help = "polar angle")              \
+    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .along = true, .help = "radius")
+#define OUTPUTS(O)                                                                                                     \
+    O(omega, .unit = "1/M", .help = "angular velocity of what has no angular momentum, -g_tphi/g_phiphi")              \
+    O(far_field, .unit = "1/M", .help = "2J/r^3 with J = aM")                                                          \
+    O(omega_least, .unit = "1/M", .help = "least angular velocity of anything at r; positive inside the ergosphere")   \
+    O(omega_most, .unit = "1/M", .help = "largest angular velocity of anything at r; null on the axis, as the least")  \
+    O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+)")                \
+    O(ergosphere, .unit = "M", .fixed = true, .help = "static limit at theta_deg")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347, eqs 2.3, 2.5",
+    "J. Lense & H. Thirring 1918, Phys. Z. 19, 156 (far field)",
+    NULL,
+};
+static const char *const approximations[] = { "far_field is the leading term at large r", NULL };
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    double a = p->spin, r = p->r, u = cos(p->theta_deg * (M_PI / 180)), s = sin(p->theta_deg * (M_PI / 180));
+    (void)memory;
+    if (kd_quantity_outside_horizon(a, r, error))
+        return KD_EINVAL;
+    if (fresh) {
+        o->horizon_omega = a / (2 * kd_kerr_horizon(a));
+        o->ergosphere = kd_kerr_ergosphere(a, u);
+    }
+    o->omega = kd_kerr_dragging(a, r, u);
+    o->far_field = 2 * a / (r * r * r);
+    bool axis = p->theta_deg == 0 || p->theta_deg == 180;
+    double reach = kd_kerr_rotation_reach(a, r, u, s);
+    o->omega_least = axis ? NAN : o->omega - reach;
+    o->omega_most = axis ? NAN : o->omega + reach;
+    return KD_OK;
+}
+
+KD_QUANTITY(frame_dragging, "frame-dragging", "angular velocity of the dragged frame, and its far field", .point_us = 1)

@@ -1,0 +1,80 @@
+#include "quantity/define.h"
+
+#include "physics/epicyclic.h"
+#include "physics/kerr.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    KD_PARAMETER_SPIN(P)                                                                                               \
+    P(theta_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180,                                     \
+      .help = "polar angle at which the ergosphere is given")                                                          \
+    P(r, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e9, .word = "isco", .along = true,                    \
+      .help = "radius of the circular orbit whose frequencies are given")
+#define OUTPUTS(O)                                                                                                     \
+    O(horizon, .unit = "M", .fixed = true, .help = "outer horizon r+")                                                 \
+    O(inner_horizon, .unit = "M", .fixed = true, .help = "inner horizon r-")                                           \
+    O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+)")                \
+    O(ergosphere, .unit = "M", .fixed = true, .help = "static limit r_E at theta_deg")                                 \
+    O(photon_prograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards +phi")            \
+    O(photon_retrograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards -phi")          \
+    O(marginally_bound, .unit = "M", .fixed = true, .help = "circular orbit with E = 1, towards +phi")                 \
+    O(marginally_bound_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                        \
+    O(isco, .unit = "M", .fixed = true, .help = "innermost stable circular orbit, towards +phi")                       \
+    O(isco_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                                    \
+    O(isco_energy, .unit = "1", .fixed = true, .help = "specific energy E at the ISCO")                                \
+    O(isco_momentum, .unit = "M", .fixed = true, .help = "specific angular momentum L at the ISCO")                    \
+    O(isco_omega, .unit = "1/M", .fixed = true, .help = "angular velocity Omega at the ISCO")                          \
+    O(efficiency, .unit = "1", .fixed = true, .help = "1 - E at the ISCO")                                             \
+    O(energy, .unit = "1", .help = "specific energy E at r; null at and inside the photon orbit")                      \
+    O(momentum, .unit = "M", .help = "specific angular momentum L at r; likewise")                                     \
+    O(omega_phi, .unit = "1/M", .help = "orbital frequency Omega_phi at r, angular, of coordinate time; likewise")     \
+    O(kappa, .unit = "1/M", .help = "radial epicyclic frequency at r; null inside the ISCO too")                       \
+    O(omega_theta, .unit = "1/M", .help = "vertical epicyclic frequency at r; null at and inside the photon orbit")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347, eqs 2.12-2.21",
+    "A. T. Okazaki, S. Kato & J. Fukue 1987, PASJ 39, 457 (epicyclic frequencies)",
+    NULL,
+};
+static const char *const approximations[] = { NULL };
+
+static void fill_hole(const struct parameters *p, struct outputs *o)
+{
+    double a = p->spin;
+    o->horizon = kd_kerr_horizon(a);
+    o->inner_horizon = kd_kerr_inner_horizon(a);
+    o->horizon_omega = a / (2 * o->horizon);
+    o->ergosphere = kd_kerr_ergosphere(a, cos(p->theta_deg * (M_PI / 180)));
+    o->photon_prograde = kd_kerr_photon_orbit(a);
+    o->photon_retrograde = kd_kerr_photon_orbit(-a);
+    o->marginally_bound = kd_kerr_marginally_bound(a);
+    o->marginally_bound_retrograde = kd_kerr_marginally_bound(-a);
+    o->isco = kd_kerr_isco(a);
+    o->isco_retrograde = kd_kerr_isco(-a);
+    o->isco_energy = kd_kerr_energy(a, o->isco);
+    o->isco_momentum = kd_kerr_momentum(a, o->isco);
+    o->isco_omega = kd_kerr_omega(a, o->isco);
+    o->efficiency = kd_kerr_efficiency(a);
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    (void)memory;
+    if (fresh)
+        fill_hole(p, o);
+    double r = isinf(p->r) ? o->isco : p->r;
+    bool orbit = r > o->photon_prograde;
+    if (kd_quantity_outside_horizon(p->spin, r, error))
+        return KD_EINVAL;
+    o->energy = orbit ? kd_kerr_energy(p->spin, r) : NAN;
+    o->momentum = orbit ? kd_kerr_momentum(p->spin, r) : NAN;
+    o->omega_phi = orbit ? kd_kerr_omega(p->spin, r) : NAN;
+    o->kappa = orbit ? kd_epicyclic_radial(p->spin, r) : NAN;
+    o->omega_theta = orbit ? kd_epicyclic_vertical(p->spin, r) : NAN;
+    return KD_OK;
+}
+
+KD_QUANTITY(kerr, "kerr", "radii, ISCO and frequencies of circular orbits of a Kerr hole", .point_us = 2,
+            .fresh_us = 2)

@@ -1,0 +1,51 @@
+#include "quantity/define.h"
+
+#include "physics/kerr.h"
+#include "scene/number.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* In the order in which they are listed. */
+#define QUANTITIES(X) X(kerr) X(potential) X(disk_flux) X(blackbody) X(frame_dragging)
+
+#define DECLARE(symbol) extern const struct kd_quantity kd_quantity_##symbol;
+QUANTITIES(DECLARE)
+
+#define POINTER(symbol) &kd_quantity_##symbol,
+const struct kd_quantity *const kd_quantities[] = { QUANTITIES(POINTER) };
+const size_t kd_quantity_count = sizeof kd_quantities / sizeof *kd_quantities;
+
+const struct kd_quantity *kd_quantity_find(const char *name)
+{
+    for (size_t i = 0; i < kd_quantity_count; i++)
+        if (!strcmp(kd_quantities[i]->name, name))
+            return kd_quantities[i];
+    return NULL;
+}
+
+void kd_quantity_names(char *out, size_t size)
+{
+    size_t used = 0;
+    *out = 0;
+    for (size_t i = 0; i < kd_quantity_count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : "", kd_quantities[i]->name);
+}
+
+enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
+{
+    char pointer[64], number[KD_NUMBER_SIZE], text[200];
+    va_list args;
+    va_start(args, reason);
+    vsnprintf(text, sizeof text, reason, args);
+    va_end(args);
+    snprintf(pointer, sizeof pointer, "/%s", name);
+    kd_number_format(number, value);
+    return kd_error_field(error, pointer, "%s is %s, %s", name, number, text);
+}
+
+enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error)
+{
+    double horizon = kd_kerr_horizon(a);
+    return r >= horizon ? KD_OK : kd_quantity_outside(error, "r", r, "inside the horizon at %.15g M; allowed is outside", horizon);
+}

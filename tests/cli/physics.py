@@ -1,0 +1,60 @@
+"""kerrd physics: names, options, ranges, forms, and what is refused."""
+import csv
+import io
+import json
+
+from support import Case, main, run
+
+
+class Physics(Case):
+    def test_list(self):
+        names = [line.split()[0] for line in self.good("physics").decode().splitlines()]
+        self.assertIn("kerr", names)
+        for name in names:
+            document = json.loads(self.good("physics", name))
+            self.assertEqual(document["quantity"], name)
+            text = self.good("physics", name, "--help").decode()
+            for parameter in document["parameters"]:
+                self.assertIn("--" + parameter.replace("_", "-"), text)
+
+    def test_point_and_curve(self):
+        values = json.loads(self.good("physics", "kerr", "--spin=-0.5", "--r", "isco"))["values"]
+        self.assertEqual(values["kappa"], 0)
+        self.assertAlmostEqual(values["isco"], 7.5545847145123, delta=1e-12)  # Bardeen, Press & Teukolsky 1972, eq. 2.21
+        curve = json.loads(self.good("physics", "kerr", "--spin", "-0.5:0.5:3", "--r", "isco"))["values"]
+        self.assertEqual(curve["isco"][0], values["isco"])
+        self.assertEqual(curve["isco"][1], curve["isco_retrograde"][1])
+
+    def test_forms(self):
+        options = ["physics", "disk-flux", "--mass-msun", "10", "--r", "5:25:5"]
+        table = self.good(*options, "-f", "csv")
+        self.good(*options, "-o", self.path("a.csv"))
+        self.good(*options, "-o", self.path("a.json"))
+        self.good(*options, "-o", self.path("b.csv"), "--format", "json")
+        self.assertEqual(self.read("a.csv"), table)
+        self.assertEqual(self.read("a.json"), self.read("b.csv"))
+        rows, document = list(csv.DictReader(io.StringIO(table.decode()))), json.loads(self.read("a.json"))
+        self.assertEqual([float(row["t_eff_k"]) for row in rows], document["values"]["t_eff_k"])
+        self.assertEqual([float(row["luminosity_w"]) for row in rows], [document["values"]["luminosity_w"]] * 5)
+        self.assertEqual(len(self.good("physics", "kerr", "--r", "3:30:100000", "-f", "csv").splitlines()), 100001)
+
+    def test_refused(self):
+        self.bad(2, "known are kerr, ", "physics", "nothing")
+        for words, *args in (("--mass", "--mass", "1"), ("parameters are options", "0.5"), ("json or csv", "-f", "npy")):
+            done = run("physics", "kerr", *args)  # argp's hint that follows takes two lines
+            self.assertEqual((done.returncode, done.stdout), (2, b""))
+            self.assertIn(words, done.stderr.decode().splitlines()[0])
+        for option, value, words in (("--spin", "1", "(at /spin)"), ("--spin", "0:1:2", "(at /spin)"), ("--r", "1.2", "horizon"),
+                                     ("--theta-deg", "181", "(at /theta_deg)"), ("--r", "2:3:100001", "(at /r)")):
+            self.bad(2, words, "physics", "kerr", option, value)
+        self.bad(2, "100000 points", "physics", "kerr", "--spin", "0:0.5:1000", "--r", "3:4:1000")
+        self.bad(1, "No such file", "physics", "kerr", "-o", self.path("absent/a.json"))
+        with open("/dev/full", "wb") as full:
+            self.bad(1, "No space left", "physics", "kerr", stdout=full)
+        self.write("a.json", "old")
+        self.bad(2, "(at /spin)", "physics", "kerr", "--spin", "2", "-o", self.path("a.json"))
+        self.assertEqual(self.read("a.json"), b"old")
+
+
+if __name__ == "__main__":
+    main()
