@@ -23,7 +23,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { uint first, count; } push;
 layout(set = 0, binding = 0) readonly buffer Rays {
     float spin, horizon_r, far, pad;
-    float list[]; /* x, y, z, p_x, p_y, p_z */
+    float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, 0 and 0 where there is none */
 } rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 
@@ -151,7 +151,7 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= push.count)
         return;
-    uint i = push.first + gl_GlobalInvocationID.x, in_ = 6 * i, o = (3 * ORDERS + 4) * i;
+    uint i = push.first + gl_GlobalInvocationID.x, in_ = 8 * i, o = (3 * ORDERS + 4) * i;
     kd_pair y;
     y.a.x = vec3(rays.list[in_], rays.list[in_ + 1], rays.list[in_ + 2]);
     y.a.p = vec3(rays.list[in_ + 3], rays.list[in_ + 4], rays.list[in_ + 5]);
@@ -159,13 +159,24 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
+    /* lavapipe leaves all loops of an invocation after 65535 rounds, inner ones counted, with whatever the variables then hold: stay
+     * below it, and a ray that needs more is undecided. At the most steps of src/render/rays_check.c these are 16 half turns
+     * (Tao's method) or 60; a ray that passes the hole takes 8 to 13. */
+    const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
+
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED;
     uint n = 0;
-    /* Once, not in each step: lavapipe leaves all loops of an invocation after 65535 rounds, and the series has ten. */
+    if (rays.list[in_ + 6] > 0.0) {
+        ends[o] = rays.list[in_ + 6];
+        ends[o + 1] = rays.list[in_ + 7];
+        n = 1;
+    }
+    float far = max(rays.far, 10.0 * radius(y.a.x));
+    /* Once, not in each step: the series has ten rounds. */
     kd_turn turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
-    for (uint step_ = 0; step_ < 64 * STEPS; step_++) {
+    for (uint step_ = 0; step_ < most; step_++) {
         kd_point before = y.a;
         if (METHOD == 0)
             y.a = euler(y.a, h);
@@ -174,7 +185,7 @@ void main()
         else
             y = tao_6(y, h, turns);
         float z0 = before.x.z, z1 = y.a.x.z, r = radius(y.a.x);
-        if (z0 != 0.0 && (z0 > 0.0) != (z1 > 0.0) && n < ORDERS && step_ > 0) {
+        if (z0 != 0.0 && (z0 > 0.0) != (z1 > 0.0) && n < ORDERS) {
             vec3 d0 = h * flow(before.x, before.p).x, d1 = h * flow(y.a.x, y.a.p).x;
             float s = z0 / (z0 - z1);
             for (int k = 0; k < 4; k++)
@@ -193,8 +204,13 @@ void main()
             fate = KD_FATE_CAPTURED;
             break;
         }
-        if (r > rays.far && dot(y.a.x, y.a.p) > 0.0) {
+        if (r > far && dot(y.a.x, y.a.p) > 0.0) {
             fate = KD_FATE_ESCAPED;
+            if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the rest is straight, and meets the plane once more */
+                vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
+                ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);
+                ends[o + 3 * n + 1] = azimuth(vec3(hit.x, hit.y, 0.0));
+            }
             break;
         }
     }

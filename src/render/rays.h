@@ -39,7 +39,7 @@ struct kd_rays_params {
     uint32_t orders;         /* crossings wanted, 1 to KD_RAYS_MAX_ORDERS */
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
-    uint32_t steps;          /* a half period, a multiple of 4 up to 4096; 0: the engine's default; closed: 0 */
+    uint32_t steps;          /* a half period, a multiple of 4; 0: the engine's default; closed: 0 */
 };
 
 enum kd_ray_fate { KD_RAY_CAPTURED, KD_RAY_ESCAPED, KD_RAY_UNDECIDED };

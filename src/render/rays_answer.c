@@ -92,6 +92,9 @@ const char *kd_rays_approximation(const struct kd_rays_params *params, size_t in
         params->precision == KD_PRECISION_F32
             ? "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong"
             : NULL,
+        params->engine >= KD_ENGINE_KS_EULER ? "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
+                                               "takes the momentum they leave with for their direction of escape, good to 1e-6 rad"
+                                             : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)

@@ -41,22 +41,28 @@ static void observer(double degrees, double *u, double *s)
     *s = degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
 }
 
-/* In single precision far positions cost digits of b, near ones those of the series: a thousand is the best of both. */
-static double far_start(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e6 : 1e3; }
+/* Where a Cartesian ray from infinity starts: far positions cost digits of b, and Tao's method phase. A nearer start would be more
+ * exact still, but by leaving the work to Mino time (rays_start.c): at 100 M single precision loses a sixth of what it does here. */
+#define FAR 1e3
+/* Where it has escaped: its momentum has come to its limit within M b/r^2. Single precision knows it no better than from there,
+ * and Tao's copies part further out. */
+static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const double *alpha_beta, size_t n)
 {
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(w->rays);
-    double u, s, state[6];
+    const size_t per_start = sizeof(struct kd_rays_origin) / sizeof(double);
+    union { struct kd_rays_origin origin; double numbers[sizeof(struct kd_rays_origin) / sizeof(double)]; } start;
+    double u, s;
     observer(p->inclination_deg, &u, &s);
     put(w, at, 0, p->spin);
     put(w, at, 1, kd_kerr_horizon(p->spin));
-    put(w, at, 2, 10 * (isinf(p->r) ? far_start(w) : fmax(p->r, 1e3)));
+    put(w, at, 2, escape(w));
     for (size_t i = 0; i < n; i++) {
-        kd_rays_start(p->spin, p->r, u, s, alpha_beta[2 * i], alpha_beta[2 * i + 1], far_start(w), state);
-        for (size_t k = 0; k < 6; k++)
-            put(w, at, 4 + 6 * i + k, state[k]);
+        kd_rays_start(p->spin, p->r, u, s, alpha_beta[2 * i], alpha_beta[2 * i + 1], false, FAR, &start.origin);
+        for (size_t k = 0; k < per_start; k++)
+            put(w, at, 4 + per_start * i + k, start.numbers[k]);
     }
 }
 
@@ -136,6 +142,21 @@ static enum kd_status trace(const struct work *w, const struct kd_vk_pipeline *p
     return KD_OK;
 }
 
+/* One of the renderer's buffers for lists of rays, which stay for the next one and only grow. */
+static enum kd_status hold(struct kd_renderer *r, int which, uint64_t size, enum kd_vk_memory memory, const char *name,
+                           struct kd_vk_buffer **out, struct kd_error *error)
+{
+    struct kd_vk_buffer **kept = &r->rays[which];
+    enum kd_status status = KD_OK;
+    if (!*kept || kd_vk_buffer_size(*kept) < size) {
+        kd_vk_buffer_destroy(r->vk, *kept);
+        *kept = NULL;
+        status = kd_vk_buffer_create(r->vk, size, memory, name, kept, error);
+    }
+    *out = *kept;
+    return status;
+}
+
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
@@ -147,10 +168,7 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
-    if (w.kerr_schild && !isinf(params->r) && (params->inclination_deg == 0 || params->inclination_deg == 180))
-        return kd_error_field(error, "/observer/inclination_deg",
-                              "the Kerr-Schild engines cannot start on the axis at a finite radius; use mino-rkn6 or closed");
-    size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK, per_start = w.kerr_schild ? 6 : 2;
+    size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK, per_start = w.kerr_schild ? 8 : 2;
     const uint32_t method = w.kerr_schild ? params->engine - KD_ENGINE_KS_EULER : params->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
     const uint32_t steps = w.kerr_schild ? 64 : method == 4 ? (w.wide ? 256 : 32) : w.wide ? 64 : 16;
     const uint32_t constants[] = { params->orders, params->steps ? params->steps : steps, method };
@@ -159,17 +177,14 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
     enum kd_status status =
         kd_kernels_get(&renderer->kernels, vk, kernel + w.wide, constants, 3, &pipeline, error);
     if (!status)
-        status = kd_vk_buffer_create(vk, (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &w.rays, error);
+        status = hold(renderer, 0, (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &w.rays, error);
     if (!status)
-        status = kd_vk_buffer_create(vk, room * w.per_ray * number, KD_VK_DEVICE, "ray ends", &w.ends, error);
+        status = hold(renderer, 1, room * w.per_ray * number, KD_VK_DEVICE, "ray ends", &w.ends, error);
     if (!status)
-        status = kd_vk_buffer_create(vk, room * w.per_ray * number, KD_VK_READBACK, "ray ends on the host", &w.host, error);
+        status = hold(renderer, 2, room * w.per_ray * number, KD_VK_READBACK, "ray ends on the host", &w.host, error);
     if (!status)
         status = trace(&w, pipeline, alpha_beta, n, crossings, ends, progress, user);
     if (status)
         kd_vk_discard(vk);
-    kd_vk_buffer_destroy(vk, w.rays);
-    kd_vk_buffer_destroy(vk, w.ends);
-    kd_vk_buffer_destroy(vk, w.host);
     return status;
 }

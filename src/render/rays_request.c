@@ -27,7 +27,7 @@ static const struct field {
     { "", "orders", "/orders", "whole numbers from 1 to 16", WHOLE, AT(orders) },
     { "accuracy", "engine", "/accuracy/engine", NULL, ENGINE, AT(engine) },
     { "accuracy", "precision", "/accuracy/precision", "\"f32\" and \"f64\"", PRECISION, AT(precision) },
-    { "accuracy", "steps", "/accuracy/steps", "multiples of 4 up to 4096, and 0 for the engine's default", WHOLE,
+    { "accuracy", "steps", "/accuracy/steps", "multiples of 4 up to 2048, and 0 for the engine's default", WHOLE,
       AT(steps) },
 #undef AT
 };

@@ -3,9 +3,17 @@
 #ifndef KD_RENDER_RAYS_START_H
 #define KD_RENDER_RAYS_START_H
 
-/* a; r and cosine and sine of the observer's polar angle; labels as in render/rays.h. r = INFINITY: the start is at `far`,
- * reached from infinity by a series to second order in 1/far: its error is of order (b/far)^3. A finite observer must not
- * sit on the axis. out: x, y, z, p_x, p_y, p_z with E = 1. */
-void kd_rays_start(double a, double r, double u, double s, double alpha, double beta, double far, double out[6]);
+#include <stdbool.h>
+
+struct kd_rays_origin {
+    double x[3], p[3]; /* position and momentum, E = 1 */
+    double w, phi;     /* the crossing of the equatorial plane on the way here from infinity: 1/r, 0 where there is none (there is
+                        * at most one), and its azimuth as in render/rays.h */
+};
+
+/* a; r and cosine and sine of the observer's polar angle, 0 allowed; labels as in render/rays.h. r = INFINITY: the start is at
+ * `far`, or at eight times the impact parameter where that is more. outward: a finite observer's ray that starts away from the hole. */
+void kd_rays_start(double a, double r, double u, double s, double alpha, double beta, bool outward, double far,
+                   struct kd_rays_origin *out);
 
 #endif

@@ -55,6 +55,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
         kd_vk_wait(renderer->vk, 0, NULL);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);
+        for (size_t i = 0; i < sizeof renderer->rays / sizeof *renderer->rays; i++)
+            kd_vk_buffer_destroy(renderer->vk, renderer->rays[i]);
         kd_vk_destroy(renderer->vk);
     }
     pthread_mutex_destroy(&renderer->lock);

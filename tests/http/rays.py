@@ -115,6 +115,7 @@ class Requests(daemon.Case):
             ('{%s,"accuracy":{"steps":8}}' % one, '/accuracy/steps'),
             ('{%s,"accuracy":{"engine":"mino-rkn6","steps":6}}' % one, '/accuracy/steps'),
             ('{%s,"accuracy":{"engine":"mino-rkn6","steps":4100}}' % one, '/accuracy/steps'),
+            ('{%s,"accuracy":{"engine":"ks-tao6","steps":516}}' % one, '/accuracy/steps'),
             ('{%s,"accuracy":{"engine":"mino-rkn6","steps":8}}' % one, '/accuracy/precision'),
             ('{%s,"accuracy":{"tolerance":1e-9}}' % one, '/accuracy/tolerance'),
             ('{"rays":[[1,2],[100,0]],"observer":{"r":10}}', '/rays/1'),
