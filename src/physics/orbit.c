@@ -1,0 +1,231 @@
+#include "physics/orbit.h"
+
+#include "physics/kerr.h"
+#include "physics/orbit_internal.h"
+#include "physics/polynomial.h"
+
+#include <float.h>
+#include <math.h>
+
+const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
+{
+    static const char *const names[] = { "bound", "plunge", "escape" };
+    return names[fate];
+}
+
+double kd_orbit_radial(const struct kd_orbit *o, double w)
+{
+    return kd_polynomial_at(o->w, 4, w);
+}
+
+double kd_orbit_radial_slope(const struct kd_orbit *o, double w)
+{
+    return o->w[1] + w * (2 * o->w[2] + w * (3 * o->w[3] + w * 4 * o->w[4]));
+}
+
+double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
+{
+    return 2 * o->energy * (1 + o->a * o->a * w * w) - 4 * o->a * (o->momentum - o->a * o->energy) * w * w * w;
+}
+
+/* Of the two roots of the quadratic in u^2 the one that is reached; 1 - z from the product L^2 = (1 - z)(n - a^2 b) or from
+ * z n = Q, whichever subtracts nothing. */
+static void set_polar(struct kd_orbit *o)
+{
+    double flat = o->a * o->a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
+    double disc = sqrt(fmax((o->total - flat) * (o->total - flat) + 4 * flat * l2, 0));
+    if (sum > 0 || flat >= 0) {
+        o->n = 0.5 * (sum + disc);
+        o->z = o->n > 0 ? o->carter / o->n : 0;
+    } else {
+        o->z = (disc - sum) / (-2 * flat);
+        o->n = o->carter / o->z;
+    }
+    double less = l2 + flat - o->carter; /* n - Q = (less + disc)/2 */
+    if (less >= 0 && o->n > 0)
+        o->axis_gap = 0.5 * (less + disc) / o->n;
+    else
+        o->axis_gap = l2 > 0 ? l2 / (o->n - flat) : 0;
+}
+
+void kd_orbit_set_constants(struct kd_orbit *o)
+{
+    double a2 = o->a * o->a, rest = o->momentum - o->a * o->energy;
+    o->k = o->carter + rest * rest;
+    o->total = o->momentum * o->momentum + o->carter;
+    o->w[0] = -o->binding;
+    o->w[1] = 2;
+    o->w[2] = -(a2 * o->binding + o->total);
+    o->w[3] = 2 * o->k;
+    o->w[4] = -a2 * o->carter;
+    set_polar(o);
+}
+
+/* The range between roots around w, or the outermost one there is if w is NAN. */
+static bool find_range(struct kd_orbit *o, double w)
+{
+    double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / kd_kerr_horizon(o->a);
+    int n = kd_polynomial_roots(o->w, 4, 0, horizon, roots);
+    double low = 0, high = horizon;
+    for (int i = 0; i <= n; i++) {
+        double next = i < n ? roots[i] : horizon;
+        bool touches = i < n && i > 0 && next == low; /* a double root: circular, or the end of a whirl */
+        double middle = 0.5 * (low + next);
+        bool allowed = touches || kd_orbit_radial(o, middle) > 0;
+        bool here = isnan(w) || (w >= low * (1 - 1e-14) && w <= next * (1 + 1e-14));
+        if (allowed && here) {
+            high = next;
+            o->w_low = low, o->w_high = high;
+            o->turns_out = i > 0;
+            o->turns_in = i < n;
+            o->circular = touches;
+            return true;
+        }
+        low = next;
+    }
+    return false;
+}
+
+static void set_fate(struct kd_orbit *o)
+{
+    if (o->circular) { /* unstable where W has a minimum */
+        double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
+        double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
+        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root it is zero but for rounding */
+        return;
+    }
+    o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
+}
+
+enum kd_status kd_orbit_check_spin(double a, struct kd_error *error)
+{
+    if (fabs(a) < 1)
+        return KD_OK;
+    return kd_error_field(error, "/spin", "spin is %.17g, allowed are numbers above -1 and below 1", a);
+}
+
+/* E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
+static bool to_the_future(const struct kd_orbit *o)
+{
+    double w = o->turns_out ? o->w_low : 0.5 * (o->w_low + o->w_high);
+    return o->energy * (1 + o->a * o->a * w * w) - o->a * o->momentum * w * w > 0;
+}
+
+enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r,
+                                       struct kd_orbit *o, struct kd_error *error)
+{
+    enum kd_status status = kd_orbit_check_spin(a, error);
+    if (status)
+        return status;
+    if (!(carter >= 0))
+        return kd_error_field(error, "/carter",
+                              "carter is %.17g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
+                              "given by position and velocity", carter);
+    if (!isnan(r) && !(r > kd_kerr_horizon(a)))
+        return kd_error_field(error, "/r", "r is %.17g, allowed is above the horizon at %.17g", r, kd_kerr_horizon(a));
+    *o = (struct kd_orbit) { .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy),
+                             .momentum = momentum, .carter = carter };
+    kd_orbit_set_constants(o);
+    if (!find_range(o, 1 / r) && !isnan(r))
+        return kd_error_field(error, "/r", "r is %.17g, where a particle of these constants cannot be", r);
+    if (!(o->w_high > 0) || !to_the_future(o))
+        return kd_error_field(error, "/energy", "energy is %.17g: no particle outside the horizon has these constants", energy);
+    set_fate(o);
+    return KD_OK;
+}
+
+struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool outward)
+{
+    struct kd_orbit_state s = { .u = 0, .u_rate = sqrt(o->carter) };
+    if (isnan(r))
+        s.w = o->circular || o->turns_in ? o->w_high : o->w_low;
+    else
+        s.w = fmin(fmax(1 / r, o->w_low), o->w_high);
+    /* W rises as a root of the distance: within rounding of a turning point its value says nothing. */
+    if (o->turns_out && s.w <= o->w_low * (1 + 1e-14))
+        s.w = o->w_low;
+    else if (o->turns_in && s.w >= o->w_high * (1 - 1e-14))
+        s.w = o->w_high;
+    else
+        s.w_rate = copysign(sqrt(fmax(kd_orbit_radial(o, s.w), 0)), outward ? -1 : 1);
+    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* unstable: released one step of its number inside */
+        double g[3];
+        kd_orbit_factor(o, g);
+        s.w = nextafter(o->w_high, 1);
+        s.w_rate = (s.w - o->w_high) * sqrt(fmax(-g[0] - s.w * (g[1] + s.w * g[2]), 0));
+    }
+    return s;
+}
+
+struct local {
+    double energy, momentum; /* L / sin(theta) */
+};
+
+/* E and L/sin(theta) of the local momentum: the tetrads of Bardeen, Press & Teukolsky 1972 (zamo) and of g_tt, g_tphi. */
+static struct local from_frame(double a, double r, double u, enum kd_orbit_frame frame, double gamma, double m_phi)
+{
+    double s2 = (1 - u) * (1 + u), sigma = r * r + a * a * u * u, delta = r * (r - 2) + a * a;
+    if (frame == KD_ORBIT_ZAMO) {
+        double area = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2, dragging = 2 * a * r / area;
+        double scale = sqrt(area / sigma);
+        return (struct local) { gamma * sqrt(sigma * delta / area) + dragging * scale * sqrt(s2) * m_phi, scale * m_phi };
+    }
+    double lapse = sqrt(1 - 2 * r / sigma);
+    return (struct local) { gamma * lapse, (sqrt(delta) * m_phi - 2 * a * r * sqrt(s2) / sigma * gamma) / lapse };
+}
+
+static enum kd_status check_state(double a, double r, double theta, enum kd_orbit_frame frame, const double v[3],
+                                  struct kd_error *error)
+{
+    enum kd_status status = kd_orbit_check_spin(a, error);
+    double speed = hypot(hypot(v[0], v[1]), v[2]);
+    if (status)
+        return status;
+    if (!(r > kd_kerr_horizon(a)) || !isfinite(r))
+        return kd_error_field(error, "/position/r", "r is %.17g, allowed is above the horizon at %.17g", r, kd_kerr_horizon(a));
+    if (!(theta >= 0 && theta <= M_PI))
+        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.17g, allowed is 0 to 180", theta * 180 / M_PI);
+    if (frame == KD_ORBIT_STATIC && !(r > kd_kerr_ergosphere(a, cos(theta))))
+        return kd_error_field(error, "/velocity/frame",
+                              "nothing is at rest at r = %.17g, inside the ergosphere, which ends at %.17g here: use \"zamo\"",
+                              r, kd_kerr_ergosphere(a, cos(theta)));
+    if (!(speed < 1))
+        return kd_error_field(error, "/velocity", "the speed is %.17g, allowed is below 1, that of light", speed);
+    return KD_OK;
+}
+
+enum kd_status kd_orbit_from_state(double a, double r, double theta, enum kd_orbit_frame frame, const double v[3],
+                                   struct kd_orbit *o, struct kd_orbit_state *start, struct kd_error *error)
+{
+    enum kd_status status = check_state(a, r, theta, frame, v, error);
+    if (status)
+        return status;
+    double s = theta == M_PI ? 0 : sin(theta), u = fabs(theta - M_PI_2) < DBL_EPSILON ? 0 : cos(theta);
+    double sigma = r * r + a * a * u * u, delta = r * (r - 2) + a * a;
+    double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    struct local local = from_frame(a, r, u, frame, gamma, gamma * v[2]);
+    double p_theta = sqrt(sigma) * gamma * v[1], across = local.momentum;
+    *o = (struct kd_orbit) { .a = a, .energy = local.energy, .binding = (1 - local.energy) * (1 + local.energy) };
+    o->momentum = across * s;
+    o->carter = p_theta * p_theta + u * u * (a * a * o->binding + across * across);
+    kd_orbit_set_constants(o);
+    *start = (struct kd_orbit_state) {
+        .w = 1 / r, .w_rate = -sqrt(sigma * delta) * gamma * v[0] / (r * r),
+        .u = u, .u_rate = -p_theta * s,
+    };
+    if (!find_range(o, start->w)) { /* at rest at a turning point, and rounding puts it beyond */
+        double near = v[0] == 0 ? start->w * (kd_orbit_radial_slope(o, start->w) > 0 ? 1 + 1e-12 : 1 - 1e-12) : start->w;
+        if (!find_range(o, near))
+            return kd_error_field(error, "/position/r", "the motion from r = %.17g cannot be followed in double precision", r);
+    }
+    if (v[0] == 0) { /* exactly at the turning point that is there */
+        bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
+        *(outer ? &o->w_low : &o->w_high) = start->w;
+        if (o->circular)
+            o->w_low = o->w_high = start->w;
+    }
+    set_fate(o);
+    if (o->fate == KD_ORBIT_PLUNGE && !o->turns_out && start->w_rate < 0)
+        o->fate = KD_ORBIT_ESCAPE;
+    return KD_OK;
+}
