@@ -29,11 +29,7 @@ layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
 #include "camera.glsl"
 #include "escape.glsl"
 
-float fallen(float w, float w0)
-{
-    float g = kd_drag_fall(w, cam.spin, cam.r_plus, cam.r_minus);
-    return FINITE ? g - kd_drag_fall(w0, cam.spin, cam.r_plus, cam.r_minus) : g;
-}
+const float EPSILON = 6e-8; /* unit roundoff */
 
 void main()
 {
@@ -54,7 +50,11 @@ void main()
     kd_state y;
     y.w = ray.w;
     y.dw = ray.dw;
-    float falling = (PHI || SKY) && kd_falls_in(m, y, ray.e, cam.horizon) ? 1.0 : 0.0;
+    kd_barrier barrier;
+    if (PHI || SKY)
+        barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
+    kd_state start = y;
+    float falling = 0.0, fallen = 0.0;
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses;
@@ -64,8 +64,12 @@ void main()
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = y.w, sum = 0.0;
+        if ((PHI || SKY) && falling == 0.0 && kd_falls_in(barrier, y)) { /* from here on in ingoing coordinates */
+            falling = 1.0;
+            fallen = -kd_drag_fall(y.w, cam.spin, cam.root);
+        }
         if (PHI || SKY)
-            sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.r_plus, cam.r_minus, falling);
+            sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.root, falling);
         for (uint i = 0; i < STEPS; i += 4) {
             /* Boole's rule on each four steps. */
             for (uint j = 0; j < 4; j++) {
@@ -76,18 +80,19 @@ void main()
                 high = max(high, y.w);
                 if (PHI || SKY)
                     sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) *
-                           kd_drag(m, y, ray.e, cam.spin, cam.r_plus, cam.r_minus, falling);
+                           kd_drag(m, y, ray.e, cam.spin, cam.root, falling);
             }
         }
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {
             chi += sum * h * (2.0 / 45.0);
+            float fall = falling > 0.0 ? kd_drag_fall(y.w, cam.spin, cam.root) + fallen : 0.0;
             lens[at + n * cam.stride] = y.w;
             if (PHI)
-                lens[at + (ORDERS + n) * cam.stride] = -(psi + chi + (falling > 0.0 ? fallen(y.w, ray.w) : 0.0));
+                lens[at + (ORDERS + n) * cam.stride] = -(psi + chi + fall);
             if (SKY) {
                 above = -above;
-                last = kd_path_crossing(m, y, psi, chi + (falling > 0.0 ? fallen(y.w, ray.w) : 0.0), above);
+                last = kd_path_crossing(m, y, psi, chi + fall, above);
             }
         }
         psi += azimuth.half_;
@@ -96,6 +101,8 @@ void main()
 
     if (SKY) {
         kd_escape end = kd_path_escape(m, ray, last);
+        if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+            end.fate = KD_FATE_UNDECIDED;
         at += (PHI ? 2 * ORDERS : ORDERS) * cam.stride;
         lens[at] = end.u;
         lens[at + cam.stride] = -end.phi;

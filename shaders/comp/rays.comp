@@ -11,7 +11,10 @@
  * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E (1 - u^2)),
  * Delta_w = 1 - 2w + a^2 w^2. The first two grow without bound towards infinity, on the way in and on the way out; but
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
- * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. */
+ * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. That has a pole at
+ * the horizon. A ray that falls in is counted in ingoing time instead: with D = Delta_w and W as in radial_step.glsl
+ *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
+ * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole at all. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
@@ -29,13 +32,21 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(push_constant) uniform Push { uint first, count; } push;
 layout(set = 0, binding = 0) readonly buffer Rays {
-    float spin, u, s, horizon, r_plus, r_minus, w0, epsilon; /* the hole and the observer; unit roundoff */
+    float spin, u, s, horizon, root, w0, epsilon;    /* the hole and the observer; unit roundoff */
     float list[];                                            /* alpha, beta */
 } cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "escape.glsl"
 
 struct kd_rates { float psi, chi, delay; };
+
+kd_state radial(kd_full p)
+{
+    kd_state y;
+    y.w = p.y.x;
+    y.dw = p.dy.x;
+    return y;
+}
 
 /* E + w' for E = 1, without cancellation on the way out. */
 float energy_and_fall(kd_motion m, float w, float dw)
@@ -46,23 +57,38 @@ float energy_and_fall(kd_motion m, float w, float dw)
 kd_rates rates(kd_motion m, kd_full p, float b, float falling)
 {
     float w = p.y.x, u = p.y.y, dw = p.dy.x, a = cam.spin, c = sqrt(b + m.energy2), lost = 1.0 - u * u;
-    kd_state y;
-    y.w = w;
-    y.dw = dw;
+    kd_state y = radial(p);
     kd_rates o;
     o.psi = m.momentum * m.energy2 / (c * (sqrt(b + m.energy2 * u * u) + c));
-    o.chi = kd_drag(m, y, 1.0, a, cam.r_plus, cam.r_minus, falling);
+    o.chi = kd_drag(m, y, 1.0, a, cam.root, falling);
     float a2w2 = a * a * w * w;
-    o.delay = (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2)) /
-                  ((1.0 - cam.r_plus * w) * (1.0 - cam.r_minus * w)) +
-              a * (m.momentum - a * lost) + w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
+    o.delay = a * (m.momentum - a * lost);
+    if (falling > 0.0)
+        o.delay += (1.0 + a2w2) * m.k / kd_inward(m, y, 1.0, a);
+    else
+        o.delay += (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2)) / kd_horizons(w, cam.root) +
+                   w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
     return o;
 }
 
-/* What the two regularisations leave at a point, to be taken between the ends; nothing at infinity. */
-float delay_edge(kd_motion m, float w, float dw)
+/* What the regularisations leave at a point, to be taken between the ends; nothing at infinity. */
+float delay_edge(kd_motion m, kd_state y, float falling)
 {
-    return -dw / w - 2.0 * kd_log(0.5 * energy_and_fall(m, w, dw) / w);
+    if (!(y.w > 0.0))
+        return 0.0;
+    if (falling > 0.0)
+        return 2.0 * kd_fall(y.w, cam.root) - 1.0 / y.w + kd_log(y.w * y.w / kd_horizons(y.w, cam.root));
+    return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
+}
+
+/* How far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the time of a half
+ * period. */
+float drifted(kd_motion m, kd_state y, float time)
+{
+    float w2 = y.w * y.w, a = cam.spin, fall = 1.0 + a * (a - m.momentum) * w2;
+    float d = (1.0 - y.w - cam.root * y.w) * (1.0 - y.w + cam.root * y.w);
+    float off = abs(y.dw * y.dw - (fall * fall - d * m.k * w2));
+    return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
 /* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: sixteen times what is left is a bound even
@@ -95,9 +121,11 @@ void main()
     kd_state half_, start;
     half_.w = start.w = ray.w;
     half_.dw = start.dw = ray.dw;
-    float falling = kd_falls_in(m, start, 1.0, cam.horizon) ? 1.0 : 0.0;
-    float started = ray.w > 0.0 ? delay_edge(m, ray.w, ray.dw) : 0.0;
-    float fallen0 = ray.w > 0.0 ? kd_drag_fall(ray.w, cam.spin, cam.r_plus, cam.r_minus) : 0.0;
+    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, cam.epsilon);
+    float falling = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
+    /* Of the start: w is rounded, and so is R, of which w' is the root. */
+    float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
+    float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
@@ -107,15 +135,20 @@ void main()
         ends[o + n] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
-        float low = p.y.x, high = p.y.x;
+        if (falling == 0.0 && kd_falls_in(barrier, radial(p))) { /* from here on in ingoing coordinates */
+            falling = 1.0;
+            delay += delay_edge(m, radial(p), 0.0) - started;
+            started = delay_edge(m, radial(p), 1.0);
+            fallen = kd_drag_fall(p.y.x, cam.spin, cam.root);
+        }
         kd_rates r = rates(m, p, polar.b, falling);
         vec3 sum = 7.0 * vec3(r.psi, r.chi, r.delay);
-        for (uint j = 1; j <= STEPS; j++) {
+        uint j = 1;
+        for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
-            p.y.x = clamp(p.y.x, -2.0, 2.0); /* behind the horizon the numbers mean nothing: keep them finite */
-            p.y.z = clamp(p.y.z, -1e12, 1e12);
-            low = min(low, p.y.x);
-            high = max(high, p.y.x);
+            p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray so amplified is lost anyway */
+            if (p.y.x < 0.0 || p.y.x >= cam.horizon)
+                break;
             r = rates(m, p, polar.b, falling);
             float weight = (j & 1u) == 1u ? 32.0 : (j & 3u) == 2u ? 12.0 : j == STEPS ? 7.0 : 14.0;
             sum += weight * vec3(r.psi, r.chi, r.delay);
@@ -124,28 +157,32 @@ void main()
                 half_.w = clamp(half_.w, -2.0, 2.0);
             }
         }
-        float w = p.y.x;
-        alive = low >= 0.0 && high < cam.horizon && w > 0.0;
+        kd_state y = radial(p);
+        float w = y.w;
+        alive = j > STEPS && w > 0.0;
+        tau += h * float(min(j, STEPS));
+        /* What the steps lose and what rounding does, as an error of w. Rounding: some ten operations of a unit each, which the
+         * variation amplifies, as much in the time of the crossing, and the drift of the first integral. */
+        float lost = alive ? LEFT * abs(w - half_.w) : error * w;
+        float off = lost + drifted(m, y, h * float(STEPS)) + cam.epsilon * (4.0 * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
+        /* So close to the horizon or to infinity that the crossing may exist or not? Only what certainly does is told. */
+        float ahead = alive ? 0.0 : h * float(STEPS - j) * abs(y.dw);
+        if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
+            error = max(error, 1.0);
+            alive = false;
+        }
         if (alive) {
             sum *= h * (2.0 / 45.0);
             psi += sum.x;
             chi += sum.y;
             delay += sum.z;
-            tau += h * float(STEPS);
-            float fall = falling > 0.0 ? kd_drag_fall(w, cam.spin, cam.r_plus, cam.r_minus) - fallen0 : 0.0;
+            float fall = falling > 0.0 ? kd_drag_fall(w, cam.spin, cam.root) - fallen : 0.0;
             float turned = peak + float(n) * side * KD_PI + psi + chi + fall;
             ends[o + 3 * n] = w;
             ends[o + 3 * n + 1] = -turned;
-            ends[o + 3 * n + 2] = delay + delay_edge(m, w, p.dy.x) - started;
-            /* Rounding: some ten operations of a unit each, which the variation amplifies, and as much in the time of the
-             * crossing. */
-            float lost = LEFT * abs(w - half_.w);
-            float rounded = cam.epsilon * (4.0 * w + 8.0 * abs(p.y.z) + 8.0 * tau * abs(p.dy.x));
-            error = max(error, (lost + rounded) / w);
+            ends[o + 3 * n + 2] = delay + delay_edge(m, y, falling) - started;
+            error = max(error, off / w);
             above = -above;
-            kd_state y;
-            y.w = w;
-            y.dw = p.dy.x;
             last = kd_path_crossing(m, y, turned - chi - fall, chi + fall, above);
         }
         h = polar.half_ / float(STEPS);
@@ -154,6 +191,8 @@ void main()
     kd_escape end = kd_path_escape(m, ray, last);
     if (error == 0.0) /* no crossing: nothing amplifies */
         error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
+    if (!kd_is_decided(barrier, start, cam.epsilon) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+        end.fate = KD_FATE_UNDECIDED;
     at = o + 3 * ORDERS;
     ends[at] = end.u;
     ends[at + 1] = -end.phi;

@@ -62,9 +62,9 @@ float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h)
     c.w = q.y.w;
     a.dw = b.dw = c.dw = 0.0;
     return h * (1.0 / 6.0) *
-           (kd_drag(m, a, ray.e, cam.spin, cam.r_plus, cam.r_minus, 0.0) +
-            4.0 * kd_drag(m, b, ray.e, cam.spin, cam.r_plus, cam.r_minus, 0.0) +
-            kd_drag(m, c, ray.e, cam.spin, cam.r_plus, cam.r_minus, 0.0));
+           (kd_drag(m, a, ray.e, cam.spin, cam.root, 0.0) +
+            4.0 * kd_drag(m, b, ray.e, cam.spin, cam.root, 0.0) +
+            kd_drag(m, c, ray.e, cam.spin, cam.root, 0.0));
 }
 
 kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)

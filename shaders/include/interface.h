@@ -15,7 +15,7 @@
     F(middle_x) F(middle_y) /* ray coordinates of the middle of the picture */                                 \
     F(spin) F(u) F(s)       /* a; cosine and sine of the observer's polar angle */                             \
     F(horizon)              /* 1/r+ */                                                                         \
-    F(r_plus) F(r_minus)    /* outer and inner horizon */                                                      \
+    F(root)                 /* sqrt(1 - a^2): the horizons are at r = 1 +- root; a float of a has lost it near 1 */ \
     F(w0)                   /* 1/r of the observer, 0 at infinity */                                           \
     F(e0) F(e1) F(l0) F(l1) /* E = e0 + e1 m_phi; L/sin(theta) = l0 + l1 m_phi, m = -k the photon's direction */ \
     F(cp) F(cw)             /* p_theta = cp m_theta; dw/dtau = cw k_r */                                       \

@@ -22,7 +22,7 @@ kd_polar kd_polar_of(kd_motion m, kd_ray ray, float u, float s)
 {
     kd_polar o;
     float root = sqrt(max(m.a2 * m.a2 + 4.0 * m.energy2 * m.q, 0.0));
-    o.crosses = m.q > 0.0;
+    o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may be too small for a float */
     /* (s - A)/2 without cancellation for either sign of A. */
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * m.q / (root + m.a2);
     o.b = max(b, 1e-30);
@@ -30,11 +30,14 @@ kd_polar kd_polar_of(kd_motion m, kd_ray ray, float u, float s)
     /* By symmetry let the observer be above the plane, and one in it start upwards. */
     float du = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -(s * ray.p) : s * ray.p;
     float cx = abs(u), sx = -du / sqrt(o.b + m.energy2 * u * u); /* sqrt(U+) (cos x, sin x) */
+    float larger = max(cx, abs(sx)); /* only the direction counts; its squares must not vanish */
+    sx = larger > 0.0 ? sx / larger : -1.0;
+    cx = larger > 0.0 ? cx / larger : 0.0;
     float angle = kd_angle_upper(sx, cx);                         /* pi/2 - x */
 
     float k0 = sqrt(o.b / max(root, 1e-30));
     float p = sqrt(root), q = k0 * p;
-    float n = 1.0 / max(cx * cx + sx * sx, 1e-30);
+    float n = 1.0 / (cx * cx + sx * sx);
     /* Landen, on the direction (cx, sx) alone. */
     float y = (k0 - 1.0) * sx * cx * n, x = (cx * cx + k0 * sx * sx) * n;
     float d = abs(y) > 0.4 * x ? kd_angle_upper(x, abs(y)) * sign(y) : kd_atan_small(y / x);

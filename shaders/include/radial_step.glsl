@@ -16,33 +16,92 @@ kd_state kd_radial_step(kd_motion m, kd_state y, float h)
     return o;
 }
 
-/* The azimuth chi by which the hole drags a ray, chi' = a (2 E w - a L w^2) / ((1 - r+ w)(1 - r- w)).
+/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the two factors keep
+ * their digits where the horizons all but meet. */
+float kd_horizons(float w, float root)
+{
+    float d = 1.0 - w, h = root * w;
+    return max((d - h) * (d + h), 1e-30);
+}
+
+/* W + w' of a ray that falls in, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
+float kd_inward(kd_motion m, kd_state y, float e, float a)
+{
+    return max(e + a * (a * e - m.momentum) * y.w * y.w + max(y.dw, 0.0), 1e-12);
+}
+
+/* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
  *
- * On the way into the horizon chi' diverges as 1/(1 - r+ w), and its quadrature with it. What a falling ray leaves regular is
- * the azimuth of ingoing Kerr-Schild coordinates: less a w' over the same denominator, whose integral is elementary and
- * is put back by kd_drag_fall. falling: 1 for a ray that goes straight in, else 0. */
-float kd_drag(kd_motion m, kd_state y, float e, float a, float r_plus, float r_minus, float falling)
+ * On the way into the horizon chi' diverges as 1/D, and its quadrature with it. What a falling ray leaves regular is the
+ * azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by kd_drag_fall. As
+ * w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. falling: 1 for a ray that goes
+ * straight in, else 0. */
+float kd_drag(kd_motion m, kd_state y, float e, float a, float root, float falling)
 {
-    return a * (y.w * (2.0 * e - a * m.momentum * y.w) - falling * y.dw) /
-           ((1.0 - r_plus * y.w) * (1.0 - r_minus * y.w));
+    float w = y.w, w2 = w * w;
+    if (falling > 0.0)
+        return a * (m.k * w2 / kd_inward(m, y, e, a) - e);
+    return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
 }
 
-/* Integral from 0 to w of a dw / ((1 - r+ w)(1 - r- w)) = a/(r+ - r-) log(1 + x), x = (r+ - r-) w / (1 - r+ w); by its
- * series where x is small, as for a hole that is nearly extremal. */
-float kd_drag_fall(float w, float a, float r_plus, float r_minus)
+/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small, as for
+ * a hole that is nearly extremal. */
+float kd_fall(float w, float root)
 {
-    float first = w / (1.0 - r_plus * w), x = (r_plus - r_minus) * first, y = x / (2.0 + x), y2 = y * y;
-    float series = 2.0 * (1.0 + y2 * ((1.0 / 3.0) + y2 * ((1.0 / 5.0) + y2 * (1.0 / 7.0)))) / (2.0 + x);
-    return a * first * (x < 0.25 ? series : kd_log(1.0 + x) / x);
+    float first = w / max(1.0 - w - root * w, 1e-30), x = 2.0 * root * first, y = x / (2.0 + x), y2 = y * y;
+#ifdef KD_DOUBLE
+    float series = 0.0;
+    for (int k = 8; k >= 0; k--)
+        series = series * y2 + 1.0 / float(2 * k + 1);
+#else
+    float series = 1.0 + y2 * ((1.0 / 3.0) + y2 * ((1.0 / 5.0) + y2 * (1.0 / 7.0)));
+#endif
+    return first * (x < 0.25 ? 2.0 * series / (2.0 + x) : kd_log(1.0 + x) / x);
 }
+float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
 
-/* Whether a ray at w, falling (dw > 0), meets no turning point before the horizon: radial_closed.glsl has the argument. */
-bool kd_falls_in(kd_motion m, kd_state y, float e, float horizon)
+/* Where a ray ends, by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and
+ * at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R = W^2 - D K w^2 holds its
+ * digits next to the horizon too. `noise`: what rounding may have done to it, in units of the roundoff. */
+struct kd_barrier {
+    float w, r, noise; /* the place, the horizon if it lies behind; R there */
+    bool open;         /* it lies clearly behind the horizon: nothing to pass */
+};
+
+/* u: cosine of the observer's polar angle. */
+kd_barrier kd_barrier_of(kd_motion m, kd_ray ray, float a, float u, float horizon, float root, float epsilon)
 {
+    kd_barrier o;
     float disc = sqrt(max(9.0 * m.k * m.k + 8.0 * m.d * m.a2, 0.0));
-    float wm = -2.0 * m.a2 / (3.0 * m.k + disc);
-    float rm = e * e + wm * wm * (m.a2 + wm * (2.0 * m.k - m.d * wm));
-    return y.dw > 0.0 && (m.a2 >= 0.0 || wm >= horizon || y.w > wm || rm > 0.0);
+    float w = m.a2 < 0.0 ? -2.0 * m.a2 / (3.0 * m.k + disc) : 2.0;
+    o.open = w > 1.01 * horizon;
+    o.w = min(w, horizon);
+    float w2 = o.w * o.w, ae = a * ray.e, d = max((1.0 - o.w - root * o.w) * (1.0 - o.w + root * o.w), 0.0);
+    float fall = ray.e + a * (ae - m.momentum) * w2, size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
+    float all = abs(ae) + abs(m.momentum), size_k = m.q + 2.0 * u * u * m.energy2 + all * all;
+    o.r = fall * fall - d * m.k * w2;
+    o.noise = 16.0 * abs(fall) * size + 16.0 * d * size_k * w2 + 64.0 * epsilon * size * size;
+    return o;
+}
+
+/* Whether a ray goes into the horizon from where it is now, without turning. */
+bool kd_falls_in(kd_barrier b, kd_state y)
+{
+    return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0);
+}
+
+/* Whether it ends at infinity. */
+bool kd_flies_out(kd_barrier b, kd_state y)
+{
+    return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
+}
+
+/* Whether either can be told. */
+bool kd_is_decided(kd_barrier b, kd_state y, float epsilon)
+{
+    float noise = epsilon * b.noise;
+    bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;
+    return b.open || abs(b.r) > noise || (!ahead && y.dw * y.dw > noise);
 }
 
 #endif

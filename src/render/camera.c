@@ -89,8 +89,7 @@ struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
     o.spin = (float)scene->spacetime.spin;
     o.u = (float)u;
     o.s = (float)s;
-    o.r_plus = (float)kd_kerr_horizon(scene->spacetime.spin);
-    o.r_minus = (float)kd_kerr_inner_horizon(scene->spacetime.spin);
+    o.root = (float)sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
     o.horizon = (float)(1 / kd_kerr_horizon(scene->spacetime.spin));
     if (isinf(c->r)) {
         plane(&o, c, c->field_m / width);

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #define CHUNK 65536u /* rays a submission: some 40 ms of double precision on two CPU cores */
-#define HEADER 8u    /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
+#define HEADER 7u    /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
 
 struct work {
     struct kd_renderer *r;
@@ -18,16 +18,18 @@ struct work {
     bool wide;         /* double precision */
     bool kerr_schild;  /* the engine's coordinates */
     uint32_t per_ray;
+    double least;      /* radius: the next above the horizon's */
     struct kd_vk_buffer *rays, *ends, *host;
     struct kd_error *error;
 };
 
+/* What is too small for a float stays different from 0: whether a ray lies in the plane or on the axis depends on it. */
 static void put(const struct work *w, void *at, size_t i, double value)
 {
     if (w->wide)
         ((double *)at)[i] = value;
     else
-        ((float *)at)[i] = (float)value;
+        ((float *)at)[i] = value != 0 && fabs(value) < FLT_MIN ? copysignf(FLT_MIN, (float)value) : (float)value;
 }
 static double get(const struct work *w, const void *at, size_t i)
 {
@@ -73,7 +75,7 @@ static void upload(const struct work *w, const double *alpha_beta, size_t n)
     double u, s, r_plus = kd_kerr_horizon(p->spin);
     observer(p->inclination_deg, &u, &s);
     const double header[HEADER] = {
-        p->spin, u, s, 1 / r_plus, r_plus, kd_kerr_inner_horizon(p->spin), isinf(p->r) ? 0 : 1 / p->r,
+        p->spin, u, s, 1 / r_plus, sqrt((1 - p->spin) * (1 + p->spin)), isinf(p->r) ? 0 : 1 / p->r,
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
     };
     for (size_t i = 0; i < HEADER; i++)
@@ -109,7 +111,7 @@ static void unpack(const struct work *w, size_t i, struct kd_ray_crossing *cross
         crossings[n] = (struct kd_ray_crossing){ NAN, NAN, NAN, NAN };
         if (!(x > 0))
             continue;
-        crossings[n].r = 1 / x;
+        crossings[n].r = fmax(1 / x, w->least); /* outside the horizon, of which a float knows only the neighbourhood */
         crossings[n].phi = get(w, from, at + 1);
         if (!w->kerr_schild)
             crossings[n].delay = get(w, from, at + 2);
@@ -164,7 +166,7 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
     struct kd_vk *vk = renderer->vk;
     struct work w = {
         .r = renderer, .params = params, .wide = params->precision == KD_PRECISION_F64,
-        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER, .per_ray = 3 * params->orders + 4, .error = error,
+        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER, .per_ray = 3 * params->orders + 4, .least = nextafter(kd_kerr_horizon(params->spin), INFINITY), .error = error,
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);

