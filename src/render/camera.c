@@ -1,6 +1,7 @@
 #include "render/camera.h"
 
 #include "physics/kerr.h"
+#include "physics/tetrad.h"
 
 #include <math.h>
 
@@ -48,30 +49,18 @@ static void pinhole(struct kd_camera_push *o, const struct kd_camera *c, double 
     set_directions(o, forward, mix(step * cr, side, -step * sr, upward), mix(step * sr, side, step * cr, upward));
 }
 
-/* Local frame of an observer at rest with respect to infinity, or of zero angular momentum, at (r, theta): E and
- * L/sin(theta) of a photon of unit local energy and direction m (Bardeen, Press & Teukolsky 1972, sections II and III). */
+/* E and L/sin(theta) of a photon of unit local energy and direction m. */
 static void frame(struct kd_camera_push *o, const struct kd_scene *scene, double u, double s)
 {
     double a = scene->spacetime.spin, r = scene->camera.r;
-    double sigma = r * r + a * a * u * u, horizon = kd_kerr_horizon(a);
-    double delta = (r - horizon) * (r - kd_kerr_inner_horizon(a)), w2 = r * r + a * a;
-    if (scene->camera.observer == KD_OBSERVER_ZAMO) {
-        double big = w2 * w2 - a * a * delta * s * s; /* g_phiphi = big sin^2 / sigma */
-        double root = sqrt(big / sigma);
-        o->e0 = (float)sqrt(sigma * delta / big);
-        o->e1 = (float)(kd_kerr_dragging(a, r, u) * root * s);
-        o->l0 = 0;
-        o->l1 = (float)root;
-    } else {
-        double f = sigma - 2 * r; /* -g_tt sigma; a valid scene has f > 0 */
-        double lapse = sqrt(f / sigma);
-        o->e0 = (float)lapse;
-        o->e1 = 0;
-        o->l0 = (float)(-2 * a * r * s / (sigma * lapse));
-        o->l1 = (float)sqrt(delta / (f / sigma));
-    }
-    o->cp = (float)sqrt(sigma);
-    o->cw = (float)(-sqrt(sigma * delta) / (r * r));
+    bool zamo = scene->camera.observer == KD_OBSERVER_ZAMO; /* a valid scene has no static one in the ergosphere */
+    struct kd_tetrad t = (zamo ? kd_tetrad_zamo : kd_tetrad_static)(a, r, u, s);
+    o->e0 = (float)t.e0;
+    o->e1 = (float)t.e1;
+    o->l0 = (float)t.l0;
+    o->l1 = (float)t.l1;
+    o->cp = (float)t.p;
+    o->cw = (float)(-t.p * t.root_delta / (r * r));
     o->w0 = (float)(1 / r);
 }
 
