@@ -121,3 +121,40 @@ struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m)
     divide(&r, m->k);
     return r;
 }
+
+struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *m, double r, double bend,
+                                                    double dalpha, double dbeta)
+{
+    double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta); /* of alpha^2, beta^2 */
+    return (struct kd_null_displacement) { .r = r,
+                                           .bend = bend,
+                                           .quadratic = -(p + q),
+                                           .k = p + q + 2 * m->a * m->s * dalpha,
+                                           .constant = -m->a * m->a * (m->c * m->c * p + q) };
+}
+
+/* About r the quartic is x^4 + 4r x^3 + c2 x^2 + c1 x + c0 with small c1 and c0. It splits into x^2 - sum x +
+ * product, with both small, and x^2 + (4r + sum) x + g; comparing coefficients gives a contraction by about
+ * c0/g^2. */
+struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m,
+                                          const struct kd_null_displacement *d)
+{
+    double r = d->r, c2 = d->bend + d->quadratic, c1 = 2 * (r * d->quadratic + d->k);
+    double c0 = (d->quadratic * r + 2 * d->k) * r + d->constant, sum = 0, product = 0, g = c2;
+    for (int i = 0;; i++) {
+        double before = product;
+        g = c2 - product + sum * (4 * r + sum);
+        product = c0 / g;
+        sum = (product * (4 * r + sum) - c1) / g;
+        if (fabs(product - before) <= DBL_EPSILON * fabs(product))
+            break;
+        if (i == 100 || !isfinite(product))
+            return kd_null_roots_of(m);
+    }
+    struct kd_null_roots o = { .mean = r + 0.5 * sum, .pair = 0.25 * sum * sum - product };
+    double both = o.mean * o.mean - o.pair; /* r3 r4; r1 r2 both = C <= 0, r1 + r2 = -2 mean */
+    o.r1 = -o.mean - sqrt(o.mean * o.mean - m->constant / both);
+    o.r2 = m->constant == 0 ? 0 : m->constant / both / o.r1;
+    finish(&o, both);
+    return o;
+}

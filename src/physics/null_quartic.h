@@ -44,4 +44,20 @@ struct kd_null_roots {
  * parted by 1e-11 into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
 struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m);
 
+/* A ray at (dalpha, dbeta) from one for which R has the double root r: how far A, K and C differ from that one's, and
+ * bend = R''(r)/2 there. */
+struct kd_null_displacement {
+    double r, bend;
+    double quadratic, k, constant;
+};
+
+struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
+                                                    double dalpha, double dbeta);
+
+/* The same roots for a ray beside the critical curve, where the coefficients themselves no longer tell `pair`: it is found from
+ * the displacement, with a relative error of a few 1e-16 however small that is. m is the displaced ray's motion. Meant for
+ * displacements of some percent at most; where the iteration does not settle (near a = 1, where bend is small), the answer is
+ * that of kd_null_roots_of. */
+struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);
+
 #endif
