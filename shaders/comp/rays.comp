@@ -36,6 +36,7 @@ layout(set = 0, binding = 0) readonly buffer Rays {
     float list[];                                            /* alpha, beta */
 } cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
+#include "trace.glsl"
 #include "escape.glsl"
 
 struct kd_rates { float psi, chi, delay; };
@@ -127,6 +128,8 @@ void main()
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
+    KD_TRACE_CONSTANTS(m);
+    KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
     bool alive = polar.crosses;
@@ -146,6 +149,7 @@ void main()
         uint j = 1;
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
+            KD_TRACE_STEP(float(n), h, vec4(0.0, 0.0, p.y.yx), vec4(0.0, 0.0, p.dy.yx), 0.0);
             p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray so amplified is lost anyway */
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
@@ -184,6 +188,7 @@ void main()
             error = max(error, off / w);
             above = -above;
             last = kd_path_crossing(m, y, turned - chi - fall, chi + fall, above);
+            KD_TRACE_STEP(KD_TRACE_CROSSING, 0.0, last.y, last.v, last.chi);
         }
         h = polar.half_ / float(STEPS);
     }

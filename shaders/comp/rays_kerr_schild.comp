@@ -26,6 +26,7 @@ layout(set = 0, binding = 0) readonly buffer Rays {
     float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, 0 and 0 where there is none */
 } rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
+#include "trace.glsl"
 
 /* Tao's omega, in units of 1/s. Too small lets the copies part on long orbits, too large costs accuracy as it costs phase:
  * of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half turns of a ray. */
@@ -176,6 +177,7 @@ void main()
     kd_turn turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
+    KD_TRACE_STEP(KD_TRACE_START, 0.0, vec4(y.a.x, 0.0), vec4(y.a.p, 0.0), 0.0);
     for (uint step_ = 0; step_ < most; step_++) {
         kd_point before = y.a;
         if (METHOD == 0)
@@ -184,6 +186,7 @@ void main()
             y.a = runge_kutta(y.a, h);
         else
             y = tao_6(y, h, turns);
+        KD_TRACE_STEP(float(n), h, vec4(y.a.x, 0.0), vec4(y.a.p, 0.0), 0.0);
         float z0 = before.x.z, z1 = y.a.x.z, r = radius(y.a.x);
         if (z0 != 0.0 && (z0 > 0.0) != (z1 > 0.0) && n < ORDERS) {
             vec3 d0 = h * flow(before.x, before.p).x, d1 = h * flow(y.a.x, y.a.p).x;

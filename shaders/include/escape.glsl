@@ -7,6 +7,7 @@
 
 #include "math.glsl"
 #include "nystroem.glsl"
+#include "trace.glsl"
 
 struct kd_path {
     vec4 y, v; /* (n, w) and its derivative */
@@ -81,6 +82,7 @@ kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
         kd_path q = kd_path_step(m, p, h);
         if (q.y.w >= cam.horizon || isnan(q.y.w)) {
             o.fate = KD_FATE_CAPTURED;
+            KD_TRACE_STEP(KD_TRACE_END, h, q.y, q.v, p.chi);
             break;
         }
         if (q.y.w < 0.0) {
@@ -96,10 +98,12 @@ kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
             o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
             o.u = n.z * inversesqrt(dot(n, n));
             o.fate = KD_FATE_ESCAPED;
+            KD_TRACE_STEP(KD_TRACE_END, s * h, q.y, q.v, p.chi);
             break;
         }
         q.chi = p.chi + kd_path_drag(m, ray, p, q, h);
         p = q;
+        KD_TRACE_STEP(KD_TRACE_END, h, p.y, p.v, p.chi);
     }
     return o;
 }

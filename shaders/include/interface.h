@@ -59,4 +59,12 @@
 #define KD_FATE_CAPTURED 1.0
 #define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
 
+/* Of the records of trace.glsl: numbers in front, numbers a record, and the stages. A stage 0, 1, ... is a step on the way to
+ * the crossing of that order, in w and u; the others hold the unit vector n and w. */
+#define KD_TRACE_HEADER 8
+#define KD_TRACE_RECORD 11
+#define KD_TRACE_START -1.0
+#define KD_TRACE_CROSSING -2.0
+#define KD_TRACE_END -3.0 /* after the last crossing */
+
 #endif

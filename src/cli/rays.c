@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"
+#include "cli/trace.h"
 #include "render/rays_answer.h"
 #include "render/rays_request.h"
 #include "scene/number.h"
@@ -11,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END };
+enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END, KEY_TRACE };
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
 /* In the order of the keys: as kd_rays_request_set calls them. */
@@ -21,12 +22,13 @@ static const char *const names[N_FIELDS] = { "spin",   "r",         "inclination
 struct arguments {
     const char *input, *output, *device, *format;
     const char *fields[N_FIELDS]; /* NULL: not given */
+    bool trace;
     struct kd_rays_request more;  /* the rays of --ray */
 };
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0, "where to write; .npy and .csv choose those formats (default: - for standard output)", 0 },
-    { "format", 'f', "FORMAT", 0, "json, npy or csv, whatever the name of the output", 0 },
+    { "format", 'f', "FORMAT", 0, "json, npy or csv, whatever the name of the output; text with --trace", 0 },
     { "ray", 'r', "ALPHA,BETA", 0, "one more ray, in M; may be repeated", 0 },
     { "spin", KEY_SPIN, "A", 0, "spin of the hole, above -1 and below 1", 0 },
     { "r", KEY_R, "R", 0, "radius of the observer in M, or infinity", 0 },
@@ -35,6 +37,7 @@ static const struct argp_option table[] = {
     { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn4, mino-rkn6, ks-euler, ks-rk4 or ks-tao6", 0 },
     { "precision", KEY_PRECISION, "P", 0, "f64 (the default) or f32", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
+    { "trace", KEY_TRACE, NULL, 0, "one ray step by step, as the device takes them (engine: mino-rkn6 unless one is named)", 0 },
     { 0 },
 };
 
@@ -48,6 +51,22 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
 
+static const char *format_name(const struct arguments *arguments)
+{
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    return arguments->format ? arguments->format : dot ? dot + 1 : "";
+}
+
+/* Text is for steps, and arrays are not. */
+static void check_format(const struct arguments *arguments, const struct argp_state *state)
+{
+    const char *format = format_name(arguments);
+    if (arguments->trace && !strcmp(format, "npy"))
+        argp_error(state, "--trace writes text, json or csv, not npy");
+    if (!arguments->trace && !strcmp(format, "text"))
+        argp_error(state, "--format text: only --trace writes it");
+}
+
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
@@ -59,11 +78,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT: state->child_inputs[0] = &arguments->device; return 0;
     case 'o': arguments->output = text; return 0;
     case 'f':
-        if (strcmp(text, "json") && strcmp(text, "npy") && strcmp(text, "csv"))
-            argp_error(state, "--format %s: json, npy or csv", text);
+        if (strcmp(text, "json") && strcmp(text, "npy") && strcmp(text, "csv") && strcmp(text, "text"))
+            argp_error(state, "--format %s: json, npy or csv, or with --trace text", text);
         arguments->format = text;
         return 0;
     case 'r': add_ray(arguments, text, state); return 0;
+    case KEY_TRACE: arguments->trace = true; return 0;
     case ARGP_KEY_ARG:
         if (arguments->input)
             argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
@@ -72,6 +92,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->input && !arguments->more.n)
             argp_error(state, "there are no rays: name a file, or give --ray ALPHA,BETA");
+        check_format(arguments, state);
+        if (arguments->trace && !arguments->input && !arguments->fields[KEY_ENGINE - KEY_SPIN])
+            arguments->fields[KEY_ENGINE - KEY_SPIN] = "mino-rkn6";
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -79,8 +102,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 static enum kd_rays_format format_of(const struct arguments *arguments)
 {
-    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
-    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    const char *format = format_name(arguments);
     return !strcmp(format, "npy") ? KD_RAYS_NPY : !strcmp(format, "csv") ? KD_RAYS_CSV : KD_RAYS_JSON;
 }
 
@@ -163,6 +185,47 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     return status;
 }
 
+static enum kd_status tell(const struct arguments *arguments, const struct kd_rays_steps *steps, struct kd_error *error)
+{
+    const char *format = format_name(arguments), *path = arguments->output;
+    struct kd_buffer text = { 0 };
+    enum kd_status status = !strcmp(format, "json")  ? kd_trace_json(steps, &text)
+                            : !strcmp(format, "csv") ? kd_trace_csv(steps, &text)
+                                                     : kd_trace_text(steps, &text);
+    if (status)
+        status = kd_error_set(error, status, "out of memory for the steps");
+    else
+        status = kd_file_write(path ? path : "-", &text, error);
+    kd_buffer_finish(&text);
+    return status;
+}
+
+static enum kd_status run_trace(const struct arguments *arguments, struct kd_error *error)
+{
+    struct kd_rays_request request;
+    struct kd_rays_steps steps = { 0 };
+    struct kd_renderer *renderer = NULL;
+    kd_rays_request_init(&request);
+    enum kd_status status = load(arguments, &request, error);
+    if (!status && request.n != 1)
+        status = kd_error_field(error, "/rays", "there are %zu rays, and --trace follows one", request.n);
+    if (!status && arguments->output && strcmp(arguments->output, "-"))
+        status = kd_file_check(arguments->output, error);
+    if (!status)
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer, error);
+    if (!status) {
+        status = kd_rays_steps(renderer, &request.params, request.alpha_beta[0], request.alpha_beta[1], &steps, error);
+        if (status == KD_EDEVICE && !*error->pointer) /* as below for whole lists */
+            kd_cli_device_lost(error);
+    }
+    if (!status)
+        status = tell(arguments, &steps, error);
+    kd_rays_steps_finish(&steps);
+    kd_renderer_destroy(renderer);
+    kd_rays_request_finish(&request);
+    return status;
+}
+
 int kd_cli_rays(int argc, char **argv)
 {
     static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
@@ -182,7 +245,7 @@ int kd_cli_rays(int argc, char **argv)
     struct kd_error error = { 0 };
 
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
-    enum kd_status status = run(&arguments, &error);
+    enum kd_status status = (arguments.trace ? run_trace : run)(&arguments, &error);
     kd_rays_request_finish(&arguments.more);
     if (!status)
         return KD_EXIT_OK;

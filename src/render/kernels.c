@@ -10,6 +10,10 @@
 #include "rays_f64.spv.h"
 #include "rays_kerr_schild.spv.h"
 #include "rays_kerr_schild_f64.spv.h"
+#include "rays_f64_trace.spv.h"
+#include "rays_kerr_schild_f64_trace.spv.h"
+#include "rays_kerr_schild_trace.spv.h"
+#include "rays_trace.spv.h"
 #include "transfer.spv.h"
 
 #include <string.h>
@@ -26,6 +30,12 @@ static const struct {
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
     [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },
     [KD_KERNEL_RAYS_KS_F64] = { "rays Kerr-Schild f64", kd_spv_rays_kerr_schild_f64, sizeof kd_spv_rays_kerr_schild_f64, 2, 8 },
+    [KD_KERNEL_RAYS_TRACE_F32] = { "rays, told", kd_spv_rays_trace, sizeof kd_spv_rays_trace, 3, 8 },
+    [KD_KERNEL_RAYS_TRACE_F64] = { "rays f64, told", kd_spv_rays_f64_trace, sizeof kd_spv_rays_f64_trace, 3, 8 },
+    [KD_KERNEL_RAYS_KS_TRACE_F32] = { "rays Kerr-Schild, told", kd_spv_rays_kerr_schild_trace, sizeof kd_spv_rays_kerr_schild_trace,
+                                      3, 8 },
+    [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
+                                      sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 3, sizeof(struct kd_camera_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },

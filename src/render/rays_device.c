@@ -19,7 +19,7 @@ struct work {
     bool kerr_schild;  /* the engine's coordinates */
     uint32_t per_ray;
     double least;      /* radius: the next above the horizon's */
-    struct kd_vk_buffer *rays, *ends, *host;
+    struct kd_vk_buffer *rays, *ends, *host, *told; /* told: NULL, or room for the records of trace.glsl */
     struct kd_error *error;
 };
 
@@ -89,7 +89,8 @@ static enum kd_status run(const struct work *w, const struct kd_vk_pipeline *pip
     struct kd_vk *vk = w->r->vk;
     const uint32_t push[] = { 0, n };
     const struct kd_vk_dispatch d = {
-        "rays", pipeline, { { w->rays, 0, 0, false }, { w->ends, 0, 0, true } }, push, { (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
+        "rays", pipeline, { { w->rays, 0, 0, false }, { w->ends, 0, 0, true }, { w->told, 0, 0, true } }, push,
+        { (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
     };
     enum kd_status status = kd_vk_dispatch(vk, &d, w->error);
     if (!status)
@@ -159,23 +160,34 @@ static enum kd_status hold(struct kd_renderer *r, int which, uint64_t size, enum
     return status;
 }
 
-enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
-                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+uint32_t kd_rays_device_steps(const struct kd_rays_params *params)
+{
+    bool wide = params->precision == KD_PRECISION_F64;
+    if (params->steps)
+        return params->steps;
+    if (params->engine == KD_ENGINE_MINO_RKN4)
+        return wide ? 256 : 32;
+    return params->engine == KD_ENGINE_MINO_RKN6 && !wide ? 16 : 64;
+}
+
+static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
+                             struct kd_vk_buffer *told, struct kd_error *error)
 {
     struct kd_vk *vk = renderer->vk;
     struct work w = {
         .r = renderer, .params = params, .wide = params->precision == KD_PRECISION_F64,
-        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER, .per_ray = 3 * params->orders + 4, .least = nextafter(kd_kerr_horizon(params->spin), INFINITY), .error = error,
+        .kerr_schild = params->engine >= KD_ENGINE_KS_EULER, .per_ray = 3 * params->orders + 4,
+        .least = nextafter(kd_kerr_horizon(params->spin), INFINITY), .told = told, .error = error,
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
     size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK, per_start = w.kerr_schild ? 8 : 2;
     const uint32_t method = w.kerr_schild ? params->engine - KD_ENGINE_KS_EULER : params->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t steps = w.kerr_schild ? 64 : method == 4 ? (w.wide ? 256 : 32) : w.wide ? 64 : 16;
-    const uint32_t constants[] = { params->orders, params->steps ? params->steps : steps, method };
+    const uint32_t constants[] = { params->orders, kd_rays_device_steps(params), method };
     const struct kd_vk_pipeline *pipeline;
-    enum kd_kernel kernel = w.kerr_schild ? KD_KERNEL_RAYS_KS_F32 : KD_KERNEL_RAYS_F32;
+    enum kd_kernel kernel = w.kerr_schild ? (told ? KD_KERNEL_RAYS_KS_TRACE_F32 : KD_KERNEL_RAYS_KS_F32)
+                                          : (told ? KD_KERNEL_RAYS_TRACE_F32 : KD_KERNEL_RAYS_F32);
     enum kd_status status =
         kd_kernels_get(&renderer->kernels, vk, kernel + w.wide, constants, 3, &pipeline, error);
     if (!status)
@@ -188,5 +200,29 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
         status = trace(&w, pipeline, alpha_beta, n, crossings, ends, progress, user);
     if (status)
         kd_vk_discard(vk);
+    return status;
+}
+
+enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    return device(renderer, params, alpha_beta, n, crossings, ends, progress, user, NULL, error);
+}
+
+enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const double alpha_beta[2],
+                                   struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
+                                   struct kd_error *error)
+{
+    bool wide = params->precision == KD_PRECISION_F64;
+    uint64_t size = (uint64_t)numbers * (wide ? 8 : 4);
+    struct kd_vk_buffer *buffer = NULL;
+    enum kd_status status = kd_vk_buffer_create(renderer->vk, size, KD_VK_READBACK, "steps of a ray", &buffer, error);
+    if (!status)
+        status = device(renderer, params, alpha_beta, 1, crossings, end, NULL, NULL, buffer, error);
+    const void *from = status ? NULL : kd_vk_buffer_map(buffer);
+    for (size_t i = 0; i < numbers && !status; i++)
+        told[i] = wide ? ((const double *)from)[i] : (double)((const float *)from)[i];
+    kd_vk_buffer_destroy(renderer->vk, buffer);
     return status;
 }

@@ -90,7 +90,8 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
         at[i] = (float)test->reference->greys[i / 12].linear;
     enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_POST, (uint32_t[]) { film, true }, 2, &post, test->error);
     const struct kd_vk_dispatch d = {
-        "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push, { (pixels / 4 + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
+        "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push,
+        { (pixels / 4 + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
     };
     if (!status)
         status = kd_vk_dispatch(r->vk, &d, test->error);

@@ -19,7 +19,8 @@ static struct kd_scene scene_of(void)
 }
 
 /* A frame whose lens map is traced and not found in the cache, which is made to forget what it holds. */
-static enum kd_status draw(const struct kd_selftest *test, const struct kd_capacity *capacity, struct kd_frame *out, uint32_t *bands)
+static enum kd_status draw(const struct kd_selftest *test, const struct kd_capacity *capacity, struct kd_frame *out,
+                           uint32_t *bands)
 {
     const struct kd_scene scene = scene_of();
     struct kd_plan plan;
