@@ -12,7 +12,7 @@ double kd_axis_at(const struct kd_axis *axis, size_t i)
 {
     if (!i || i + 1 >= axis->count)
         return i ? axis->last : axis->first;
-    return axis->first + (axis->last - axis->first) * ((double)i / (double)(axis->count - 1));
+    return axis->first + (axis->last - axis->first) * (double)i / (double)(axis->count - 1);
 }
 
 static int word_index(const char *words, const char *text)
@@ -31,7 +31,7 @@ static int word_index(const char *words, const char *text)
 void kd_parameter_allowed(const struct kd_parameter *p, char out[KD_ALLOWED_TEXT])
 {
     char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
-    bool pure = !strcmp(p->unit, "1");
+    bool pure = p->words || !strcmp(p->unit, "1");
     size_t used;
     if (p->words) {
         used = 0;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* In the order in which they are listed. */
-#define QUANTITIES(X) X(kerr) X(potential) X(disk_flux) X(blackbody) X(frame_dragging)
+#define QUANTITIES(X) X(kerr) X(potential) X(redshift) X(disk_flux) X(blackbody) X(flamm) X(frame_dragging) X(scale)
 
 #define DECLARE(symbol) extern const struct kd_quantity kd_quantity_##symbol;
 QUANTITIES(DECLARE)

@@ -1,0 +1,51 @@
+#include "quantity/define.h"
+
+#include "physics/embedding.h"
+#include "physics/kerr.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
+    P(r, .unit = "M", .initial = "2:20:73", .minimum = 1, .maximum = 1e9, .along = true,                               \
+      .help = "Boyer-Lindquist radius, at or outside the horizon")                                                     \
+    P(phi_deg, .unit = "degrees", .initial = "0", .minimum = -360, .maximum = 360, .along = true,                      \
+      .help = "azimuth: a range of it and one of r make a mesh")
+#define OUTPUTS(O)                                                                                                     \
+    O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)")                                              \
+    O(y, .unit = "M", .help = "of the embedded surface: radius sin(phi)")                                              \
+    O(z, .unit = "M", .help = "height over the horizon's circle")                                                      \
+    O(radius, .unit = "M", .help = "circumference over 2 pi, sqrt(r^2 + a^2 + 2a^2/r)")                                \
+    O(proper_distance, .unit = "M", .help = "from the horizon along r")                                                \
+    O(flamm, .unit = "M", .help = "sqrt(8 (r - 2)), z for a = 0; null for r < 2")                                      \
+    O(horizon, .unit = "M", .fixed = true, .help = "where the surface begins")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "L. Flamm 1916, Phys. Z. 17, 448; C. W. Misner, K. S. Thorne & J. A. Wheeler 1973, Gravitation, eq. 23.34b",
+    "R. H. Boyer & R. W. Lindquist 1967, J. Math. Phys. 8, 265 (the metric of the equatorial plane)",
+    NULL,
+};
+static const char *const approximations[] = { NULL };
+
+struct memory { double r, z; };
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    struct memory *m = memory;
+    if (kd_quantity_outside_horizon(p->spin, p->r, error))
+        return KD_EINVAL;
+    if (fresh || m->r != p->r)
+        *m = (struct memory) { p->r, kd_embedding_height(p->spin, p->r) };
+    o->horizon = kd_kerr_horizon(p->spin);
+    o->radius = kd_embedding_radius(p->spin, p->r);
+    o->x = o->radius * cos(p->phi_deg * (M_PI / 180));
+    o->y = o->radius * sin(p->phi_deg * (M_PI / 180));
+    o->z = m->z;
+    o->proper_distance = kd_embedding_distance(p->spin, p->r);
+    o->flamm = p->r >= 2 ? sqrt(8 * (p->r - 2)) : NAN;
+    return KD_OK;
+}
+
+KD_QUANTITY(flamm, "flamm", "the equatorial plane embedded in flat space: Flamm's paraboloid, and Kerr's",
+            .memory_size = sizeof(struct memory), .point_us = 4)

@@ -1,0 +1,75 @@
+#include "quantity/define.h"
+
+#include "physics/constants.h"
+#include "physics/kerr.h"
+#include "physics/scale.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*")   \
+    P(mass_msun, .unit = "solar masses", .initial = "hole", .minimum = 1e-3, .maximum = 1e12, .word = "hole",          \
+      .help = "mass of the hole")                                                                                      \
+    P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole",                  \
+      .help = "its (angular diameter) distance")                                                                       \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")
+#define OUTPUTS(O)                                                                                                     \
+    O(mass, .unit = "solar masses", .help = "as used")                                                                 \
+    O(distance, .unit = "pc", .help = "as used")                                                                       \
+    O(m_km, .unit = "km", .help = "M as a length, G m/c^2")                                                            \
+    O(m_s, .unit = "s", .help = "M as a time, G m/c^3")                                                                \
+    O(m_uas, .unit = "microarcseconds", .help = "M on the sky")                                                        \
+    O(shadow_uas, .unit = "microarcseconds", .help = "diameter of the shadow for a = 0, 2 sqrt(27) M")                 \
+    O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null for no hole")                  \
+    O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma")                                       \
+    O(ring_over_shadow, .unit = "1", .help = "measured over computed")                                                 \
+    O(horizon_km, .unit = "km", .help = "radius of the horizon r+")                                                    \
+    O(horizon_au, .unit = "au", .help = "radius of the horizon r+")                                                    \
+    O(light_crossing_s, .unit = "s", .help = "time of light over the horizon's diameter, 2 r+/c")                      \
+    O(isco_period_s, .unit = "s", .help = "period of the ISCO for an observer far away")                               \
+    O(photon_period_s, .unit = "s", .help = "the same of the circular photon orbit, towards +phi")                     \
+    O(fall_s, .unit = "s", .help = "proper time from horizon to singularity, at rest at infinity, a = 0: 4/3 M")       \
+    O(fall_longest_s, .unit = "s", .help = "the longest that there is for a = 0: pi M")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "M87*: Event Horizon Telescope Collaboration 2019, ApJL 875, L1: 42 +- 3 microarcseconds, 6.5e9 solar masses, 16.8 Mpc",
+    "Sgr A*: EHT Collaboration 2022, ApJL 930, L12: 51.8 +- 2.3 microarcseconds; GRAVITY Collaboration 2022, A&A 657, L12: 4.297e6 solar masses, 8277 pc",
+    "constants: CODATA 2018, IAU 2012 B2, IAU 2015 B2 and B3",
+    NULL,
+};
+static const char *const approximations[] = {
+    "the measured ring is the emission's, some per cent larger than the edge of the shadow",
+    "times of fall and the shadow are those of a = 0",
+    NULL,
+};
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    (void)memory, (void)fresh;
+    const struct kd_scale_hole *hole = p->hole < KD_SCALE_HOLES ? &kd_scale_holes[(int)p->hole] : NULL;
+    if (!hole && isinf(p->mass_msun))
+        return kd_error_field(error, "/mass_msun", "mass_msun is \"hole\", and hole is \"none\": one of them must be given");
+    if (!hole && isinf(p->distance_pc))
+        return kd_error_field(error, "/distance_pc", "distance_pc is \"hole\", and hole is \"none\": one of them must be given");
+    o->mass = isinf(p->mass_msun) ? hole->mass_msun : p->mass_msun;
+    o->distance = isinf(p->distance_pc) ? hole->distance_pc : p->distance_pc;
+    o->m_km = kd_scale_metres(o->mass) * 1e-3;
+    o->m_s = kd_scale_seconds(o->mass);
+    o->m_uas = kd_scale_microarcseconds(o->mass, o->distance);
+    o->shadow_uas = 2 * sqrt(27) * o->m_uas;
+    o->ring_uas = hole ? hole->ring_uas : NAN;
+    o->ring_error_uas = hole ? hole->ring_error_uas : NAN;
+    o->ring_over_shadow = o->ring_uas / o->shadow_uas;
+    double horizon = kd_kerr_horizon(p->spin);
+    o->horizon_km = horizon * o->m_km;
+    o->horizon_au = o->horizon_km * 1e3 / KD_AU_M;
+    o->light_crossing_s = 2 * horizon * o->m_s;
+    o->isco_period_s = 2 * M_PI / kd_kerr_omega(p->spin, kd_kerr_isco(p->spin)) * o->m_s;
+    o->photon_period_s = 2 * M_PI / kd_kerr_omega(p->spin, kd_kerr_photon_orbit(p->spin)) * o->m_s;
+    o->fall_s = KD_SCALE_FALL * o->m_s;
+    o->fall_longest_s = KD_SCALE_FALL_LONGEST * o->m_s;
+    return KD_OK;
+}
+
+KD_QUANTITY(scale, "scale", "a hole in kilometres, seconds and microarcseconds, beside the measured rings", .point_us = 2)
