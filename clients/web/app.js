@@ -102,8 +102,9 @@ function listTimings(header) {
 function accuracy(header) {
   const figure = Object.fromEntries((header ?? '').split(' ').map(pair => pair.split('=')));
   if (!(figure.sampled > 0)) return '';
-  return `; radii wrong by ${Number(figure.median)} (worst ${Number(figure.worst)}) of themselves, ` +
-    `by ${figure.sampled} of ${figure.rays} rays traced again in double precision`;
+  const short = text => Number(text).toExponential(1);
+  return `; relative error of radii ${short(figure.median)} in the median, ${short(figure.worst)} at worst: ` +
+    `${figure.sampled} of ${figure.rays} rays were traced again in double precision`;
 }
 
 function report(error) {

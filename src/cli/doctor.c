@@ -209,7 +209,7 @@ int kd_cli_doctor(int argc, char **argv)
         .parser = parse,
         .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
                "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The self-test "
-               "takes some ten seconds; docs/accuracy.md says what it compares with what.",
+               "takes a few seconds; docs/accuracy.md says what it compares with what.",
         .children = children,
     };
     struct arguments arguments = { 0 };
