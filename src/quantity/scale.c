@@ -1,16 +1,19 @@
 #include "quantity/define.h"
 
 #include "physics/constants.h"
+#include "physics/critical.h"
 #include "physics/kerr.h"
 #include "physics/scale.h"
 
 #define PARAMETERS(P)                                                                                                  \
     P(hole, .initial = "m87", .words = "m87|sgra|none", .help = "a hole whose ring has been measured: M87*, Sgr A*")   \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
+    P(inclination_deg, .unit = "degrees", .initial = "0", .minimum = 0, .maximum = 180,                                \
+      .help = "polar angle of the observer, for the shadow of a hole with spin")                                       \
     P(mass_msun, .unit = "solar masses", .initial = "hole", .minimum = 1e-3, .maximum = 1e12, .word = "hole",          \
-      .help = "mass of the hole")                                                                                      \
-    P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole",                  \
-      .help = "its (angular diameter) distance")                                                                       \
-    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")
+      .along = true, .help = "mass of the hole")                                                                       \
+    P(distance_pc, .unit = "pc", .initial = "hole", .minimum = 1e-3, .maximum = 1e11, .word = "hole", .along = true,   \
+      .help = "its (angular diameter) distance")
 #define OUTPUTS(O)                                                                                                     \
     O(mass, .unit = "solar masses", .help = "as used")                                                                 \
     O(distance, .unit = "pc", .help = "as used")                                                                       \
@@ -33,20 +36,33 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 static const char *const sources[] = {
     "M87*: Event Horizon Telescope Collaboration 2019, ApJL 875, L1: 42 +- 3 microarcseconds, 6.5e9 solar masses, 16.8 Mpc",
     "Sgr A*: EHT Collaboration 2022, ApJL 930, L12: 51.8 +- 2.3 microarcseconds; GRAVITY Collaboration 2022, A&A 657, L12: 4.297e6 solar masses, 8277 pc",
+    "critical curve: J. M. Bardeen 1973, in Black Holes (Les Houches), p. 215",
     "constants: CODATA 2018, IAU 2012 B2, IAU 2015 B2 and B3",
     NULL,
 };
 static const char *const approximations[] = {
     "the measured ring is the emission's, some per cent larger than the edge of the shadow",
-    "times of fall and the shadow are those of a = 0",
+    "times of fall are those of a = 0",
     NULL,
 };
+
+struct memory { double shadow; }; /* its mean radius in M */
+
+static double shadow_of(const struct parameters *p)
+{
+    double i = p->inclination_deg * (M_PI / 180);
+    struct kd_critical curve = kd_critical_of(&(struct kd_critical_observer) {
+        .spin = p->spin, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = p->inclination_deg == 180 ? 0 : sin(i) });
+    return curve.status ? NAN : kd_critical_measure(&curve).mean_radius;
+}
 
 static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    (void)memory, (void)fresh;
+    struct memory *m = memory;
+    if (fresh)
+        m->shadow = shadow_of(p);
     const struct kd_scale_hole *hole = p->hole < KD_SCALE_HOLES ? &kd_scale_holes[(int)p->hole] : NULL;
     if (!hole && isinf(p->mass_msun))
         return kd_error_field(error, "/mass_msun", "mass_msun is \"hole\", and hole is \"none\": one of them must be given");
@@ -57,7 +73,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->m_km = kd_scale_metres(o->mass) * 1e-3;
     o->m_s = kd_scale_seconds(o->mass);
     o->m_uas = kd_scale_microarcseconds(o->mass, o->distance);
-    o->shadow_uas = 2 * sqrt(27) * o->m_uas;
+    o->shadow_uas = 2 * m->shadow * o->m_uas;
     o->ring_uas = hole ? hole->ring_uas : NAN;
     o->ring_error_uas = hole ? hole->ring_error_uas : NAN;
     o->ring_over_shadow = o->ring_uas / o->shadow_uas;
@@ -72,4 +88,5 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(scale, "scale", "a hole in kilometres, seconds and microarcseconds, beside the measured rings", .point_us = 2)
+KD_QUANTITY(scale, "scale", "a hole in kilometres, seconds and microarcseconds, beside the measured rings",
+            .memory_size = sizeof(struct memory), .point_us = 3, .fresh_us = 1000)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* In the order in which they are listed. */
-#define QUANTITIES(X) X(kerr) X(potential) X(redshift) X(disk_flux) X(blackbody) X(flamm) X(frame_dragging) X(scale)
+#define QUANTITIES(X) X(kerr) X(shadow) X(potential) X(redshift) X(disk_flux) X(blackbody) X(flamm) X(frame_dragging) X(scale)
 
 #define DECLARE(symbol) extern const struct kd_quantity kd_quantity_##symbol;
 QUANTITIES(DECLARE)

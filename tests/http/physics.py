@@ -72,6 +72,14 @@ class Physics(daemon.Case):
             for name, column in document['values'].items():
                 self.assertEqual(None if row[name] == '' else float(row[name]), column[i])
 
+    def test_mesh(self):
+        mesh = self.daemon.get('/v1/physics/flamm?r=2:10:5&phi_deg=0:360:9').json()
+        values = mesh['values']
+        self.assertEqual((mesh['ranges'], mesh['shape']), (['r', 'phi_deg'], [5, 9]))
+        for i in range(45):
+            self.assertAlmostEqual(values['x'][i]**2 + values['y'][i]**2, (2 + 2 * (i // 9))**2, delta=1e-12)
+            self.assertAlmostEqual(values['z'][i], values['flamm'][i], delta=1e-13)
+
     def test_refused(self):
         for query, pointer, words in (
                 ('spin=1', '/spin', 'above -1 and below 1'), ('spin=-1.5', '/spin', '"-1.5"'), ('spin=NaN', '/spin', 'NaN'),
@@ -84,6 +92,14 @@ class Physics(daemon.Case):
                 problem = self.assertProblem(self.daemon.get(KERR + '?' + query), 422, 'invalid-parameters')
                 self.assertEqual(problem.get('pointer'), pointer)
                 self.assertIn(words, problem['detail'])
+        for target, pointer in (('redshift?inclination_deg=90', '/inclination_deg'), ('redshift?r=1.2', '/r'),
+                                ('shadow?observer_r=1.9&inclination_deg=90', '/observer_r'), ('scale?hole=none', '/mass_msun'),
+                                ('scale?hole=none&mass_msun=1', '/distance_pc'), ('flamm?r=1.5', '/r'), ('potential?r=1', '/r'),
+                                ('frame-dragging?r=1', '/r'), ('disk-flux?mdot_edd=0', '/mdot_edd'), ('scale?hole=m31', '/hole'),
+                                ('blackbody?temperature_k=0', '/temperature_k')):
+            with self.subTest(target):
+                problem = self.assertProblem(self.daemon.get('/v1/physics/' + target), 422, 'invalid-parameters')
+                self.assertEqual(problem['pointer'], pointer)
         problem = self.assertProblem(self.daemon.get('/v1/physics/nothing'), 404, 'not-found')
         self.assertIn('kerr, ', problem['detail'])
         self.assertProblem(self.daemon.get(KERR, Accept='image/png'), 406, 'not-acceptable')

@@ -1,0 +1,85 @@
+#include "quantity/define.h"
+
+#include "physics/critical.h"
+#include "physics/kerr.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    KD_PARAMETER_SPIN(P)                                                                                               \
+    P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, .help = "polar angle of the observer") \
+    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",                \
+      .help = "radius of the observer")                                                                                \
+    P(observer, .initial = "static", .words = "static|zamo",                                                           \
+      .help = "at a finite radius: at rest with respect to infinity, or with zero angular momentum")                   \
+    P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true,             \
+      .help = "where on the curve: about its centre, from the right over the top")
+#define OUTPUTS(O)                                                                                                     \
+    O(alpha, .unit = "M", .help = "the curve on the image plane, to the right; at any distance it labels the constants of motion") \
+    O(beta, .unit = "M", .help = "the curve on the image plane, along the projected spin; likewise")                   \
+    O(rho, .unit = "M or radians", .help = "distance from the centre: in M for an observer at infinity, else an angle on the sky") \
+    O(right, .unit = "1", .help = "direction in which it is seen at a finite radius, a unit vector: towards +phi; null at infinity") \
+    O(up, .unit = "1", .help = "its component up, towards -theta")                                                     \
+    O(inwards, .unit = "1", .help = "its component inwards, towards -r")                                               \
+    O(orbit_r, .unit = "M", .help = "radius of the photon orbit that is seen there")                                   \
+    O(lyapunov, .unit = "1", .help = "gamma of that orbit: images of order n lie closer by e^-gamma each half turn")   \
+    O(area, .unit = "M^2 or sr", .fixed = true, .help = "of the shadow: in M^2, or the solid angle")                   \
+    O(mean_radius, .unit = "M or radians", .fixed = true, .help = "mean of rho about the middle of the two ends")      \
+    O(displacement, .unit = "M or radians", .fixed = true, .help = "of that middle from the hole's centre, to the right") \
+    O(asymmetry, .unit = "M or radians", .fixed = true, .help = "twice the root mean square of rho less its mean")     \
+    O(width, .unit = "M or radians", .fixed = true, .help = "from left to right end")                                  \
+    O(height, .unit = "M or radians", .fixed = true, .help = "from bottom to top")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "J. M. Bardeen 1973, in Black Holes (Les Houches), p. 215; E. Teo 2003, Gen. Rel. Grav. 35, 1909",
+    "T. Johannsen & D. Psaltis 2010, ApJ 718, 446; C.-K. Chan, D. Psaltis & F. Ozel 2013, ApJ 777, 13 (displacement, radius, asymmetry)",
+    "M. D. Johnson et al. 2020, Sci. Adv. 6, eaaz1310 (gamma)",
+    NULL,
+};
+static const char *const approximations[] = { NULL };
+
+struct memory { struct kd_critical curve; };
+
+static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
+{
+    const double i = p->inclination_deg * (M_PI / 180), horizon = kd_kerr_horizon(p->spin);
+    struct kd_critical_observer observer = { .spin = p->spin, .radius = p->observer_r, .frame = p->observer == 1 ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC };
+    /* The axis and the plane exactly: cos(90 degrees) is 6e-17. */
+    observer.cos_theta = p->inclination_deg == 90 ? 0 : cos(i);
+    observer.sin_theta = p->inclination_deg == 180 ? 0 : sin(i);
+    if (!(p->observer_r > horizon))
+        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.15g M", horizon);
+    m->curve = kd_critical_of(&observer);
+    if (m->curve.status == KD_CRITICAL_IN_ERGOSPHERE)
+        return kd_quantity_outside(error, "observer_r", p->observer_r,
+                                   "in the ergosphere, where nothing is at rest; allowed is outside %.15g M, or observer zamo",
+                                   kd_kerr_ergosphere(p->spin, observer.cos_theta));
+    if (m->curve.status)
+        return kd_error_field(error, "/observer_r", "there is no critical curve for this observer");
+    struct kd_critical_measures s = kd_critical_measure(&m->curve);
+    o->area = s.area;
+    o->mean_radius = s.mean_radius;
+    o->displacement = s.displacement;
+    o->asymmetry = s.asymmetry;
+    o->width = s.width;
+    o->height = s.height;
+    return KD_OK;
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    struct memory *m = memory;
+    if (fresh && make_curve(p, m, o, error))
+        return KD_EINVAL;
+    struct kd_critical_point c = kd_critical_at(&m->curve, p->angle_deg * (M_PI / 180));
+    bool far = isinf(p->observer_r);
+    o->alpha = c.alpha, o->beta = c.beta, o->rho = c.rho;
+    o->right = far ? NAN : c.right, o->up = far ? NAN : c.up, o->inwards = far ? NAN : c.inwards;
+    o->orbit_r = c.orbit.r;
+    o->lyapunov = kd_shell_exponents(&c.orbit).gamma;
+    return KD_OK;
+}
+
+KD_QUANTITY(shadow, "shadow", "the critical curve, edge of the shadow, for any observer, with its size and shape",
+            .memory_size = sizeof(struct memory), .point_us = 8, .fresh_us = 1000)

@@ -1,0 +1,107 @@
+/* Quantities against published figures, each with its source, and against what they must add up to. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "quantity/quantity.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* One value of a quantity; parameters as "name=value" up to a NULL. */
+static double ask(const char *name, const char *output, const char *const settings[])
+{
+    struct kd_quantity_request request;
+    struct kd_quantity_answer answer;
+    struct kd_error error = { 0 };
+    const struct kd_quantity *quantity = kd_quantity_find(name);
+    double value = NAN;
+    kd_quantity_request_init(&request, quantity);
+    for (; *settings; settings++) {
+        char key[40];
+        size_t n = strcspn(*settings, "=");
+        memcpy(key, *settings, n);
+        key[n] = 0;
+        if (kd_quantity_request_set(&request, key, *settings + n + 1, &error))
+            fail_msg("%s %s: %s", name, *settings, error.message);
+    }
+    if (kd_quantity_evaluate(&request, &answer, &error))
+        fail_msg("%s: %s", name, error.message);
+    for (size_t i = 0; i < quantity->n_outputs; i++)
+        if (!strcmp(quantity->outputs[i].name, output))
+            value = answer.values[i];
+    kd_quantity_answer_finish(&answer);
+    return value;
+}
+
+#define ASK(name, output, ...) ask(name, output, (const char *const[]) { __VA_ARGS__, NULL })
+
+static void published(const char *source, double got, double want, double allowed)
+{
+    if (!(fabs(got - want) <= allowed))
+        fail_msg("%s: %.12g, not %.12g +- %.2g", source, got, want, allowed);
+}
+
+/* Half a unit of the last published digit, unless the source gives an error. */
+static void figures(void **state)
+{
+    (void)state;
+    published("solar mass in seconds, Damour & Taylor 1991", ASK("scale", "m_s", "mass_msun=1"), 4.925490947e-6, 1e-14);
+    published("M of M87*, EHT 2019, ApJL 875, L1", ASK("scale", "m_uas", "hole=m87"), 3.8, 0.4);
+    published("sqrt(27) M of Sgr A*, EHT 2022, ApJL 930, L12, abstract: GR shadow of its mass and distance",
+              ASK("scale", "shadow_uas", "hole=sgra"), 53, 0.5);
+    published("radius of the horizon of one solar mass", ASK("scale", "horizon_km", "mass_msun=1"), 2.95325, 5e-6);
+    published("Thorne 1974, ApJ 191, 507: efficiency at a = 0.998", ASK("kerr", "efficiency", "spin=0.998"), 0.321, 5e-4);
+    published("Thorne 1974: ISCO at a = 0.998", ASK("kerr", "isco", "spin=0.998"), 1.237, 5e-4);
+    published("Wien's displacement law, CODATA 2018", ASK("blackbody", "peak_nm", "temperature_k=1000"), 2897.771955, 5e-7);
+    published("CIE 15: illuminant A, 2855.5 K, x", ASK("blackbody", "x", "temperature_k=2855.5"), 0.44758, 3e-5);
+    published("CIE 15: illuminant A, y", ASK("blackbody", "y", "temperature_k=2855.5"), 0.40745, 3e-5);
+    published("Page & Thorne 1974, Luminet 1979: the flux of a = 0 is largest at 9.55", ASK("disk-flux", "r_peak", "spin=0"), 9.55, 5e-3);
+    published("Chandrasekhar 1983, ch. 7: b_c of a = 0", 1 / ASK("potential", "v_max_light", "l=1"), 5.196152422706632, 1e-14);
+    published("Misner, Thorne & Wheeler 1973, box 25.6: L = 4 is marginally bound", ASK("potential", "v_max_matter", "l=4"), 1, 1e-14);
+    published("12.69 million km, Sgr A*'s horizon for its mass", ASK("scale", "horizon_km", "hole=sgra"), 1.269e7, 5e3);
+}
+
+/* What reaches infinity is 1 - E(ISCO) a unit of accreted mass: F is a proper flux a proper area, r dr dphi on both faces,
+ * and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are smooth and vanish at the ends, by Simpson's rule. */
+static void energy_is_conserved(void **state)
+{
+    (void)state;
+    static const char *const spins[] = { "spin=0", "spin=0.9", "spin=-0.7" };
+    for (size_t s = 0; s < 3; s++) {
+        double isco = ASK("kerr", "isco", spins[s]), sum = 0;
+        enum { N = 200 };
+        for (int i = 1; i < N; i++) {
+            char r_text[40];
+            double x = (double)i / N, r = isco / (x * x), dr = 2 * r / x;
+            snprintf(r_text, sizeof r_text, "r=%.17g", r);
+            double share = 4 * M_PI * r * ASK("disk-flux", "page_thorne", spins[s], r_text) * ASK("kerr", "energy", spins[s], r_text) * dr;
+            sum += share * (i % 2 ? 4 : 2) / (3. * N);
+        }
+        published("luminosity of the disk", sum, ASK("disk-flux", "efficiency", spins[s]), 1e-8);
+    }
+}
+
+/* A face-on ring of a = 0 has g = sqrt(1 - 3/r) all round; the flat formula agrees there, and lensing makes no difference. */
+static void face_on(void **state)
+{
+    (void)state;
+    double want = sqrt(0.5);
+    published("g", ASK("redshift", "g", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
+    published("g of order 1", ASK("redshift", "g_1", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
+    published("g_flat", ASK("redshift", "g_flat", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
+    /* From below everything is seen upside down with the same colours. */
+    double above = ASK("redshift", "g", "inclination_deg=70", "phi_deg=200"), below = ASK("redshift", "g", "inclination_deg=110", "phi_deg=200");
+    published("g from below", below, above, 1e-12);
+    published("beta from below", ASK("redshift", "beta", "inclination_deg=110", "phi_deg=200"),
+              -ASK("redshift", "beta", "inclination_deg=70", "phi_deg=200"), 1e-11);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
