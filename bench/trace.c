@@ -16,19 +16,19 @@
 
 struct options { const char *device, *json; int size, repeat, sample; double spin, inclination; };
 
-struct method { const char *name, *what; struct kd_needs needs; double r; int orders; };
+struct method { const char *name, *what; struct kd_needs needs; int orders, steps; };
 static const struct method methods[] = {
-    { "closed form", "r of 3 crossings", { .disk = true }, INFINITY, 3 },
-    { "closed form", "r of 1 crossing", { .disk = true }, INFINITY, 1 },
-    { "RKN6, 4 steps", "r of 3 crossings", { .disk = true, .integrate = true, .steps = 4 }, INFINITY, 3 },
-    { "RKN6, 8 steps", "r of 3 crossings", { .disk = true, .integrate = true, .steps = 8 }, INFINITY, 3 },
-    { "RKN6, 12 steps", "r of 3 crossings", { .disk = true, .integrate = true, .steps = 12 }, INFINITY, 3 },
-    { "RKN6, 16 steps", "r of 3 crossings", { .disk = true, .integrate = true, .steps = 16 }, INFINITY, 3 },
-    { "RKN6, 4 steps", "r, phi of 3 crossings", { .disk = true, .phi = true, .steps = 4 }, INFINITY, 3 },
-    { "RKN6, 8 steps", "r, phi of 3 crossings", { .disk = true, .phi = true, .steps = 8 }, INFINITY, 3 },
-    { "RKN6, 12 steps", "r, phi of 3 crossings", { .disk = true, .phi = true, .steps = 12 }, INFINITY, 3 },
-    { "RKN6, 16 steps", "r, phi of 3 crossings", { .disk = true, .phi = true, .steps = 16 }, INFINITY, 3 },
-    { "RKN6, 8 steps", "r, phi, sky, fate", { .disk = true, .phi = true, .sky = true, .steps = 8 }, INFINITY, 3 },
+    { "closed form", "r of 3 crossings", { .disk = true }, 3, 0 },
+    { "closed form", "r of 1 crossing", { .disk = true }, 1, 0 },
+    { "RKN6, 4 steps", "r of 3 crossings", { .disk = true }, 3, 4 },
+    { "RKN6, 8 steps", "r of 3 crossings", { .disk = true }, 3, 8 },
+    { "RKN6, 12 steps", "r of 3 crossings", { .disk = true }, 3, 12 },
+    { "RKN6, 16 steps", "r of 3 crossings", { .disk = true }, 3, 16 },
+    { "RKN6, 4 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 4 },
+    { "RKN6, 8 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 8 },
+    { "RKN6, 12 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 12 },
+    { "RKN6, 16 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 16 },
+    { "RKN6, 8 steps", "r, phi, sky, fate", { .disk = true, .phi = true, .sky = true }, 3, 8 },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -107,6 +107,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     scene.camera.field_m = 24;
     scene.image.width = scene.image.height = o->size;
     scene.accuracy.orders = m->orders;
+    scene.accuracy.steps = m->steps; /* 0: the closed form */
     kd_renderer_capacity(renderer, &capacity);
     enum kd_status status = kd_plan_make_for(&scene, &m->needs, &capacity, &plan, error);
     if (status)

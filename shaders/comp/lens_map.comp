@@ -10,6 +10,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
+
+layout(constant_id = 5) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
+#define KD_NYSTROEM_ORDER METHOD
 #include "kerr_ray.glsl"
 #include "polar.glsl"
 #include "polar_azimuth.glsl"
@@ -26,6 +29,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define U(name) uint name;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
+layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
 #include "camera.glsl"
 #include "escape.glsl"
 
@@ -107,5 +111,7 @@ void main()
         lens[at] = end.u;
         lens[at + cam.stride] = -end.phi;
         lens[at + 2 * cam.stride] = end.fate;
+        if (end.fate == KD_FATE_UNDECIDED)
+            atomicAdd(undecided, 1);
     }
 }

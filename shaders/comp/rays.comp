@@ -33,7 +33,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { uint first, count; } push;
 layout(set = 0, binding = 0) readonly buffer Rays {
     float spin, u, s, horizon, root, w0, epsilon;    /* the hole and the observer; unit roundoff */
-    float list[];                                            /* alpha, beta */
+    float list[];                                            /* alpha, beta, 1: inwards or -1: outwards */
 } cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "trace.glsl"
@@ -104,11 +104,11 @@ void main()
         return;
     kd_ray ray;
     ray.e = 1.0;
-    ray.l = -cam.list[2 * i];
-    ray.p = cam.list[2 * i + 1];
+    ray.l = -cam.list[3 * i];
+    ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
     kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
-    ray.dw = sqrt(max(1.0 + ray.w * ray.w * (m.a2 + ray.w * (2.0 * m.k - m.d * ray.w)), 0.0));
+    ray.dw = cam.list[3 * i + 2] * sqrt(max(1.0 + ray.w * ray.w * (m.a2 + ray.w * (2.0 * m.k - m.d * ray.w)), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
     /* psi without its smooth part; see polar_azimuth.glsl. */

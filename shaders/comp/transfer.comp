@@ -36,6 +36,9 @@ layout(set = 0, binding = 1) readonly buffer Transfer {
 layout(set = 0, binding = 2) writeonly buffer Radiance { float radiance[]; };
 #include "camera.glsl"
 
+/* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */
+const vec3 UNDECIDED = vec3(1.0, 0.0, 1.0);
+
 /* Emitted light of the disk at w = 1/r, seen with the ray's constants; alpha: its opacity here. */
 vec4 disk_light(float w, float energy, float momentum)
 {
@@ -78,8 +81,9 @@ vec4 disk_light(float w, float energy, float momentum)
  * the spacing. */
 vec3 sky_light(uint at)
 {
-    if (lens[at + 2 * cam.stride] != KD_FATE_ESCAPED)
-        return vec3(0.0);
+    float fate = lens[at + 2 * cam.stride];
+    if (fate != KD_FATE_ESCAPED)
+        return fate == KD_FATE_UNDECIDED ? UNDECIDED : vec3(0.0);
     float u = lens[at], phi = lens[at + cam.stride] + tr.azimuth;
     float latitude = atan(u, sqrt(max(1.0 - u * u, 0.0)));
     float longitude = phi - 2.0 * KD_PI * floor(phi / (2.0 * KD_PI));
@@ -113,6 +117,10 @@ void main()
             if (DISK) {
                 for (uint n = 0; n < ORDERS; n++) {
                     float w = lens[at + n * cam.stride];
+                    if (w < 0.0) { /* given up here */
+                        light += through * UNDECIDED;
+                        through = 0.0;
+                    }
                     if (w <= 0.0)
                         break;
                     vec4 c = disk_light(w, energy, momentum);

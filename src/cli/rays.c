@@ -12,12 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END, KEY_TRACE };
+enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_PROFILE, KEY_TOLERANCE, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END, KEY_TRACE };
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
 /* In the order of the keys: as kd_rays_request_set calls them. */
-static const char *const names[N_FIELDS] = { "spin",   "r",         "inclination_deg", "orders",
-                                             "engine", "precision", "steps" };
+static const char *const names[N_FIELDS] = { "spin",      "r",      "inclination_deg", "orders", "profile",
+                                             "tolerance", "engine", "precision",       "steps" };
 
 struct arguments {
     const char *input, *output, *device, *format;
@@ -34,8 +34,10 @@ static const struct argp_option table[] = {
     { "r", KEY_R, "R", 0, "radius of the observer in M, or infinity", 0 },
     { "inclination-deg", KEY_INCLINATION, "I", 0, "polar angle of the observer", 0 },
     { "orders", KEY_ORDERS, "N", 0, "crossings wanted, 1 to 16", 0 },
-    { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn4, mino-rkn6, ks-euler, ks-rk4 or ks-tao6", 0 },
-    { "precision", KEY_PRECISION, "P", 0, "f64 (the default) or f32", 0 },
+    { "profile", KEY_PROFILE, "NAME", 0, "draft, interactive, balanced, high or reference", 0 },
+    { "tolerance", KEY_TOLERANCE, "T", 0, "relative error of the radii to be held: the fastest engine that does, by this device's table", 0 },
+    { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn4, mino-rkn6, ks-euler, ks-rk4, ks-tao6, or auto", 0 },
+    { "precision", KEY_PRECISION, "P", 0, "f64 (the default), f32 or auto", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
     { "trace", KEY_TRACE, NULL, 0, "one ray step by step, as the device takes them (engine: mino-rkn6 unless one is named)", 0 },
     { 0 },
@@ -130,26 +132,36 @@ static enum kd_status load(const struct arguments *arguments, struct kd_rays_req
             status = kd_rays_request_set(request, names[i], arguments->fields[i], error);
     for (size_t i = 0; i < arguments->more.n && !status; i++)
         status = kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1], error);
+    return status;
+}
+
+/* What the wish for accuracy comes to, on a device if it needs one. */
+static enum kd_status settle(const struct arguments *arguments, struct kd_rays_request *request, struct kd_renderer **renderer,
+                             struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    enum kd_status status = KD_OK;
+    bool device = kd_wish_needs_device(&request->wish);
+    if (device)
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, renderer, error);
+    if (status)
+        return status;
+    if (device)
+        kd_renderer_capacity(*renderer, &capacity);
+    status = kd_rays_request_settle(request, device ? &capacity : NULL, error);
     return status ? status : kd_rays_request_check(request, error);
 }
 
-static enum kd_status trace(const struct arguments *arguments, struct kd_rays_answer *answer, struct kd_error *error)
+static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer *answer, struct kd_error *error)
 {
-    struct kd_renderer *renderer = NULL;
     struct kd_progress progress;
-    enum kd_status status = KD_OK;
-    if (answer->params.engine != KD_ENGINE_CLOSED)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer, error);
-    if (status)
-        return status;
     kd_progress_init(&progress);
     kd_progress_catch_signals();
-    status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings, answer->ends,
+    enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings, answer->ends,
                            kd_progress_update, &progress, error);
     kd_progress_finish(&progress);
     if (status == KD_EDEVICE && !*error->pointer) /* with a pointer it only lacks what was asked for */
         kd_cli_device_lost(error);
-    kd_renderer_destroy(renderer);
     return status ? status : kd_rays_answer_summarise(answer, error);
 }
 
@@ -164,9 +176,12 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     struct kd_rays_answer answer = { 0 };
     struct kd_rays_stream stream = { 0 };
     enum kd_rays_format format = format_of(arguments);
+    struct kd_renderer *renderer = NULL;
     const char *path = arguments->output ? arguments->output : "-";
     kd_rays_request_init(&request);
     enum kd_status status = load(arguments, &request, error);
+    if (!status)
+        status = settle(arguments, &request, &renderer, error);
     if (!status && (strcmp(path, "-") || format == KD_RAYS_NPY))
         status = kd_file_check(path, error);
     if (!status) {
@@ -174,11 +189,12 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
         request.alpha_beta = NULL;
     }
     if (!status)
-        status = trace(arguments, &answer, error);
+        status = trace(renderer, &answer, error);
     if (!status)
         status = kd_rays_stream_init(&stream, &answer, format, error);
     if (!status)
         status = kd_file_stream(path, produce, &stream, error);
+    kd_renderer_destroy(renderer);
     kd_rays_stream_finish(&stream);
     kd_rays_answer_finish(&answer);
     kd_rays_request_finish(&request);
@@ -212,7 +228,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     if (!status && arguments->output && strcmp(arguments->output, "-"))
         status = kd_file_check(arguments->output, error);
     if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer, error);
+        status = settle(arguments, &request, &renderer, error);
     if (!status) {
         status = kd_rays_steps(renderer, &request.params, request.alpha_beta[0], request.alpha_beta[1], &steps, error);
         if (status == KD_EDEVICE && !*error->pointer) /* as below for whole lists */

@@ -10,8 +10,13 @@ static void add_accuracy(cJSON *root, const struct kd_stats *stats)
     cJSON *accuracy = cJSON_DetachItemFromObjectCaseSensitive(scene, "accuracy");
     if (!accuracy)
         accuracy = cJSON_CreateObject();
-    cJSON_AddNumberToObject(accuracy, "steps", stats->plan->steps); /* 0: the closed form */
+    /* What the scene's words come to takes their place. */
+    const struct kd_setting *by = &stats->plan->setting;
+    cJSON_ReplaceItemInObjectCaseSensitive(accuracy, "engine", cJSON_CreateString(kd_engine_name(by->engine)));
+    cJSON_ReplaceItemInObjectCaseSensitive(accuracy, "precision", cJSON_CreateString(kd_precision_name(by->precision)));
+    cJSON_ReplaceItemInObjectCaseSensitive(accuracy, "steps", cJSON_CreateNumber(by->steps)); /* 0: the closed form */
     const struct kd_accuracy_report *report = &stats->frame->accuracy;
+    cJSON_AddNumberToObject(accuracy, "undecided", (double)report->undecided);
     cJSON_AddNumberToObject(accuracy, "sampled", report->sampled);
     if (report->sampled) {
         cJSON_AddNumberToObject(accuracy, "crossings", report->crossings);

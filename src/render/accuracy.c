@@ -26,8 +26,8 @@ double kd_accuracy_holds(const struct kd_accuracy_row *row)
 static enum kd_status refuse(const struct kd_accuracy_row *best, double tolerance, struct kd_error *error)
 {
     if (!best)
-        return kd_error_field(error, "/accuracy/tolerance", "the accuracy table of this device has no row that can be relied on; "
-                              "`kerrd bench accuracy` makes a new one");
+        return kd_error_field(error, "/accuracy/tolerance", "the accuracy table of this device has no row that can be relied on "
+                              "for what was asked; `kerrd bench accuracy` makes a new one");
     /* Rounded up: whoever asks for this number gets it. */
     return kd_error_field(error, "/accuracy/tolerance",
                           "tolerance is %.3g, this device was measured to hold %.3g and above (%s %s with %u steps); the engine "
@@ -36,15 +36,21 @@ static enum kd_status refuse(const struct kd_accuracy_row *best, double toleranc
                           best->steps);
 }
 
-enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, struct kd_accuracy_choice *out,
-                                  struct kd_error *error)
+static bool within(const struct kd_accuracy_limits *limits, const struct kd_accuracy_row *row)
+{
+    return !limits || ((limits->engine < 0 || limits->engine == (int)row->engine) &&
+                       (limits->precision < 0 || limits->precision == (int)row->precision));
+}
+
+enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, const struct kd_accuracy_limits *limits,
+                                  struct kd_accuracy_choice *out, struct kd_error *error)
 {
     const struct kd_accuracy_row *found = NULL, *best = NULL;
     if (!(tolerance > 0 && tolerance < 1))
         return kd_error_field(error, "/accuracy/tolerance", "tolerance is %.9g, allowed are numbers above 0 and below 1", tolerance);
     for (uint32_t i = 0; i < table->n; i++) {
         const struct kd_accuracy_row *row = &table->rows[i];
-        if (isinf(kd_accuracy_holds(row)))
+        if (!within(limits, row) || isinf(kd_accuracy_holds(row)))
             continue;
         if (!best || kd_accuracy_holds(row) < kd_accuracy_holds(best))
             best = row;

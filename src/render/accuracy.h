@@ -60,10 +60,17 @@ struct kd_accuracy_choice {
 /* The tolerance that a row holds; INFINITY if none. */
 double kd_accuracy_holds(const struct kd_accuracy_row *row);
 
-/* The fastest row that holds a relative error of the crossing radius. KD_EINVAL at "/accuracy/tolerance", saying what this
- * device can hold, if none does. */
-enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, struct kd_accuracy_choice *out,
-                                  struct kd_error *error);
+/* The fastest row within the limits (NULL: all) that holds a relative error of the crossing radius. KD_EINVAL at
+ * "/accuracy/tolerance", saying what this device can hold, if none does. */
+struct kd_accuracy_limits {
+    int engine, precision; /* -1: any */
+};
+enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance, const struct kd_accuracy_limits *limits,
+                                  struct kd_accuracy_choice *out, struct kd_error *error);
+
+/* The table that a tolerance is looked up in until this device has its own: of llvmpipe, from bench/results. Errors are much the
+ * same everywhere, speeds are not. Any thread; never freed; NULL if memory is short. */
+const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
 /* The document of GET /v1/accuracy, appended, and back: KD_EINVAL for text that is no such document. */
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);

@@ -2,16 +2,19 @@
 
 #include "physics/kerr.h"
 #include "render/camera.h"
+#include "render/lens_listed.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS, STEPS = 32 }; /* double precision with 32 steps a half turn: 1e-10 */
+enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
 
 struct sample {
     uint32_t rows, columns, width, height; /* of the grid of rays */
-    struct kd_vk_buffer *host;             /* the sampled rows, all orders of one row together */
+    uint32_t planes;                       /* of the map that are looked at: radii, and the fate */
+    struct kd_vk_buffer *host;             /* the sampled rows, all planes of one row together */
     double *rays;                          /* alpha, beta */
+    bool outward[ROWS * COLUMNS];
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     double *errors;
@@ -19,22 +22,20 @@ struct sample {
 
 static uint32_t spread(uint32_t k, uint32_t n, uint32_t size) { return (uint32_t)((k + 0.5) / n * size); }
 
-/* The labels of a pixel's ray, with the kernel's own arithmetic; false for a ray that starts outwards, which the list of rays does
- * not know. */
-static bool labels(const struct kd_camera_push *c, bool finite, uint32_t px, uint32_t py, double *out)
+/* The labels of a pixel's ray as the kernel makes them, in its own arithmetic: what it loses there is a shift of some 1e-7 of the
+ * picture and no error of the map. */
+static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
 {
     float x = (float)px - c->middle_x, y = c->middle_y - (float)py;
     float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
-    if (!finite) {
-        out[0] = kx;
-        out[1] = ky;
-        return true;
-    }
+    *out = (struct kd_camera_label) { .alpha = kx, .beta = ky };
+    if (!finite)
+        return;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
     double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi;
-    out[0] = -(c->l0 + c->l1 * m_phi) / energy;
-    out[1] = -c->cp * ky * n / energy;
-    return kx < 0 && energy > 0;
+    *out = (struct kd_camera_label) {
+        .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0,
+    };
 }
 
 static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *plan, const struct kd_lens_map *map,
@@ -45,9 +46,11 @@ static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *pla
     enum kd_status status = KD_OK;
     for (uint32_t k = 0; k < s->rows && !status; k++) {
         uint32_t y = spread(k, s->rows, s->height), band = y / band_rows;
-        for (uint32_t n = 0; n < plan->orders && !status; n++)
-            status = kd_vk_copy(r->vk, "audit", s->host, (k * plan->orders + n) * row, map->bands.buffers[band],
-                                n * stride + (y % band_rows) * row, row, error);
+        for (uint32_t n = 0; n < s->planes && !status; n++) {
+            uint32_t plane = n < plan->orders ? n : plan->planes - 1; /* the fate is the last */
+            status = kd_vk_copy(r->vk, "readback", s->host, (k * s->planes + n) * row, map->bands.buffers[band],
+                                plane * stride + (y % band_rows) * row, row, error);
+        }
     }
     if (!status)
         status = kd_vk_submit(r->vk, NULL, error);
@@ -60,7 +63,13 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Compare the map's radii (w of `orders` crossings at a distance of `width`) with the list's. */
+static bool other_fate(float fate, const struct kd_ray_end *end)
+{
+    return end->fate != KD_RAY_UNDECIDED && fate != (float)KD_FATE_UNDECIDED &&
+           (fate == (float)KD_FATE_ESCAPED) != (end->fate == KD_RAY_ESCAPED);
+}
+
+/* Compare the map's radii (w of `orders` crossings at a distance of `width`) and fates with the list's. */
 static void compare(const struct kd_plan *plan, const struct sample *s, const uint32_t *place, uint32_t n, double inner,
                     struct kd_accuracy_report *out)
 {
@@ -78,6 +87,7 @@ static void compare(const struct kd_plan *plan, const struct sample *s, const ui
             else
                 out->differ++;
         }
+        out->differ += s->planes > plan->orders && other_fate(*w, &s->ends[i]);
     }
     qsort(s->errors, count, sizeof *s->errors, by_value);
     out->sampled = n;
@@ -90,23 +100,28 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
                           const struct kd_lens_map *map, struct sample *s, struct kd_accuracy_report *out,
                           struct kd_error *error)
 {
+    const struct kd_camera_exact exact = kd_camera_exact(scene);
+    const struct kd_camera_push rounded = kd_camera_push(scene);
+    const struct kd_setting closed = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
     uint32_t place[ROWS * COLUMNS], n = 0;
-    struct kd_camera_push camera = kd_camera_push(scene);
-    bool finite = !isinf(scene->camera.r);
     for (uint32_t j = 0; j < s->rows; j++)
-        for (uint32_t i = 0; i < s->columns; i++) {
+        for (uint32_t i = 0; i < s->columns; i++, n++) {
             uint32_t x = spread(i, s->columns, s->width), y = spread(j, s->rows, s->height);
-            if (labels(&camera, finite, x, y, &s->rays[2 * n]))
-                place[n++] = j * plan->orders * s->width + x;
+            struct kd_camera_label label;
+            if (plan->path == KD_LENS_LISTED)
+                kd_camera_label(&exact, x, y, &label);
+            else
+                label_in_single(&rounded, !isinf(scene->camera.r), x, y, &label);
+            s->rays[2 * n] = label.alpha;
+            s->rays[2 * n + 1] = label.beta;
+            s->outward[n] = label.outward;
+            place[n] = j * s->planes * s->width + x;
         }
-    const struct kd_rays_params params = {
-        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
-        .orders = plan->orders, .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F64, .steps = STEPS,
-    };
+    const struct kd_ray_labels labels = { s->rays, s->outward, n };
     enum kd_status status = read_rows(r, plan, map, s, error);
-    if (!status && n)
-        status = kd_rays_device(r, &params, s->rays, n, s->crossings, s->ends, NULL, NULL, error);
-    if (!status && n)
+    if (!status)
+        status = kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error);
+    if (!status)
         compare(plan, s, place, n, kd_kerr_isco(scene->spacetime.spin), out);
     return status;
 }
@@ -120,6 +135,7 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
         return KD_OK;
     s.rows = s.height < ROWS ? s.height : ROWS;
     s.columns = s.width < COLUMNS ? s.width : COLUMNS;
+    s.planes = plan->orders + plan->sky;
     size_t n = (size_t)s.rows * s.columns;
     s.rays = malloc(2 * n * sizeof *s.rays);
     s.crossings = malloc(n * plan->orders * sizeof *s.crossings);
@@ -129,7 +145,7 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
     if (!s.rays || !s.crossings || !s.ends || !s.errors)
         status = kd_error_set(error, KD_ENOMEM, "out of memory for the audit");
     if (!status)
-        status = kd_vk_buffer_create(renderer->vk, 4ull * s.rows * plan->orders * s.width, KD_VK_READBACK, "audited rows",
+        status = kd_vk_buffer_create(renderer->vk, 4ull * s.rows * s.planes * s.width, KD_VK_READBACK, "audited rows",
                                      &s.host, error);
     if (!status)
         status = run(renderer, scene, plan, map, &s, out, error);

@@ -19,16 +19,16 @@ static struct vec mix(double a, struct vec p, double b, struct vec q)
     return (struct vec){ a * p.x + b * q.x, a * p.y + b * q.y, a * p.z + b * q.z };
 }
 
-static void set_directions(struct kd_camera_push *o, struct vec c0, struct vec cx, struct vec cy)
+static void set_directions(struct kd_camera_exact *o, struct vec c0, struct vec cx, struct vec cy)
 {
-    o->c0x = (float)c0.x, o->c0y = (float)c0.y, o->c0z = (float)c0.z;
-    o->cxx = (float)cx.x, o->cxy = (float)cx.y, o->cxz = (float)cx.z;
-    o->cyx = (float)cy.x, o->cyy = (float)cy.y, o->cyz = (float)cy.z;
+    o->c0x = c0.x, o->c0y = c0.y, o->c0z = c0.z;
+    o->cxx = cx.x, o->cxy = cx.y, o->cxz = cx.z;
+    o->cyx = cy.x, o->cyy = cy.y, o->cyz = cy.z;
 }
 
 /* Image plane: (alpha, beta) of the middle, and of one step to the right and up. A camera that rolls clockwise has its
  * right-hand side pointing down. */
-static void plane(struct kd_camera_push *o, const struct kd_camera *c, double step)
+static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     double cr = cos_deg(c->roll_deg), sr = sin_deg(c->roll_deg);
     set_directions(o, (struct vec){ c->centre_alpha, c->centre_beta, 0 }, (struct vec){ step * cr, -step * sr, 0 },
@@ -37,7 +37,7 @@ static void plane(struct kd_camera_push *o, const struct kd_camera *c, double st
 
 /* Pinhole: look directions in the local frame (e_r, e_theta, e_phi). Unturned, the camera looks along -e_r, with +e_phi to
  * the right and -e_theta up. */
-static void pinhole(struct kd_camera_push *o, const struct kd_camera *c, double step)
+static void pinhole(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     const struct vec inwards = { -1, 0, 0 }, right = { 0, 0, 1 }, up = { 0, -1, 0 };
     double cy = cos_deg(c->yaw_deg), sy = sin_deg(c->yaw_deg);
@@ -50,36 +50,36 @@ static void pinhole(struct kd_camera_push *o, const struct kd_camera *c, double 
 }
 
 /* E and L/sin(theta) of a photon of unit local energy and direction m. */
-static void frame(struct kd_camera_push *o, const struct kd_scene *scene, double u, double s)
+static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, double u, double s)
 {
     double a = scene->spacetime.spin, r = scene->camera.r;
     bool zamo = scene->camera.observer == KD_OBSERVER_ZAMO; /* a valid scene has no static one in the ergosphere */
     struct kd_tetrad t = (zamo ? kd_tetrad_zamo : kd_tetrad_static)(a, r, u, s);
-    o->e0 = (float)t.e0;
-    o->e1 = (float)t.e1;
-    o->l0 = (float)t.l0;
-    o->l1 = (float)t.l1;
-    o->cp = (float)t.p;
-    o->cw = (float)(-t.p * t.root_delta / (r * r));
-    o->w0 = (float)(1 / r);
+    o->e0 = t.e0;
+    o->e1 = t.e1;
+    o->l0 = t.l0;
+    o->l1 = t.l1;
+    o->cp = t.p;
+    o->cw = -t.p * t.root_delta / (r * r);
+    o->w0 = 1 / r;
 }
 
-struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
+struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
 {
-    struct kd_camera_push o = { 0 };
+    struct kd_camera_exact o = { 0 };
     const struct kd_camera *c = &scene->camera;
     double width = (double)scene->image.width * scene->image.samples;
     double height = (double)scene->image.height * scene->image.samples;
     double u = cos_deg(c->inclination_deg), s = sin_deg(c->inclination_deg);
 
-    o.middle_x = (float)(0.5 * width - 0.5);
-    o.middle_y = (float)(0.5 * height - 0.5);
+    o.middle_x = 0.5 * width - 0.5;
+    o.middle_y = 0.5 * height - 0.5;
     o.width = (uint32_t)width;
-    o.spin = (float)scene->spacetime.spin;
-    o.u = (float)u;
-    o.s = (float)s;
-    o.root = (float)sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
-    o.horizon = (float)(1 / kd_kerr_horizon(scene->spacetime.spin));
+    o.spin = scene->spacetime.spin;
+    o.u = u;
+    o.s = s;
+    o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
+    o.horizon = 1 / kd_kerr_horizon(scene->spacetime.spin);
     if (isinf(c->r)) {
         plane(&o, c, c->field_m / width);
     } else {
@@ -87,4 +87,31 @@ struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
         frame(&o, scene, u, s);
     }
     return o;
+}
+
+struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
+{
+    const struct kd_camera_exact exact = kd_camera_exact(scene);
+    struct kd_camera_push o = { 0 };
+#define F(name) o.name = (float)exact.name;
+#define U(name) o.name = exact.name;
+    KD_CAMERA_FIELDS_(F, U)
+#undef F
+#undef U
+    return o;
+}
+
+void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, struct kd_camera_label *out)
+{
+    double x = px - c->middle_x, y = c->middle_y - py;
+    double kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
+    if (c->w0 == 0) {
+        *out = (struct kd_camera_label) { .alpha = kx, .beta = ky };
+        return;
+    }
+    double kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
+    double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi;
+    *out = (struct kd_camera_label) {
+        .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0,
+    };
 }

@@ -5,7 +5,23 @@
 #include "render/layout.h"
 #include "scene/scene.h"
 
+/* The push constants of the kernels before they are rounded. */
+#define F(name) double name;
+#define U(name) uint32_t name;
+struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
+#undef F
+#undef U
+
 /* Everything but the rows of a slice (row0, rows, band0, stride). The scene must be valid. */
+struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene);
 struct kd_camera_push kd_camera_push(const struct kd_scene *scene);
+
+/* The ray at (x, y) by its labels (render/rays.h), as shaders/include/camera.glsl makes it, in double. Not for an observer in
+ * the ergosphere: E must be positive. */
+struct kd_camera_label {
+    double alpha, beta;
+    bool outward; /* at a finite radius: the traced ray starts away from the hole */
+};
+void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "render/audit.h"
 #include "render/camera.h"
+#include "render/lens_listed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,6 +19,8 @@ struct job {
     const struct kd_plan *plan;
     struct kd_camera_push camera;
     struct kd_lens_map *lens;
+    uint64_t undecided;  /* listed rays that an engine gave up */
+    double listed_ms, audit_ms; /* the host's time for them, and for the audit */
     kd_progress_fn progress;
     void *user;
     double done, weight; /* rows so far, of all passes */
@@ -59,14 +62,22 @@ static uint32_t slice_rows(double ns_per_row, uint32_t rows)
     return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
 }
 
+/* NULL where no kernel is run for it. */
 static enum kd_status trace_kernel(struct job *j, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
-    if (p->radius_only)
+    *out = NULL;
+    if (p->path == KD_LENS_LISTED)
+        return KD_OK;
+    if (p->path == KD_LENS_RADIUS)
         return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, (uint32_t[]){ p->orders }, 1, out,
                               j->error);
-    const uint32_t constants[] = { p->orders, p->steps, !isinf(j->scene->camera.r), p->phi, p->sky };
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 5, out, j->error);
+    enum kd_status status = kd_vk_fill(j->r->vk, j->r->store.undecided, 0, 16, 0, j->error);
+    if (status)
+        return status;
+    const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
+    const uint32_t constants[] = { p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 6, out, j->error);
 }
 
 static enum kd_status transfer_kernel(struct job *j, const struct kd_vk_pipeline **out)
@@ -110,10 +121,37 @@ static enum kd_status run_band(struct job *j, uint32_t band, const struct kd_vk_
     return KD_OK;
 }
 
-static enum kd_status trace_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
+static enum kd_status list_band(struct job *j, uint32_t band)
 {
-    const struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, band), 0, 0, true } }, NULL, { 0 } };
-    return run_band(j, band, &d, true, ns);
+    const struct kd_plan *p = j->plan;
+    uint32_t first = band_first(j, band) * p->side, rows = band_rows(j, band) * p->side;
+    uint64_t width = (uint64_t)p->width * p->side;
+    uint32_t step = slice_rows(p->trace_ns * (double)width, rows);
+    enum kd_status status = KD_OK;
+    double start = now_ms();
+    for (uint32_t done = 0; done < rows && !status; done += step) {
+        const struct kd_lens_rows part = {
+            .first = first + done, .count = rows - done < step ? rows - done : step, .to = lens_buffer(j, band),
+            .offset = done * width, .stride = width * p->band_rows * p->side,
+        };
+        status = kd_lens_listed(j->r, j->scene, p, &part, &j->undecided, j->error);
+        if (!status)
+            status = report(j, (double)part.count / p->side);
+    }
+    j->listed_ms += now_ms() - start;
+    return status;
+}
+
+/* pipeline: of trace_kernel. */
+static enum kd_status trace_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline)
+{
+    const struct kd_plan *p = j->plan;
+    if (p->path == KD_LENS_LISTED)
+        return list_band(j, band);
+    struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, band), 0, 0, true } }, NULL, { 0 } };
+    if (p->path == KD_LENS_MAP)
+        d.bindings[1] = (struct kd_vk_binding) { j->r->store.undecided, 0, 0, true };
+    return run_band(j, band, &d, true, p->trace_ns);
 }
 
 static enum kd_status transfer_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
@@ -134,12 +172,13 @@ static enum kd_status trace_and_transfer(struct job *j, bool reused, const struc
 {
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *trace = NULL, *transfer;
-    enum kd_status status = reused || !p->planes ? KD_OK : trace_kernel(j, &trace);
+    bool needed = !reused && p->planes;
+    enum kd_status status = needed ? trace_kernel(j, &trace) : KD_OK;
     if (!status)
         status = transfer_kernel(j, &transfer);
     for (uint32_t band = 0; band < p->bands && !status; band++) {
-        if (trace)
-            status = trace_band(j, band, trace, p->radius_only ? c->ns_per_ray_radius : c->ns_per_ray_full);
+        if (needed)
+            status = trace_band(j, band, trace);
         if (!status)
             status = transfer_band(j, band, transfer, c->ns_per_sample_transfer);
     }
@@ -254,13 +293,35 @@ static void add_timing(struct kd_frame *frame, const char *name, double ms)
     t->ms = ms;
 }
 
-static void collect_timings(struct kd_renderer *r, struct kd_frame *frame, double total_ms)
+static void collect_timings(const struct job *j, struct kd_frame *frame, double total_ms)
 {
     struct kd_vk_time times[KD_VK_MAX_PASSES];
-    size_t n = kd_vk_times(r->vk, times);
+    size_t n = kd_vk_times(j->r->vk, times);
+    if (j->listed_ms > 0)
+        add_timing(frame, "trace", j->listed_ms);
+    if (j->audit_ms > 0)
+        add_timing(frame, "audit", j->audit_ms);
     for (size_t i = 0; i < n; i++)
         add_timing(frame, times[i].pass, times[i].ms);
     add_timing(frame, "total", total_ms);
+}
+
+/* Rays of the whole map that were given up. */
+static enum kd_status count_undecided(struct job *j, uint64_t *out)
+{
+    struct kd_store *s = &j->r->store;
+    struct kd_vk *vk = j->r->vk;
+    *out = j->undecided;
+    if (j->plan->path != KD_LENS_MAP || !j->plan->sky)
+        return KD_OK;
+    enum kd_status status = kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error);
+    if (!status)
+        status = kd_vk_submit(vk, NULL, j->error);
+    if (!status)
+        status = kd_vk_wait(vk, 0, j->error);
+    if (!status)
+        *out = *(const uint32_t *)kd_vk_buffer_map(s->counts);
+    return status;
 }
 
 static enum kd_status run(struct job *j, struct kd_frame *frame)
@@ -290,8 +351,13 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     }
     if (!status)
         status = finish_pixels(j, frame);
+    double audited = now_ms();
     if (!status && !reused)
         status = kd_audit(r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error);
+    if (j->plan->audit && !reused)
+        j->audit_ms = now_ms() - audited;
+    if (!status && !reused)
+        status = count_undecided(j, &j->lens->accuracy.undecided);
     if (!status && !reused)
         kd_store_commit(&r->store, j->lens, j->plan);
     frame->accuracy = j->lens->accuracy;
@@ -320,7 +386,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         kd_frame_finish(&frame);
         return status;
     }
-    collect_timings(renderer, &frame, now_ms() - start);
+    collect_timings(&job, &frame, now_ms() - start);
     kd_renderer_learn(renderer, plan, &frame);
     *out = frame;
     return KD_OK;
@@ -352,9 +418,7 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     struct job job = { .r = renderer, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1, .error = error };
     const struct kd_vk_pipeline *trace;
     struct kd_vk_buffer *host = NULL;
-    struct kd_capacity c;
     bool reused;
-    kd_renderer_capacity(renderer, &c);
     kd_vk_times_reset(renderer->vk);
     enum kd_status status = kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error);
     if (!status)
@@ -363,7 +427,7 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     if (!status)
         status = trace_kernel(&job, &trace);
     for (uint32_t band = 0; band < plan->bands && !status; band++) {
-        status = trace_band(&job, band, trace, plan->radius_only ? c.ns_per_ray_radius : c.ns_per_ray_full);
+        status = trace_band(&job, band, trace);
         if (!status)
             status = read_band(&job, band, host, planes);
     }

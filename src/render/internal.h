@@ -19,21 +19,11 @@ struct kd_renderer {
     bool tables_ready;
     pthread_mutex_t lock; /* guards capacity */
     struct kd_capacity capacity;
+    struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     char name[800];
 };
 
 /* Learn from the device times of a frame: nanoseconds an item, smoothed. */
 void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
-
-/* kd_rays_trace for the engines of the device, params checked; g is left NaN. Render thread. */
-enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
-                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
-/* Steps a half period that are in force: those asked for, or the engine's own. */
-uint32_t kd_rays_device_steps(const struct kd_rays_params *params);
-/* One ray, and the records that trace.glsl describes, as doubles: room for `numbers` of them. */
-enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const double alpha_beta[2],
-                                   struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
-                                   struct kd_error *error);
 
 #endif

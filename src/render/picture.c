@@ -7,7 +7,8 @@
 
 void kd_accuracy_text(const struct kd_accuracy_report *report, uint64_t rays, char out[KD_ACCURACY_TEXT])
 {
-    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu sampled=%u", (unsigned long long)rays, report->sampled);
+    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu undecided=%llu sampled=%u", (unsigned long long)rays,
+                     (unsigned long long)report->undecided, report->sampled);
     if (report->sampled)
         snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
                  report->differ, report->median, report->worst);

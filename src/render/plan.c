@@ -1,16 +1,10 @@
 #include "render/plan.h"
 
+#include "physics/kerr.h"
+#include "render/accuracy.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Steps of the integrator a half period, by profile; docs/accuracy.md has the errors that go with them. */
-static const uint32_t profile_steps[] = {
-    [KD_PROFILE_DRAFT] = 4,
-    [KD_PROFILE_INTERACTIVE] = 4,
-    [KD_PROFILE_BALANCED] = 8,
-    [KD_PROFILE_HIGH] = 16,
-};
 
 static void say(struct kd_plan *plan, bool condition, const char *sentence)
 {
@@ -38,7 +32,12 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, disk, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
     say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
     say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
-    say(plan, true, "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate");
+    const struct kd_setting *by = &plan->setting;
+    say(plan, by->precision == KD_PRECISION_F32,
+        "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate");
+    say(plan, by->precision == KD_PRECISION_F64, "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits");
+    say(plan, by->engine >= KD_ENGINE_KS_EULER,
+        "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs");
 }
 
 /* What the lens map depends on, as a scene with all else at its default: its hash is the key of the cache. */
@@ -51,9 +50,10 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     key.camera.azimuth_deg = 0; /* adds a constant to every azimuth: transfer does that */
     key.image = scene->image;
     key.image.bit_depth = 8;
-    key.accuracy = scene->accuracy;
-    if (plan->radius_only)
-        key.accuracy.profile = KD_PROFILE_BALANCED; /* the closed form has no steps */
+    key.accuracy.orders = scene->accuracy.orders;
+    key.accuracy.engine = (int32_t)plan->setting.engine + 1;
+    key.accuracy.precision = (int32_t)plan->setting.precision + 1;
+    key.accuracy.steps = (int32_t)plan->setting.steps;
     key.sky.model = plan->sky ? KD_SKY_GRID : KD_SKY_NONE;
     return kd_scene_hash(&key, plan->lens_key);
 }
@@ -64,14 +64,46 @@ static void add_pass(struct kd_plan *plan, const char *name, const char *kernel,
     plan->estimate_ms += (double)n * ns * 1e-6;
 }
 
+static const char *kernel_of(const struct kd_plan *plan)
+{
+    switch (plan->path) {
+    case KD_LENS_RADIUS: return "lens_radius.comp";
+    case KD_LENS_MAP: return "lens_map.comp";
+    case KD_LENS_LISTED: break;
+    }
+    return plan->setting.engine == KD_ENGINE_CLOSED      ? ""
+           : plan->setting.engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp"
+                                                         : "rays.comp";
+}
+
+#define NS_PER_AUDIT 4000.0 /* the closed form in double, on the CPU: figures of docs/rays.md */
+#define NS_PER_CLOSED 3000.0
+
+/* What is made of listed rays is estimated from the table; what it does not know, from the steps. */
+static double ns_per_ray(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    const struct kd_setting *by = &plan->setting;
+    if (plan->path != KD_LENS_LISTED)
+        return plan->path == KD_LENS_RADIUS ? c->ns_per_ray_radius : c->ns_per_ray_full;
+    if (by->engine == KD_ENGINE_CLOSED)
+        return NS_PER_CLOSED / (c->cores ? c->cores : 1);
+    for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
+        const struct kd_accuracy_row *row = &c->accuracy->rows[i];
+        double rate = row->sets[KD_ACCURACY_BULK].rays_per_s;
+        if (row->engine == by->engine && row->precision == by->precision && row->steps == by->steps && rate > 0)
+            return 1e9 / rate;
+    }
+    return c->ns_per_ray_full * by->steps * (by->engine >= KD_ENGINE_KS_EULER ? 10 : 0.5);
+}
+
 static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
     uint64_t pixels = (uint64_t)plan->width * plan->height;
+    plan->trace_ns = ns_per_ray(plan, c);
     if (plan->planes)
-        add_pass(plan, "trace", plan->radius_only ? "lens_radius.comp" : "lens_map.comp", plan->rays,
-                 plan->radius_only ? c->ns_per_ray_radius : c->ns_per_ray_full);
+        add_pass(plan, "trace", kernel_of(plan), plan->rays, plan->trace_ns);
     if (plan->audit)
-        add_pass(plan, "audit", "rays.comp", KD_AUDIT_RAYS, 20 * c->ns_per_ray_full);
+        add_pass(plan, "audit", "", KD_AUDIT_RAYS, NS_PER_AUDIT);
     add_pass(plan, "transfer", "transfer.comp", plan->rays, c->ns_per_sample_transfer);
     if (isinf(scene->style.exposure))
         add_pass(plan, "expose", "expose.comp", pixels, 0.25 * c->ns_per_pixel_post);
@@ -108,6 +140,63 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     return KD_OK;
 }
 
+/* A lens map keeps w = 1/r in 32 bits. */
+#define KEPT 6e-8
+
+static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, struct kd_error *error)
+{
+    double best = INFINITY;
+    for (uint32_t i = 0; i < c->accuracy->n; i++)
+        best = fmin(best, kd_accuracy_holds(&c->accuracy->rows[i]));
+    return kd_error_field(error, "/accuracy/tolerance",
+                          "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays "
+                          "(POST /v1/rays, kerrd rays) hold %.3g on this device", tolerance, KEPT, 1.01 * best);
+}
+
+static double ergosphere(const struct kd_scene *scene)
+{
+    return kd_kerr_ergosphere(scene->spacetime.spin, cos(scene->camera.inclination_deg * (M_PI / 180)));
+}
+
+/* Whether listed rays can stand in for the camera's: they are labelled by L/E and Q/E^2, and E changes sign in the ergosphere. */
+static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
+
+static enum kd_status may_list(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (outside(scene))
+        return KD_OK;
+    return kd_error_field(error, "/accuracy",
+                          "only the Mino engines in f32 work inside the ergosphere, camera.r %.9g: give accuracy.engine, precision, "
+                          "profile or tolerance that come to it, or move the camera out of %.9g M", scene->camera.r, ergosphere(scene));
+}
+
+/* Which kernel, which engine. */
+static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                             struct kd_error *error)
+{
+    const struct kd_wish wish = kd_wish_of(scene);
+    struct kd_setting *by = &plan->setting;
+    bool radii = isinf(scene->camera.r) && !plan->phi && !plan->sky;
+    bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
+    if (wish.tolerance < KEPT)
+        return too_fine(wish.tolerance, c, error);
+    enum kd_status status = kd_setting_of(&wish, c->accuracy, c->float64, by, error);
+    if (status)
+        return status;
+    if (closed32 && !radii)
+        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 gives radii to an observer at infinity alone, "
+                              "and this scene needs more: allowed is f64");
+    if (radii && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
+        plan->path = KD_LENS_RADIUS;
+        by->engine = KD_ENGINE_CLOSED;
+        by->steps = 0;
+        return KD_OK;
+    }
+    bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32;
+    plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
+    return map ? KD_OK : may_list(scene, error);
+}
+
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
@@ -118,17 +207,19 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     plan.phi = needs->phi;
     plan.sky = needs->sky;
-    plan.radius_only = isinf(scene->camera.r) && !plan.phi && !plan.sky && !needs->integrate;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
-    plan.steps = plan.radius_only ? 0 : needs->steps ? needs->steps : profile_steps[scene->accuracy.profile];
-    plan.planes = plan.orders + (plan.phi ? plan.orders : 0) + (plan.sky ? 3 : 0);
-    plan.measured = capacity->measured;
-
-    enum kd_status status = bands(&plan, scene, capacity, error);
+    enum kd_status status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.audit = plan.cacheable && plan.orders && capacity->float64;
+    plan.planes = plan.orders + (plan.phi ? plan.orders : 0) + (plan.sky ? 3 : 0);
+    plan.measured = capacity->measured;
+    plan.accuracy_measured = capacity->accuracy_measured;
+
+    status = bands(&plan, scene, capacity, error);
+    if (status)
+        return status;
+    plan.audit = plan.cacheable && plan.orders && outside(scene);
     passes(&plan, scene, capacity);
     approximations(&plan, scene);
     if (lens_key(&plan, scene))

@@ -5,6 +5,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
+#include "render/engine.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -21,11 +22,14 @@ struct kd_capacity {
     double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post;
     bool measured; /* false: the figures are a default guess for this type of device */
     bool float64;  /* the device has double precision */
+    unsigned cores; /* of the host, that the closed form in double runs on */
+    const struct kd_accuracy_table *accuracy; /* of the device, or built in; lives as long as the renderer */
+    bool accuracy_measured;                   /* false: built in */
 };
 
 struct kd_plan_pass {
     const char *name;   /* "trace", "audit", "transfer", "expose", "post", "readback" */
-    const char *kernel; /* file under shaders/comp, "" for a copy             */
+    const char *kernel; /* file under shaders/comp, "" for a copy and for the CPU */
     uint64_t invocations;
     double estimate_ms;
 };
@@ -33,9 +37,14 @@ struct kd_plan_pass {
 struct kd_plan {
     uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
     uint64_t rays;
-    bool radius_only;               /* nothing in the scene needs more than the crossing radii */
+    enum kd_lens_path {
+        KD_LENS_RADIUS, /* lens_radius.comp: nothing in the scene needs more than the crossing radii, from infinity */
+        KD_LENS_MAP,    /* lens_map.comp */
+        KD_LENS_LISTED, /* as listed rays (render/rays.h), by any engine, in either precision */
+    } path;
+    struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     bool phi, sky;                  /* the lens map holds azimuths; sky directions and fates */
-    uint32_t orders, steps;         /* crossings a ray; integrator steps between crossings (0: closed form) */
+    uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */
     uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */
     bool cacheable;                 /* the whole lens map fits in memory and can be kept */
@@ -43,22 +52,21 @@ struct kd_plan {
     uint64_t lens_bytes, device_bytes, host_bytes;
     struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
     size_t n_passes;
-    double estimate_ms;
-    bool measured;
+    double estimate_ms, trace_ns;     /* of all; of one ray */
+    bool measured, accuracy_measured; /* as in the capacity */
     const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
     size_t n_approximations;
     char lens_key[65]; /* hash of what the lens map depends on */
 };
 
-/* scene must be valid (kd_scene_validate). KD_ETOOBIG, saying how much, when it does not fit. */
+/* scene must be valid (kd_scene_validate). KD_ETOOBIG, saying how much, when it does not fit; KD_EINVAL at /accuracy/... for an
+ * engine, precision or tolerance that this device or this camera cannot have. */
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
                             struct kd_plan *out, struct kd_error *error);
 
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
     bool disk, phi, sky; /* crossing radii; their azimuths; directions of escape and fates */
-    bool integrate;      /* by steps even where the closed form would do */
-    uint32_t steps;      /* a half period, a multiple of 4 up to 64; 0: the profile's */
 };
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);

@@ -1,6 +1,7 @@
 #include "render/plan.h"
 
 #include <cJSON.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,11 +20,23 @@ static void add_constants(cJSON *root, const struct kd_plan *plan)
 {
     cJSON *o = cJSON_AddObjectToObject(root, "specialisation");
     cJSON_AddNumberToObject(o, "orders", plan->orders);
-    cJSON_AddNumberToObject(o, "steps", plan->steps);
+    cJSON_AddNumberToObject(o, "steps", plan->setting.steps);
     cJSON_AddNumberToObject(o, "samples", plan->side);
-    cJSON_AddBoolToObject(o, "radius_only", plan->radius_only);
+    cJSON_AddBoolToObject(o, "radius_only", plan->path == KD_LENS_RADIUS);
     cJSON_AddBoolToObject(o, "phi", plan->phi);
     cJSON_AddBoolToObject(o, "sky", plan->sky);
+}
+
+static void add_accuracy(cJSON *root, const struct kd_plan *plan)
+{
+    const struct kd_setting *by = &plan->setting;
+    cJSON *o = cJSON_AddObjectToObject(root, "accuracy");
+    cJSON_AddStringToObject(o, "engine", kd_engine_name(by->engine));
+    cJSON_AddStringToObject(o, "precision", kd_precision_name(by->precision));
+    cJSON_AddNumberToObject(o, "steps", by->steps);
+    if (isfinite(by->holds))
+        cJSON_AddNumberToObject(o, "holds", by->holds);
+    cJSON_AddStringToObject(o, "table", plan->accuracy_measured ? "measured" : "built-in");
 }
 
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out)
@@ -36,6 +49,7 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
     for (size_t i = 0; i < plan->n_passes; i++)
         cJSON_AddItemToArray(list, pass_json(&plan->passes[i]));
     add_constants(root, plan);
+    add_accuracy(root, plan);
     cJSON *bytes = cJSON_AddObjectToObject(root, "bytes");
     cJSON_AddNumberToObject(bytes, "lens_map", (double)plan->lens_bytes);
     cJSON_AddNumberToObject(bytes, "device", (double)plan->device_bytes);

@@ -10,24 +10,11 @@
 #define KD_RENDER_RAYS_H
 
 #include "base/error.h"
+#include "render/engine.h"
 #include "render/render.h"
 
 #include <stddef.h>
 #include <stdint.h>
-
-enum kd_engine {
-    KD_ENGINE_CLOSED,    /* elliptic functions on the CPU, double: the reference */
-    KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4, */
-    KD_ENGINE_MINO_RKN6, /* Albrecht's of order 6 */
-    KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler, */
-    KD_ENGINE_KS_RK4,    /* classical Runge-Kutta, */
-    KD_ENGINE_KS_TAO6,   /* Tao's extended phase space with Yoshida's order 6; no delay, and error is NaN for these three */
-    KD_ENGINE_COUNT
-};
-enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
-
-const char *kd_engine_name(enum kd_engine engine);       /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
-const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
 #define KD_RAYS_MAX 1000000
 #define KD_RAYS_MAX_ORDERS 16
@@ -40,6 +27,14 @@ struct kd_rays_params {
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;          /* a half period, a multiple of 4; 0: the engine's default; closed: 0 */
+    double holds;            /* the tolerance that these were chosen to hold, for the answer; 0: none */
+};
+
+/* Rays by their labels. A list from outside starts inwards; those of a picture from a finite radius may not. */
+struct kd_ray_labels {
+    const double *alpha_beta; /* 2 n */
+    const bool *outward;      /* n: the traced ray starts away from the hole; NULL: none does */
+    size_t n;
 };
 
 enum kd_ray_fate { KD_RAY_CAPTURED, KD_RAY_ESCAPED, KD_RAY_UNDECIDED };

@@ -74,6 +74,8 @@ static enum kd_status json_accuracy(const struct kd_rays_answer *answer, struct 
         kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\",\"steps\":%u,\"rays\":%zu,\"undecided\":%zu",
                          kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n,
                          answer->undecided);
+    if (!status && p->holds > 0)
+        status = add_number(out, ",\"holds\":", p->holds);
     if (!status)
         status = add_number(out, ",\"worst_error\":", answer->worst_error);
     if (!status)

@@ -23,13 +23,6 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
     return KD_OK;
 }
 
-/* llvmpipe leaves a kernel's loops after 65535 rounds, all together, and silently. In Mino time no ray takes more than
- * 12 + KD_RAYS_MAX_ORDERS half periods; rays_kerr_schild.comp says what the others take, of which Tao's has an inner loop. */
-static uint32_t most_steps(enum kd_engine engine)
-{
-    return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_RAYS_STEPS_MAX;
-}
-
 static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_error *error)
 {
     bool closed = p->engine == KD_ENGINE_CLOSED;
@@ -43,9 +36,8 @@ static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_e
                               "the closed engine works in double precision: allowed is \"f64\"");
     if (closed && p->steps)
         return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0");
-    if (p->steps % 4 || p->steps > most_steps(p->engine))
-        return kd_error_field(error, "/accuracy/steps", "steps is %u, allowed for %s are multiples of 4 up to %u, and 0 for "
-                              "the engine's default", p->steps, kd_engine_name(p->engine), most_steps(p->engine));
+    if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
+        return kd_engine_steps_error(p->engine, p->steps, error);
     return KD_OK;
 }
 

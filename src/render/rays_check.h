@@ -4,7 +4,6 @@
 
 #include "render/rays.h"
 
-#define KD_RAYS_STEPS_MAX 2048 /* of any engine; some take fewer */
 #define KD_RAYS_FAR 1e7 /* largest radius and image coordinate, M */
 
 /* KD_EINVAL naming the field, its value and what is allowed. The list is looked at ray by ray. */

@@ -24,7 +24,7 @@ static double cosine(double degrees)
     return degrees == 90 ? 0 : cos(degrees * (M_PI / 180));
 }
 
-static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta)
+static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta, bool outward)
 {
     return (struct kd_null_ray) { .spin = p->spin,
                                   .radius = p->r,
@@ -32,6 +32,7 @@ static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *a
                                   .sin_theta = sine(p->inclination_deg),
                                   .alpha = alpha_beta[0],
                                   .beta = alpha_beta[1],
+                                  .outward = outward && isfinite(p->r),
                                   .orders = (int)p->orders };
 }
 
@@ -45,11 +46,11 @@ static double redshift(const struct kd_rays_params *p, const double *alpha_beta,
     return kd_disk_redshift_plunging(a, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
 }
 
-static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, struct kd_ray_crossing *crossings,
-                      struct kd_ray_end *end)
+static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, bool outward, bool errors,
+                      struct kd_ray_crossing *crossings, struct kd_ray_end *end)
 {
-    const struct kd_null_ray ray = ray_of(p, alpha_beta);
-    const struct kd_null_path path = kd_null_trace(&ray);
+    const struct kd_null_ray ray = ray_of(p, alpha_beta, outward);
+    const struct kd_null_path path = errors ? kd_null_trace(&ray) : kd_null_trace_fast(&ray);
     bool sound = path.status == KD_NULL_OK || path.status == KD_NULL_IN_PLANE;
     *end = (struct kd_ray_end) {
         .fate = !sound                            ? KD_RAY_UNDECIDED
@@ -63,22 +64,25 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
     if (end->fate == KD_RAY_ESCAPED) {
         end->theta = acos(fmax(-1, fmin(1, path.sky_u)));
         end->phi = remainder(path.sky_phi, 2 * M_PI); /* a direction: turns do not count */
-        end->error = path.crossings ? NAN : path.sky_error;
+        end->error = path.crossings || !errors ? NAN : path.sky_error;
     }
     for (uint32_t k = 0; k < p->orders; k++) {
         const struct kd_null_crossing *c = &path.crossing[k];
         crossings[k] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
         if (k >= end->n_crossings)
             continue;
-        crossings[k] = (struct kd_ray_crossing) { c->r, c->phi, c->delay, redshift(p, alpha_beta, c->r, c->sense > 0) };
+        crossings[k] = (struct kd_ray_crossing) { c->r, c->phi, c->delay, NAN };
+        if (!errors)
+            continue;
+        crossings[k].g = redshift(p, alpha_beta, c->r, c->sense > 0);
         end->error = fmax(end->error, c->error_r); /* fmax passes over NaN */
     }
 }
 
 struct share {
     const struct kd_rays_params *params;
-    const double *alpha_beta;
-    size_t n;
+    const struct kd_ray_labels *rays;
+    bool errors;
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     _Atomic size_t next;
@@ -88,10 +92,12 @@ struct share {
 /* False when there is no more to do. */
 static bool trace_slice(struct share *share)
 {
-    size_t first = atomic_load(&share->stop) ? share->n : atomic_fetch_add(&share->next, SLICE);
-    for (size_t i = first; i < share->n && i < first + SLICE; i++)
-        trace_one(share->params, share->alpha_beta + 2 * i, share->crossings + i * share->params->orders, &share->ends[i]);
-    return first < share->n;
+    const struct kd_ray_labels *rays = share->rays;
+    size_t first = atomic_load(&share->stop) ? rays->n : atomic_fetch_add(&share->next, SLICE);
+    for (size_t i = first; i < rays->n && i < first + SLICE; i++)
+        trace_one(share->params, rays->alpha_beta + 2 * i, rays->outward && rays->outward[i], share->errors,
+                  share->crossings + i * share->params->orders, &share->ends[i]);
+    return first < rays->n;
 }
 
 static void *work(void *user)
@@ -110,11 +116,12 @@ static size_t helpers(size_t n)
     return (cores < most ? cores : most) - 1;
 }
 
-enum kd_status kd_rays_closed(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
                               struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error)
 {
-    struct share share = { .params = params, .alpha_beta = alpha_beta, .n = n, .crossings = crossings, .ends = ends };
+    struct share share = { .params = params, .rays = rays, .errors = errors, .crossings = crossings, .ends = ends };
+    size_t n = rays->n;
     pthread_t threads[THREADS_MAX];
     size_t begun = 0, wanted = helpers(n);
     while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* fewer will do as well */
@@ -135,7 +142,7 @@ static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_
 {
     if (end->fate == KD_RAY_CAPTURED)
         return true;
-    const struct kd_null_ray ray = ray_of(p, alpha_beta);
+    const struct kd_null_ray ray = ray_of(p, alpha_beta, false);
     const struct kd_null_path path = kd_null_trace_fast(&ray);
     return (int)crossing >= path.crossings || path.crossing[crossing].sense > 0;
 }

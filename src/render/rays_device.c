@@ -1,8 +1,9 @@
 /* Listed rays on the device: upload, trace in slices, read back. */
-#include "render/internal.h"
+#include "render/rays_device.h"
 
 #include "interface.h"
 #include "physics/kerr.h"
+#include "render/internal.h"
 #include "render/rays_start.h"
 
 #include <float.h>
@@ -50,7 +51,7 @@ static void observer(double degrees, double *u, double *s)
  * and Tao's copies part further out. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
-static void upload_states(const struct work *w, const double *alpha_beta, size_t n)
+static void upload_states(const struct work *w, const struct kd_ray_labels *rays)
 {
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(w->rays);
@@ -61,14 +62,15 @@ static void upload_states(const struct work *w, const double *alpha_beta, size_t
     put(w, at, 0, p->spin);
     put(w, at, 1, kd_kerr_horizon(p->spin));
     put(w, at, 2, escape(w));
-    for (size_t i = 0; i < n; i++) {
-        kd_rays_start(p->spin, p->r, u, s, alpha_beta[2 * i], alpha_beta[2 * i + 1], false, FAR, &start.origin);
+    for (size_t i = 0; i < rays->n; i++) {
+        kd_rays_start(p->spin, p->r, u, s, rays->alpha_beta[2 * i], rays->alpha_beta[2 * i + 1],
+                      rays->outward && rays->outward[i], FAR, &start.origin);
         for (size_t k = 0; k < per_start; k++)
             put(w, at, 4 + per_start * i + k, start.numbers[k]);
     }
 }
 
-static void upload(const struct work *w, const double *alpha_beta, size_t n)
+static void upload(const struct work *w, const struct kd_ray_labels *rays)
 {
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(w->rays);
@@ -80,8 +82,11 @@ static void upload(const struct work *w, const double *alpha_beta, size_t n)
     };
     for (size_t i = 0; i < HEADER; i++)
         put(w, at, i, header[i]);
-    for (size_t i = 0; i < 2 * n; i++)
-        put(w, at, HEADER + i, alpha_beta[i]);
+    for (size_t i = 0; i < rays->n; i++) {
+        put(w, at, HEADER + 3 * i, rays->alpha_beta[2 * i]);
+        put(w, at, HEADER + 3 * i + 1, rays->alpha_beta[2 * i + 1]);
+        put(w, at, HEADER + 3 * i + 2, rays->outward && rays->outward[i] ? -1 : 1);
+    }
 }
 
 static enum kd_status run(const struct work *w, const struct kd_vk_pipeline *pipeline, uint32_t n)
@@ -128,12 +133,13 @@ static void unpack(const struct work *w, size_t i, struct kd_ray_crossing *cross
     }
 }
 
-static enum kd_status trace(const struct work *w, const struct kd_vk_pipeline *pipeline, const double *alpha_beta, size_t n,
+static enum kd_status trace(const struct work *w, const struct kd_vk_pipeline *pipeline, const struct kd_ray_labels *rays,
                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user)
 {
-    for (size_t first = 0; first < n; first += CHUNK) {
+    for (size_t first = 0, n = rays->n; first < n; first += CHUNK) {
         uint32_t m = (uint32_t)(n - first < CHUNK ? n - first : CHUNK);
-        (w->kerr_schild ? upload_states : upload)(w, alpha_beta + 2 * first, m);
+        const struct kd_ray_labels part = { rays->alpha_beta + 2 * first, rays->outward ? rays->outward + first : NULL, m };
+        (w->kerr_schild ? upload_states : upload)(w, &part);
         enum kd_status status = run(w, pipeline, m);
         if (status)
             return status;
@@ -160,17 +166,7 @@ static enum kd_status hold(struct kd_renderer *r, int which, uint64_t size, enum
     return status;
 }
 
-uint32_t kd_rays_device_steps(const struct kd_rays_params *params)
-{
-    bool wide = params->precision == KD_PRECISION_F64;
-    if (params->steps)
-        return params->steps;
-    if (params->engine == KD_ENGINE_MINO_RKN4)
-        return wide ? 256 : 32;
-    return params->engine == KD_ENGINE_MINO_RKN6 && !wide ? 16 : 64;
-}
-
-static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
                              struct kd_vk_buffer *told, struct kd_error *error)
 {
@@ -182,9 +178,10 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
-    size_t number = w.wide ? 8 : 4, room = n < CHUNK ? n : CHUNK, per_start = w.kerr_schild ? 8 : 2;
+    size_t number = w.wide ? 8 : 4, room = rays->n < CHUNK ? rays->n : CHUNK, per_start = w.kerr_schild ? 8 : 3;
     const uint32_t method = w.kerr_schild ? params->engine - KD_ENGINE_KS_EULER : params->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t constants[] = { params->orders, kd_rays_device_steps(params), method };
+    const uint32_t steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
+    const uint32_t constants[] = { params->orders, steps, method };
     const struct kd_vk_pipeline *pipeline;
     enum kd_kernel kernel = w.kerr_schild ? (told ? KD_KERNEL_RAYS_KS_TRACE_F32 : KD_KERNEL_RAYS_KS_F32)
                                           : (told ? KD_KERNEL_RAYS_TRACE_F32 : KD_KERNEL_RAYS_F32);
@@ -197,17 +194,17 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
     if (!status)
         status = hold(renderer, 2, room * w.per_ray * number, KD_VK_READBACK, "ray ends on the host", &w.host, error);
     if (!status)
-        status = trace(&w, pipeline, alpha_beta, n, crossings, ends, progress, user);
+        status = trace(&w, pipeline, rays, crossings, ends, progress, user);
     if (status)
         kd_vk_discard(vk);
     return status;
 }
 
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
-    return device(renderer, params, alpha_beta, n, crossings, ends, progress, user, NULL, error);
+    return device(renderer, params, rays, crossings, ends, progress, user, NULL, error);
 }
 
 enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const double alpha_beta[2],
@@ -219,7 +216,7 @@ enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd
     struct kd_vk_buffer *buffer = NULL;
     enum kd_status status = kd_vk_buffer_create(renderer->vk, size, KD_VK_READBACK, "steps of a ray", &buffer, error);
     if (!status)
-        status = device(renderer, params, alpha_beta, 1, crossings, end, NULL, NULL, buffer, error);
+        status = device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, 1 }, crossings, end, NULL, NULL, buffer, error);
     const void *from = status ? NULL : kd_vk_buffer_map(buffer);
     for (size_t i = 0; i < numbers && !status; i++)
         told[i] = wide ? ((const double *)from)[i] : (double)((const float *)from)[i];

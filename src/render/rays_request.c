@@ -5,6 +5,7 @@
 #include "render/rays_list.h"
 #include "scene/number.h"
 #include "scene/scan.h"
+#include "scene/table.h"
 #include "scene/text.h"
 #include "scene/value.h"
 
@@ -13,22 +14,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum kind { REAL, RADIUS, WHOLE, ENGINE, PRECISION };
+enum kind { REAL, RADIUS, TOLERANCE, WHOLE, PROFILE, ENGINE, PRECISION };
 
 static const struct field {
-    const char *section, *name, *pointer, *allowed; /* allowed NULL: the engines by name */
+    const char *section, *name, *pointer, *allowed; /* allowed NULL: words_of */
     enum kind kind;
-    size_t offset; /* in struct kd_rays_params */
+    size_t offset; /* in struct kd_rays_request */
 } fields[] = {
-#define AT(member) offsetof(struct kd_rays_params, member)
-    { "", "spin", "/spin", "a number", REAL, AT(spin) },
-    { "observer", "r", "/observer/r", "a number and \"infinity\"", RADIUS, AT(r) },
-    { "observer", "inclination_deg", "/observer/inclination_deg", "a number", REAL, AT(inclination_deg) },
-    { "", "orders", "/orders", "whole numbers from 1 to 16", WHOLE, AT(orders) },
-    { "accuracy", "engine", "/accuracy/engine", NULL, ENGINE, AT(engine) },
-    { "accuracy", "precision", "/accuracy/precision", "\"f32\" and \"f64\"", PRECISION, AT(precision) },
+#define AT(member) offsetof(struct kd_rays_request, member)
+    { "", "spin", "/spin", "a number", REAL, AT(params.spin) },
+    { "observer", "r", "/observer/r", "a number and \"infinity\"", RADIUS, AT(params.r) },
+    { "observer", "inclination_deg", "/observer/inclination_deg", "a number", REAL, AT(params.inclination_deg) },
+    { "", "orders", "/orders", "whole numbers from 1 to 16", WHOLE, AT(params.orders) },
+    { "accuracy", "profile", "/accuracy/profile", NULL, PROFILE, AT(wish.profile) },
+    { "accuracy", "tolerance", "/accuracy/tolerance", "numbers above 0 and below 1, and \"profile\"", TOLERANCE, AT(wish.tolerance) },
+    { "accuracy", "engine", "/accuracy/engine", NULL, ENGINE, AT(wish.engine) },
+    { "accuracy", "precision", "/accuracy/precision", NULL, PRECISION, AT(wish.precision) },
     { "accuracy", "steps", "/accuracy/steps", "multiples of 4 up to 2048, and 0 for the engine's default", WHOLE,
-      AT(steps) },
+      AT(wish.steps) },
 #undef AT
 };
 #define N_FIELDS (sizeof fields / sizeof *fields)
@@ -41,9 +44,8 @@ void kd_rays_request_init(struct kd_rays_request *request)
         .params = { .spin = scene.spacetime.spin,
                     .r = scene.camera.r,
                     .inclination_deg = scene.camera.inclination_deg,
-                    .orders = 3,
-                    .engine = KD_ENGINE_CLOSED,
-                    .precision = KD_PRECISION_F64 },
+                    .orders = 3 },
+        .wish = KD_WISH_NONE,
     };
 }
 
@@ -53,25 +55,26 @@ void kd_rays_request_finish(struct kd_rays_request *request)
     *request = (struct kd_rays_request) { 0 };
 }
 
-static int word_index(const struct field *field, const char *text)
+/* The same words as in a scene. */
+static const struct kd_field *scene_field(const struct field *field) { return kd_field_find("accuracy", field->name); }
+
+static bool store_word(int *at, const struct field *field, const struct kd_value *value)
 {
-    int count = field->kind == ENGINE ? KD_ENGINE_COUNT : 2;
-    for (int i = 0; i < count; i++)
-        if (!strcmp(text, field->kind == ENGINE ? kd_engine_name((enum kd_engine)i)
-                                                : kd_precision_name((enum kd_precision)i)))
-            return i;
-    return -1;
+    int index = value->kind == KD_VALUE_STRING ? kd_field_word_index(scene_field(field), value->text) : -1;
+    if (index < 0)
+        return false;
+    *at = field->kind == PROFILE ? index : index - 1; /* "auto" comes first */
+    return true;
 }
 
-static bool store(struct kd_rays_params *params, const struct field *field, const struct kd_value *value)
+static bool store(struct kd_rays_request *request, const struct field *field, const struct kd_value *value)
 {
-    void *at = (char *)params + field->offset;
+    void *at = (char *)request + field->offset;
     bool number = value->kind == KD_VALUE_NUMBER && isfinite(value->number);
-    bool string = value->kind == KD_VALUE_STRING;
-    int word;
     switch (field->kind) {
     case RADIUS:
-        if (string && !strcmp(value->text, "infinity")) {
+    case TOLERANCE:
+        if (value->kind == KD_VALUE_STRING && !strcmp(value->text, field->kind == RADIUS ? "infinity" : "profile")) {
             *(double *)at = INFINITY;
             return true;
         }
@@ -85,15 +88,9 @@ static bool store(struct kd_rays_params *params, const struct field *field, cons
             return false;
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
+    case PROFILE:
     case ENGINE:
-    case PRECISION:
-        if (!string || (word = word_index(field, value->text)) < 0)
-            return false;
-        if (field->kind == ENGINE)
-            params->engine = (enum kd_engine)word;
-        else
-            params->precision = (enum kd_precision)word;
-        return true;
+    case PRECISION: return store_word(at, field, value);
     }
     return false;
 }
@@ -101,18 +98,14 @@ static bool store(struct kd_rays_params *params, const struct field *field, cons
 static enum kd_status put(struct kd_rays_request *request, const struct field *field, const struct kd_value *value,
                           struct kd_error *error)
 {
-    char given[KD_VALUE_SIZE], engines[200] = "";
-    if (store(&request->params, field, value))
+    char given[KD_VALUE_SIZE], words[KD_ALLOWED_SIZE];
+    if (store(request, field, value))
         return KD_OK;
     kd_value_describe(value, given);
-    for (int i = 0; i < KD_ENGINE_COUNT; i++)
-        snprintf(engines + strlen(engines), sizeof engines - strlen(engines), "%s\"%s\"",
-                 !i                         ? ""
-                 : i + 1 < KD_ENGINE_COUNT ? ", "
-                                           : " and ",
-                 kd_engine_name((enum kd_engine)i));
+    if (!field->allowed)
+        kd_value_allowed(scene_field(field), words);
     return kd_error_field(error, field->pointer, "%s is %s, allowed are %s", field->name, given,
-                          field->allowed ? field->allowed : engines);
+                          field->allowed ? field->allowed : words);
 }
 
 enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *name, const char *text,
@@ -129,8 +122,8 @@ enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *
     kd_text_pointer(pointer, sizeof pointer, name);
     kd_text_clip(shown, sizeof shown, name);
     return kd_error_field(error, pointer,
-                          "there is no parameter %s; known are spin, r, inclination_deg, orders, engine, precision "
-                          "and steps",
+                          "there is no parameter %s; known are spin, r, inclination_deg, orders, profile, tolerance, "
+                          "engine, precision and steps",
                           shown);
 }
 
@@ -346,6 +339,21 @@ enum kd_status kd_rays_request_npy(struct kd_rays_request *request, const void *
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu bytes of rays", bytes);
     memcpy(request->alpha_beta, (const char *)data + array.header_size, bytes);
     request->n = (size_t)array.shape[0];
+    return KD_OK;
+}
+
+enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const struct kd_capacity *capacity,
+                                      struct kd_error *error)
+{
+    struct kd_setting by;
+    bool float64 = capacity && capacity->float64;
+    enum kd_status status = kd_setting_of(&request->wish, capacity ? capacity->accuracy : NULL, float64, &by, error);
+    if (status)
+        return status;
+    request->params.engine = by.engine;
+    request->params.precision = by.precision;
+    request->params.steps = by.steps;
+    request->params.holds = by.holds > 0 ? by.holds : 0;
     return KD_OK;
 }
 

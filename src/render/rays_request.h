@@ -1,7 +1,7 @@
 /* What is asked of kd_rays_trace, read from outside: a JSON document, an NPY array, fields by name. Any thread.
  *
  *     {"spin": 0.9, "observer": {"r": "infinity", "inclination_deg": 60}, "rays": [[-5, 0], [2.5, 1e-3]],
- *      "orders": 3, "accuracy": {"engine": "closed", "precision": "f64", "steps": 0}}
+ *      "orders": 3, "accuracy": {"profile": "high" | "tolerance": 1e-8 | "engine": "closed", "precision": "f64", "steps": 0}}
  *
  * Only "rays" is required. An NPY array has the shape (n, 2) and 8-byte floats; the rest then comes by name. */
 #ifndef KD_RENDER_RAYS_REQUEST_H
@@ -12,7 +12,8 @@
 #define KD_RAYS_BODY_MAX ((size_t)64 << 20) /* bytes of a document */
 
 struct kd_rays_request {
-    struct kd_rays_params params;
+    struct kd_rays_params params; /* engine, precision and steps by kd_rays_request_settle */
+    struct kd_wish wish;
     double *alpha_beta; /* malloc'd, 2 n numbers */
     size_t n;
 };
@@ -31,11 +32,16 @@ enum kd_status kd_rays_request_npy(struct kd_rays_request *request, const void *
                                    struct kd_error *error);
 bool kd_rays_request_is_npy(const void *data, size_t size);
 
-/* One field by the last part of its name: spin, r, inclination_deg, orders, engine, precision, steps. */
+/* One field by the last part of its name: spin, r, inclination_deg, orders, profile, tolerance, engine, precision, steps. */
 enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *name, const char *text,
                                    struct kd_error *error);
 enum kd_status kd_rays_request_add(struct kd_rays_request *request, double alpha, double beta,
                                    struct kd_error *error);
+
+/* Once all has been read: engine, precision and steps from the wish (render/engine.h). capacity may be NULL where the wish needs no
+ * device. */
+enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const struct kd_capacity *capacity,
+                                      struct kd_error *error);
 
 /* Everything that kd_rays_trace would object to. */
 enum kd_status kd_rays_request_check(const struct kd_rays_request *request, struct kd_error *error);

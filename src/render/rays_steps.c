@@ -3,6 +3,7 @@
 #include "interface.h"
 #include "render/internal.h"
 #include "render/rays_check.h"
+#include "render/rays_device.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -110,8 +111,8 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
 {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
-    enum kd_status status = kd_rays_device(renderer, &out->params, (double[]) { out->alpha, out->beta }, 1, crossings, &end, NULL,
-                                           NULL, error);
+    const struct kd_ray_labels ray = { (double[]) { out->alpha, out->beta }, NULL, 1 };
+    enum kd_status status = kd_rays_device(renderer, &out->params, &ray, crossings, &end, NULL, NULL, error);
     out->same = !status && !memcmp(&end, &out->end, sizeof end) &&
                 !memcmp(crossings, out->crossings, out->params.orders * sizeof *crossings);
     return status;
@@ -130,7 +131,7 @@ enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_
         return status;
     if (params->engine == KD_ENGINE_CLOSED)
         return kd_error_field(error, "/accuracy/engine", "the closed form takes no steps: choose an engine of the device");
-    out->params.steps = kd_rays_device_steps(params);
+    out->params.steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     size_t most = room(&out->params);
     double *numbers = calloc(most, sizeof *numbers);
     if (!numbers)

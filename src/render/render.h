@@ -31,11 +31,12 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
-/* What an answer says of its own accuracy: errors of crossing radii, measured on a sample of the picture's rays against double
- * precision. sampled is 0 where that cannot be: a device without it, a picture too large to keep its lens map. */
+/* What an answer says of its own accuracy: errors of crossing radii, measured on a sample of the picture's rays against the
+ * closed form in double. sampled is 0 where that cannot be: a picture too large to keep its lens map, a camera in the ergosphere. */
 struct kd_accuracy_report {
+    uint64_t undecided;          /* rays of the whole picture that were given up: magenta in it */
     uint32_t sampled, crossings; /* rays traced again; crossings compared */
-    uint32_t differ;             /* crossings that one of the two has and the other has not */
+    uint32_t differ;             /* crossings that one of the two has and the other has not; rays of another fate */
     double median, worst;        /* relative error of the radius */
 };
 
@@ -49,7 +50,7 @@ struct kd_frame {
     double exposure;          /* stops that were applied */
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
     struct kd_accuracy_report accuracy;
-    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "audit", "rays", "transfer", ... (those that ran), "total" */
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "rays", "transfer", ... (those that ran), "total" */
     size_t n_timings;
 };
 void kd_frame_finish(struct kd_frame *frame);

@@ -1,9 +1,18 @@
 #include "render/internal.h"
 
+#include "render/accuracy_store.h"
+
 #include <cJSON.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static unsigned cores(void)
+{
+    cpu_set_t set;
+    return sched_getaffinity(0, sizeof set, &set) ? 1 : (unsigned)CPU_COUNT(&set);
+}
 
 /* Before anything has been measured: orders of magnitude for this type of device, per item. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
@@ -17,7 +26,22 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
         .ns_per_sample_transfer = 20 * scale,
         .ns_per_pixel_post = 30 * scale,
         .float64 = info->float64,
+        .cores = cores(),
     };
+}
+
+/* The table that tolerances are looked up in: this device's own, if there is one and it can be read. */
+static void load_accuracy(struct kd_renderer *r)
+{
+    char *path = kd_accuracy_path(r);
+    struct kd_accuracy_table *table = malloc(sizeof *table);
+    if (table && !kd_accuracy_load(path, table, NULL))
+        r->accuracy = table;
+    else
+        free(table);
+    free(path);
+    r->capacity.accuracy = r->accuracy ? r->accuracy : kd_accuracy_built_in();
+    r->capacity.accuracy_measured = r->accuracy;
 }
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -42,6 +66,11 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     r->capacity = guess(info, params->memory_bytes);
     r->store.vk = r->vk;
     r->store.memory_bytes = r->capacity.memory_bytes;
+    load_accuracy(r);
+    if (!r->capacity.accuracy) {
+        kd_renderer_destroy(r);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the accuracy table");
+    }
     snprintf(r->name, sizeof r->name, "%s, %s %s", info->name, info->driver, info->driver_info);
     *out = r;
     return KD_OK;
@@ -60,6 +89,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
         kd_vk_destroy(renderer->vk);
     }
     pthread_mutex_destroy(&renderer->lock);
+    free(renderer->accuracy);
     free(renderer->tables);
     free(renderer);
 }
@@ -90,7 +120,8 @@ void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan,
     struct kd_capacity *c = &renderer->capacity;
     uint64_t pixels = (uint64_t)plan->width * plan->height;
     pthread_mutex_lock(&renderer->lock);
-    smooth(plan->radius_only ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), plan->rays);
+    if (plan->path != KD_LENS_LISTED)
+        smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), plan->rays);
     smooth(&c->ns_per_sample_transfer, timing(frame, "transfer"), plan->rays);
     smooth(&c->ns_per_pixel_post, timing(frame, "post"), pixels);
     c->measured = c->measured || pixels >= 4096;

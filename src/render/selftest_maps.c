@@ -87,7 +87,7 @@ static enum kd_status far(const struct kd_selftest *test)
     kd_selftest_begin(&sky, taylor, "lens_map f32", "lens map: fate, direction (rad)");
     for (size_t i = 0; i < test->reference->n_rays; i++) {
         const struct kd_selftest_ray *ray = &test->reference->rays[i];
-        const struct kd_scene scene = scene_of(ray, NULL);
+        struct kd_scene scene = scene_of(ray, NULL);
         float planes[PLANES];
         if (!isinf(ray->radius))
             continue;
@@ -95,7 +95,8 @@ static enum kd_status far(const struct kd_selftest *test)
         if (status)
             return status;
         judge_radii(ray, planes, &closed);
-        status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true, .steps = STEPS }, planes);
+        scene.accuracy.steps = STEPS;
+        status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, planes);
         if (status)
             return status;
         judge_radii(ray, planes, &r);
@@ -116,8 +117,9 @@ static enum kd_status near(const struct kd_selftest *test)
     kd_selftest_begin(&sky, tetrad, "lens_map f32", "lens map of a camera nearby: direction (rad)");
     for (size_t i = 0; i < test->reference->n_cameras; i++) {
         const struct kd_selftest_camera *camera = &test->reference->cameras[i];
-        const struct kd_scene scene = scene_of(&camera->ray, camera);
-        const struct kd_needs needs = { .disk = true, .phi = true, .sky = true, .steps = STEPS };
+        struct kd_scene scene = scene_of(&camera->ray, camera);
+        const struct kd_needs needs = { .disk = true, .phi = true, .sky = true };
+        scene.accuracy.steps = STEPS;
         float planes[PLANES];
         enum kd_status status = trace(test, &scene, &needs, planes);
         if (status)

@@ -83,6 +83,8 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     make_room(store, plan, oldest);
     enum kd_status status =
         bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error);
+    if (!status && !store->undecided)
+        status = kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error);
     oldest->key[0] = 0;
     oldest->used = ++store->clock;
     *out = oldest;
@@ -139,4 +141,5 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->transfer);
     kd_vk_buffer_destroy(store->vk, store->histogram);
     kd_vk_buffer_destroy(store->vk, store->counts);
+    kd_vk_buffer_destroy(store->vk, store->undecided);
 }

@@ -82,8 +82,19 @@
     BOOL(style, dither, true, "half a step of ordered noise before rounding, against banding")
 
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                       \
-    ENUM(accuracy, profile, KD_PROFILE_BALANCED, "steps of the integrator, coarse to fine",                   \
-         "draft|interactive|balanced|high")                                                                   \
+    ENUM(accuracy, profile, KD_PROFILE_BALANCED,                                                              \
+         "how closely rays are followed, coarse to fine; reference is double precision",                      \
+         "draft|interactive|balanced|high|reference")                                                         \
+    WORD(accuracy, tolerance, INFINITY, 1e-18, 0.1, "1",                                                      \
+         "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile",  \
+         "profile")                                                                                           \
+    ENUM(accuracy, engine, KD_ENGINE_WORD_AUTO,                                                               \
+         "what traces the rays; auto: the closed form where radii alone are needed, else mino-rkn6",          \
+         "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6")                                                     \
+    ENUM(accuracy, precision, KD_PRECISION_WORD_AUTO, "of the arithmetic; auto: what the profile means",      \
+         "auto|f32|f64")                                                                                      \
+    INT(accuracy, steps, 0, 0, 2048, "1",                                                                     \
+        "steps of the integrator a half turn, a multiple of 4; 0: what the profile means")                    \
     INT(accuracy, orders, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
 
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
@@ -107,6 +118,13 @@ enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };
 enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB };
-enum kd_profile { KD_PROFILE_DRAFT, KD_PROFILE_INTERACTIVE, KD_PROFILE_BALANCED, KD_PROFILE_HIGH };
+enum kd_profile {
+    KD_PROFILE_DRAFT,
+    KD_PROFILE_INTERACTIVE,
+    KD_PROFILE_BALANCED,
+    KD_PROFILE_HIGH,
+    KD_PROFILE_REFERENCE,
+};
+enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* the other words are those of render/engine.h */
 
 #endif

@@ -124,6 +124,15 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
         show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
+/* The rest of what accuracy.* may not say together depends on the device: render/engine.h. */
+static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (scene->accuracy.steps % 4 == 0)
+        return KD_OK;
+    return kd_error_field(error, "/accuracy/steps", "accuracy.steps is %d, allowed are multiples of 4 up to 2048, and 0",
+                          scene->accuracy.steps);
+}
+
 const struct kd_rule kd_rules[] = {
     { "`image.bit_depth` is 8 or 16.", bit_depth },
     { "`camera.projection` \"pinhole\" needs a finite `camera.r`, \"plane\" needs `camera.r` \"infinity\".",
@@ -135,6 +144,7 @@ const struct kd_rule kd_rules[] = {
     { "A static observer is outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i).", ergosphere },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
+    { "`accuracy.steps` is a multiple of 4.", steps },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;
 

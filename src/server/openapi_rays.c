@@ -7,9 +7,11 @@
 #define STRING(x) #x
 #define TEXT(x) STRING(x)
 #define NUMBER "{\"type\":\"number\"}"
-#define ENGINES "{\"enum\":[\"closed\",\"mino-rkn4\",\"mino-rkn6\",\"ks-euler\",\"ks-rk4\",\"ks-tao6\"]}"
-#define PRECISIONS "{\"enum\":[\"f32\",\"f64\"]}"
-#define STEPS "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_RAYS_STEPS_MAX) ",\"multipleOf\":4}"
+#define PROFILES "{\"enum\":[\"draft\",\"interactive\",\"balanced\",\"high\",\"reference\"]}"
+#define TOLERANCE "{\"anyOf\":[{\"const\":\"profile\"},{\"type\":\"number\",\"exclusiveMinimum\":0,\"exclusiveMaximum\":1}]}"
+#define ENGINES "{\"enum\":[\"auto\",\"closed\",\"mino-rkn4\",\"mino-rkn6\",\"ks-euler\",\"ks-rk4\",\"ks-tao6\"]}"
+#define PRECISIONS "{\"enum\":[\"auto\",\"f32\",\"f64\"]}"
+#define STEPS "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_STEPS_MAX) ",\"multipleOf\":4}"
 #define ORDERS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_RAYS_MAX_ORDERS) "}"
 #define SPIN "{\"type\":\"number\",\"exclusiveMinimum\":-1,\"exclusiveMaximum\":1}"
 #define RADIUS "{\"anyOf\":[{\"const\":\"infinity\"},{\"type\":\"number\",\"maximum\":1e7}]}"
@@ -18,19 +20,19 @@
 #define OBSERVER "\"observer\":" OBJECT "\"r\":" RADIUS ",\"inclination_deg\":" INCLINATION "}}"
 
 static const char parameters[] =
-    "{\"spin\":" SPIN ",\"r\":" RADIUS ",\"inclination_deg\":" INCLINATION ",\"orders\":" ORDERS ",\"engine\":" ENGINES
+    "{\"spin\":" SPIN ",\"r\":" RADIUS ",\"inclination_deg\":" INCLINATION ",\"orders\":" ORDERS ",\"profile\":" PROFILES ",\"tolerance\":" TOLERANCE ",\"engine\":" ENGINES
     ",\"precision\":" PRECISIONS ",\"steps\":" STEPS "}";
 
 static const char request[] =
     "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"rays\"],\"properties\":{\"spin\":" SPIN "," OBSERVER
     ",\"rays\":{\"type\":\"array\",\"minItems\":1,\"maxItems\":" TEXT(KD_RAYS_MAX) ",\"items\":{\"type\":\"array\","
     "\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\",\"minimum\":-1e7,\"maximum\":1e7}}},\"orders\":" ORDERS
-    ",\"accuracy\":" OBJECT "\"engine\":" ENGINES ",\"precision\":" PRECISIONS ",\"steps\":" STEPS "}}}}";
+    ",\"accuracy\":" OBJECT "\"profile\":" PROFILES ",\"tolerance\":" TOLERANCE ",\"engine\":" ENGINES ",\"precision\":" PRECISIONS ",\"steps\":" STEPS "}}}}";
 
 static const char answer[] =
     "{\"type\":\"object\",\"properties\":{\"spin\":" NUMBER "," OBSERVER ",\"orders\":" ORDERS
     ",\"accuracy\":{\"type\":\"object\",\"properties\":{\"engine\":" ENGINES ",\"precision\":" PRECISIONS ",\"steps\":" STEPS
-    ",\"rays\":" NUMBER ",\"undecided\":" NUMBER ",\"worst_error\":" NUMBER ",\"median_error\":" NUMBER "}},"
+    ",\"rays\":" NUMBER ",\"undecided\":" NUMBER ",\"holds\":" NUMBER ",\"worst_error\":" NUMBER ",\"median_error\":" NUMBER "}},"
     "\"approximations\":{\"type\":\"array\",\"items\":{\"type\":\"string\"}},"
     "\"rays\":{\"type\":\"array\",\"items\":{\"type\":\"object\",\"properties\":{"
     "\"fate\":{\"enum\":[\"captured\",\"escaped\",\"undecided\"]},"

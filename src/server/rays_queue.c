@@ -91,6 +91,10 @@ static enum kd_status read_body(struct kd_rays_queue *queue, struct kd_rays_job 
                                      : kd_rays_request_json(request, text, job->body->size, error);
     job->malformed = status == KD_EINVAL && !*error->pointer;
     job->read(job);
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(queue->renders, &capacity);
+    if (!status)
+        status = kd_rays_request_settle(request, &capacity, error);
     if (!status)
         status = kd_rays_request_check(request, error);
     if (!status)

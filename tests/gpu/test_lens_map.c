@@ -47,12 +47,13 @@ static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
 struct lens { struct kd_plan plan; float *planes; };
 
-static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders)
+static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, enum kd_profile profile)
 {
     struct kd_scene scene;
     struct kd_capacity capacity;
     struct lens lens;
     kd_scene_defaults(&scene);
+    scene.accuracy.profile = profile;
     scene.spacetime.spin = v->a;
     scene.camera.inclination_deg = v->inclination;
     scene.camera.r = v->r;
@@ -170,8 +171,8 @@ static void test_closed_form(void **state)
     for (int i = 0; i < VIEWS; i++) {
         if (!isinf(views[i].r))
             continue;
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true }, ORDERS);
-        assert_true(lens.plan.radius_only);
+        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true }, ORDERS, KD_PROFILE_BALANCED);
+        assert_true(lens.plan.path == KD_LENS_RADIUS);
         check(&views[i], &lens, samples[i], 5e-6, 1);
         test_free(lens.planes);
     }
@@ -181,7 +182,7 @@ static void test_integrated(void **state)
 {
     (void)state;
     for (int i = 0; i < VIEWS; i++) {
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .phi = true, .steps = 16 }, ORDERS);
+        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .phi = true }, ORDERS, KD_PROFILE_HIGH);
         /* The series of polar_azimuth.glsl loses digits for rays that aim within a of the hole's centre: a few of them meet
          * the disk of a fast hole seen nearly edge-on. */
         check(&views[i], &lens, samples[i], 5e-6, fabs(views[i].a) > 0.99 ? 5e-4 : 2e-5);
@@ -194,7 +195,7 @@ static void test_sky(void **state)
 {
     (void)state;
     for (int i = 0; i < VIEWS; i++) {
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .sky = true, .steps = 16 }, ORDERS);
+        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .sky = true }, ORDERS, KD_PROFILE_HIGH);
         const float *u = lens.planes + ORDERS * lens.plan.rays, *phi = u + lens.plan.rays, *fate = phi + lens.plan.rays;
         double worst = 0;
         int compared = 0;
@@ -226,7 +227,7 @@ static void test_promise(void **state)
     (void)state;
     const struct kd_needs both[] = { { .disk = true }, { .disk = true, .phi = true } };
     for (int m = 0; m < 2; m++) {
-        struct lens lens = trace(&views[0], &both[m], 1);
+        struct lens lens = trace(&views[0], &both[m], 1, KD_PROFILE_BALANCED);
         struct tally t = { 0 };
         for (int k = 0; k < GRID * GRID; k++)
             if (samples[0][k].path.crossings && lens.planes[k] > 0 && !undecided(&samples[0][k], 0, kd_kerr_horizon(0.9)))
@@ -252,7 +253,7 @@ static void test_shadow(void **state)
     scene.camera.field_m = 12;
     scene.image.width = scene.image.height = n;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .sky = true, .steps = 8 }, &capacity, &plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .sky = true }, &capacity, &plan, &error));
     float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     const float *fate = planes + (plan.planes - 1) * plan.rays;

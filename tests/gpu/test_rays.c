@@ -3,6 +3,7 @@
 #include "kerr_schild.h"
 #include "physics/kerr.h"
 #include "render/internal.h"
+#include "render/rays_device.h"
 
 #include "render_support.h"
 
@@ -93,7 +94,7 @@ static void check(enum kd_engine engine, enum kd_precision precision, double bou
             .engine = engine, .precision = precision,
         };
         struct tally t = { 0 };
-        OK(kd_rays_device(renderer, &params, lists[h], RAYS, crossings, ends, NULL, NULL, &error));
+        OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[h], NULL, RAYS }, crossings, ends, NULL, NULL, &error));
         judge(h, crossings, ends, precision == KD_PRECISION_F64 ? 1e-10 : 0, &t);
         print_message("%s a %6.3f i %3g %s: %4d crossings, r %.1e phi %.1e delay %.1e sky %.1e, bounded %d of %d\n", kd_engine_name(engine), holes[h].a,
                       holes[h].inclination, precision == KD_PRECISION_F64 ? "f64" : "f32", t.crossings, t.r, t.phi, t.delay, t.sky, t.bounded, t.rays);
@@ -140,7 +141,7 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
         .precision = KD_PRECISION_F64, .steps = steps,
     };
     int n = 0;
-    OK(kd_rays_device(renderer, &params, lists[0], RAYS, crossings, ends, NULL, NULL, &error));
+    OK(kd_rays_device(renderer, &params, &(struct kd_ray_labels) { lists[0], NULL, RAYS }, crossings, ends, NULL, NULL, &error));
     for (int k = 0; k < RAYS; k++)
         if ((int)ends[k].n_crossings > order && paths[0][k].crossings > order)
             errors[n++] = fabs(crossings[k * ORDERS + order].r / paths[0][k].r[order] - 1);

@@ -5,6 +5,7 @@
  * -2 runs out of memory, -3 fails. Rays on the device cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there
  * is no double precision, with steps 12 each takes a millisecond. */
 #include "render/accuracy_store.h"
+#include "render/rays_device.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +41,9 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
                                   .ns_per_ray_radius = 1000,
                                   .ns_per_ray_full = 1000,
                                   .ns_per_sample_transfer = 1,
-                                  .ns_per_pixel_post = 1 };
+                                  .ns_per_pixel_post = 1,
+                                  .float64 = true,
+                                  .accuracy = kd_accuracy_built_in() };
 }
 
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out)
@@ -120,17 +123,14 @@ void kd_frame_finish(struct kd_frame *frame)
     *frame = (struct kd_frame) { 0 };
 }
 
-/* As in render/internal.h, which knows another renderer. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
-                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
-
-enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
-                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                              const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
+    const double *alpha_beta = rays->alpha_beta;
+    size_t n = rays->n;
     (void)renderer;
-    if (params->steps == 8) {
+    if (params->steps == 2044) {
         kd_error_field(error, "/accuracy/precision", "no double precision here");
         return error->status = KD_EDEVICE;
     }

@@ -3,6 +3,7 @@ import ast
 import concurrent.futures
 import json
 import math
+import re
 import struct
 import time
 import unittest
@@ -116,8 +117,17 @@ class Requests(daemon.Case):
             ('{%s,"accuracy":{"engine":"mino-rkn6","steps":6}}' % one, '/accuracy/steps'),
             ('{%s,"accuracy":{"engine":"mino-rkn6","steps":4100}}' % one, '/accuracy/steps'),
             ('{%s,"accuracy":{"engine":"ks-tao6","steps":516}}' % one, '/accuracy/steps'),
-            ('{%s,"accuracy":{"engine":"mino-rkn6","steps":8}}' % one, '/accuracy/precision'),
-            ('{%s,"accuracy":{"tolerance":1e-9}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"engine":"mino-rkn6","steps":2044}}' % one, '/accuracy/precision'),
+            ('{%s,"accuracy":{"tolerance":1e-15}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"tolerance":0}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"tolerance":1}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"tolerance":-1e-6}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"tolerance":"fine"}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"tolerance":1e-6,"steps":16}}' % one, '/accuracy/steps'),
+            ('{%s,"accuracy":{"tolerance":1e-6,"engine":"closed"}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"tolerance":1e-12,"precision":"f32"}}' % one, '/accuracy/tolerance'),
+            ('{%s,"accuracy":{"profile":"best"}}' % one, '/accuracy/profile'),
+            ('{%s,"accuracy":{"profile":2}}' % one, '/accuracy/profile'),
             ('{"rays":[[1,2],[100,0]],"observer":{"r":10}}', '/rays/1'),
         )
         for body, pointer in table:
@@ -197,7 +207,7 @@ class Requests(daemon.Case):
         self.assertEqual(set(post['requestBody']['content']), {'application/json', 'application/x-npy'})
         self.assertEqual(set(post['responses']['200']['content']), {'application/json', 'application/x-npy'})
         self.assertEqual([p['name'] for p in post['parameters']],
-                         ['spin', 'r', 'inclination_deg', 'orders', 'engine', 'precision', 'steps'])
+                         ['spin', 'r', 'inclination_deg', 'orders', 'profile', 'tolerance', 'engine', 'precision', 'steps'])
         engines = post['requestBody']['content']['application/json']['schema']['properties']['accuracy']['properties']['engine']
         detail = self.post('{"rays":[[1,2]],"accuracy":{"engine":"x"}}').json()['detail']
         for engine in engines['enum']:
@@ -214,8 +224,27 @@ class Device(daemon.Case):
                                                 'rays': [[1, 2], [-3.5, 0.25]], 'accuracy': DEVICE}).body)
         self.assertEqual([(c['order'], c['r'], c['phi']) for ray in answer['rays'] for c in ray['crossings']],
                          [(0, 11, 2), (0, 13.5, 0.25)])
-        self.assertEqual(answer['accuracy'], {'engine': 'mino-rkn6', 'precision': 'f64', 'steps': 0, 'rays': 2, 'undecided': 0,
+        self.assertEqual(answer['accuracy'], {'engine': 'mino-rkn6', 'precision': 'f64', 'steps': 64, 'rays': 2, 'undecided': 0,
                                               'worst_error': 1e-6, 'median_error': 1e-6})
+
+    def test_profiles_and_tolerances(self):
+        def found(**accuracy):
+            return strict(self.daemon.post(RAYS, {'rays': [[1, 2]], 'accuracy': accuracy}).body)['accuracy']
+        for accuracy, precision, steps in (({'profile': 'draft'}, 'f32', 4), ({'profile': 'high'}, 'f32', 16),
+                                           ({'profile': 'reference'}, 'f64', 64), ({'profile': 'reference', 'steps': 12}, 'f64', 12),
+                                           ({'profile': 'high', 'precision': 'f64'}, 'f64', 32)):
+            with self.subTest(accuracy):
+                answer = found(**accuracy)
+                self.assertEqual((answer['engine'], answer['precision'], answer['steps']), ('mino-rkn6', precision, steps))
+                self.assertNotIn('holds', answer)
+        for tolerance in (1e-3, 1e-5, 1e-7, 1e-10):
+            answer = found(tolerance=tolerance)
+            self.assertTrue(0 < answer['holds'] <= tolerance)
+        self.assertEqual(found(tolerance='profile')['engine'], 'closed')
+        detail = self.daemon.post(RAYS, {'rays': [[1, 2]], 'accuracy': {'tolerance': 1e-15}}).json()['detail']
+        held = float(re.search(r'measured to hold ([0-9.e-]+) and above', detail)[1])
+        self.assertTrue(1e-15 < held < 1e-12)
+        self.assertLessEqual(found(tolerance=held)['holds'], held)
 
     def test_waits_for_renders_and_is_dropped_with_its_client(self):
         slow = {'rays': some_rays(100000), 'accuracy': {'engine': 'mino-rkn6', 'steps': 12}}

@@ -36,6 +36,13 @@ class Render(daemon.Case):
         plan = self.daemon.post('/v1/plan', {'image': {'width': 64, 'height': 36}}).json()
         self.assertEqual(told, plan['approximations'])
 
+    def test_tolerance(self):
+        held = self.daemon.post('/v1/plan', {'accuracy': {'tolerance': 1e-5}}).json()['accuracy']
+        self.assertLessEqual(held['holds'], 1e-5)
+        for target in (RENDER + '&accuracy.tolerance=1e-15', RENDER + '&accuracy.tolerance=1e-9&accuracy.precision=f64'):
+            problem = self.assertProblem(self.daemon.get(target), 422, pointer='/accuracy/tolerance')
+            self.assertIn('holds 6e-08 and above', problem['detail'])
+
     def test_query_and_body_agree(self):
         by_query = self.daemon.get(RENDER + '&preset=gargantua&camera.inclination_deg=70')
         by_body = self.daemon.post('/v1/render?preset=gargantua',

@@ -52,7 +52,7 @@ static int made_up(void **state)
 static void expect(double tolerance, enum kd_engine engine, enum kd_precision precision, uint32_t steps)
 {
     struct kd_accuracy_choice choice;
-    if (kd_accuracy_choose(&table, tolerance, &choice, &error))
+    if (kd_accuracy_choose(&table, tolerance, NULL, &choice, &error))
         fail_msg("%g: %s", tolerance, error.message);
     assert_int_equal(choice.engine, engine);
     assert_int_equal(choice.precision, precision);
@@ -76,7 +76,7 @@ static void the_cheapest_that_holds(void **state)
 static void refused(double tolerance, const char *part)
 {
     struct kd_accuracy_choice choice;
-    assert_int_equal(kd_accuracy_choose(&table, tolerance, &choice, &error), KD_EINVAL);
+    assert_int_equal(kd_accuracy_choose(&table, tolerance, NULL, &choice, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/accuracy/tolerance");
     if (!strstr(error.message, part))
         fail_msg("%g: %s", tolerance, error.message);

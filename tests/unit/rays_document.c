@@ -44,6 +44,8 @@ static void a_document(void **state)
     memset(note, ' ', strlen("\"note\\u0041\":1,"));
     if (read_exact(text, strlen(text), &request, &error))
         fail_msg("%s", error.message);
+    const struct kd_capacity capacity = { .float64 = true };
+    assert_int_equal(kd_rays_request_settle(&request, &capacity, &error), KD_OK);
     const struct kd_rays_params want = { -0.5, 40, 30, 5, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 16 };
     assert_true(request.params.spin == want.spin && request.params.r == want.r);
     assert_true(request.params.inclination_deg == want.inclination_deg && request.params.orders == want.orders);
@@ -87,7 +89,7 @@ static void fields_by_name(void **state)
     assert_int_equal(kd_rays_request_set(&request, "r", "infinity", &error), KD_OK);
     assert_true(isinf(request.params.r));
     assert_int_equal(kd_rays_request_set(&request, "engine", "mino-rkn6", &error), KD_OK);
-    assert_int_equal(request.params.engine, KD_ENGINE_MINO_RKN6);
+    assert_int_equal(request.wish.engine, KD_ENGINE_MINO_RKN6);
     assert_int_equal(kd_rays_request_set(&request, "orders", "3.5", &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/orders");
     assert_int_equal(kd_rays_request_set(&request, "a/b", "1", &error), KD_EINVAL);

@@ -1,0 +1,239 @@
+/* Lens maps from listed rays, in double, beside those of the kernels in single: two ways from a pixel to its ray, three methods from
+ * a ray to its end. And what becomes of rays that were given up. */
+#include "render_support.h"
+
+#include "render/internal.h"
+
+#include <math.h>
+
+struct lens {
+    struct kd_plan plan;
+    float *planes;
+};
+
+static struct lens trace(const struct kd_scene *scene)
+{
+    const struct kd_needs needs = { .disk = true, .phi = true, .sky = true };
+    struct kd_capacity capacity;
+    struct lens lens;
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make_for(scene, &needs, &capacity, &lens.plan, &error));
+    lens.planes = test_malloc(sizeof(float) * lens.plan.planes * lens.plan.rays);
+    OK(kd_render_lens(renderer, scene, &lens.plan, lens.planes, NULL, &error));
+    return lens;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+static double quantile(double *values, int n, double q)
+{
+    qsort(values, (size_t)n, sizeof *values, by_value);
+    return values[(int)(q * (n - 1))];
+}
+
+/* Rays whose fate or number of crossings differs; the others' median errors of r, phi and the angle on the sky. */
+static void compare(const char *what, const struct lens *a, const struct lens *b, double bound, int stray)
+{
+    uint64_t n = a->plan.rays;
+    uint32_t orders = a->plan.orders;
+    double *e[3] = { NULL };
+    int count[3] = { 0 }, differ = 0;
+    assert_true(b->plan.planes == a->plan.planes && b->plan.rays == n);
+    for (int k = 0; k < 3; k++)
+        e[k] = test_malloc(sizeof(double) * n * orders);
+    for (uint64_t i = 0; i < n; i++) {
+        const float *x = a->planes + i, *y = b->planes + i, *xs = x + 2 * orders * n, *ys = y + 2 * orders * n;
+        bool other = xs[2 * n] != ys[2 * n];
+        for (uint32_t k = 0; k < orders; k++)
+            other = other || (x[k * n] > 0) != (y[k * n] > 0);
+        differ += other;
+        for (uint32_t k = 0; k < orders && !other && x[k * n] > 0; k++) {
+            e[0][count[0]++] = fabs(x[k * n] / (double)y[k * n] - 1);
+            e[1][count[1]++] = fabs(remainder(x[(orders + k) * n] - (double)y[(orders + k) * n], 2 * M_PI));
+        }
+        if (!other && xs[2 * n] == KD_FATE_ESCAPED)
+            e[2][count[2]++] = hypot(xs[0] - ys[0], sqrt(fmax(0, 1 - xs[0] * xs[0])) * remainder(xs[n] - ys[n], 2 * M_PI));
+    }
+    assert_true(count[0] > (int)n / 4 && count[2] > (int)n / 8);
+    double r = quantile(e[0], count[0], 0.5), phi = quantile(e[1], count[1], 0.5), sky = quantile(e[2], count[2], 0.5);
+    double r99 = quantile(e[0], count[0], 0.99);
+    print_message("%s: r %.1e (99%% %.1e), phi %.1e, sky %.1e, %d of %llu differ\n", what, r, r99, phi, sky, differ, (unsigned long long)n);
+    assert_true(r < bound && phi < bound && sky < bound && r99 < 1e3 * bound && differ <= stray);
+    for (int k = 0; k < 3; k++)
+        test_free(e[k]);
+}
+
+static const struct {
+    const char *name;
+    double spin, r, inclination, yaw;
+    int observer;
+} views[] = {
+    { "from infinity", 0.9, INFINITY, 65, 0, KD_OBSERVER_STATIC },
+    { "static, looking past the hole", 0.9, 12, 80, 60, KD_OBSERVER_STATIC }, /* many rays set out outwards */
+    { "zero angular momentum, below the plane", -0.6, 6, 120, -20, KD_OBSERVER_ZAMO },
+};
+
+static struct kd_scene scene_of(size_t i)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = 40;
+    scene.image.height = 36;
+    scene.spacetime.spin = views[i].spin;
+    scene.camera.r = views[i].r;
+    scene.camera.inclination_deg = views[i].inclination;
+    scene.camera.yaw_deg = views[i].yaw;
+    scene.camera.observer = views[i].observer;
+    scene.camera.fov_deg = 120;
+    scene.camera.field_m = 26;
+    scene.accuracy.orders = 2;
+    return scene;
+}
+
+static void test_engines_agree(void **state)
+{
+    (void)state;
+    static const struct {
+        int engine, precision;
+        double bound; /* of medians: single precision's on one side or on both; Kerr-Schild's start in single costs more */
+        int stray;    /* rays of 1440 on the rim of the shadow */
+    } engines[] = {
+        { KD_ENGINE_CLOSED, KD_PRECISION_F64, 5e-7, 3 },   { KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-7, 3 },
+        { KD_ENGINE_MINO_RKN4, KD_PRECISION_F32, 5e-6, 3 }, { KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 5e-7, 3 },
+        { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 1e-5, 12 },
+    };
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
+        struct kd_scene scene = scene_of(v);
+        scene.accuracy.profile = KD_PROFILE_HIGH;
+        struct lens single = trace(&scene);
+        assert_int_equal(single.plan.path, KD_LENS_MAP);
+        for (size_t k = 0; k < sizeof engines / sizeof *engines; k++) {
+            char what[120];
+            scene.accuracy.engine = engines[k].engine + 1;
+            scene.accuracy.precision = engines[k].precision + 1;
+            struct lens other = trace(&scene);
+            assert_true(other.plan.setting.engine == (enum kd_engine)engines[k].engine);
+            snprintf(what, sizeof what, "%s, %s %s", views[v].name, kd_engine_name(other.plan.setting.engine),
+                     kd_precision_name(other.plan.setting.precision));
+            compare(what, &single, &other, engines[k].bound, engines[k].stray);
+            test_free(other.planes);
+        }
+        test_free(single.planes);
+    }
+}
+
+/* Slices of a few rows, supersampled and in bands, are the whole picture. */
+static void test_slices(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0);
+    scene.image.samples = 2;
+    scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
+    scene.accuracy.precision = KD_PRECISION_F64 + 1;
+    struct lens whole = trace(&scene), cut = { .planes = NULL };
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    capacity.max_binding_bytes = 4ull * whole.plan.planes * 40 * 4 * 5 + 64;
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, &capacity, &cut.plan, &error));
+    assert_true(cut.plan.bands > 5);
+    cut.plan.trace_ns = 1e7; /* a slice of a row */
+    cut.planes = test_malloc(sizeof(float) * cut.plan.planes * cut.plan.rays);
+    OK(kd_render_lens(renderer, &scene, &cut.plan, cut.planes, NULL, &error));
+    assert_memory_equal(whole.planes, cut.planes, sizeof(float) * whole.plan.planes * whole.plan.rays);
+    test_free(whole.planes);
+    test_free(cut.planes);
+}
+
+static bool magenta(const unsigned char *pixel) { return pixel[0] > 200 && pixel[1] < 60 && pixel[2] > 200; }
+
+/* Rays that were given up, planted in a map that is kept: a crossing in row 3, the sky in row 20. */
+static void test_given_up(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0);
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    scene.sky.model = KD_SKY_GRID;
+    scene.style.exposure = 0;
+    scene.style.tone_map = KD_TONE_SRGB;
+    scene.disk.opacity = 0.5;
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+    assert_true(frame.accuracy.undecided == 0);
+    for (size_t i = 0; i < 40 * 36; i++)
+        assert_false(magenta((unsigned char *)frame.pixels + 3 * i));
+    kd_frame_finish(&frame);
+
+    struct kd_lens_map *map = NULL;
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        if (!strcmp(renderer->store.maps[i].key, plan.lens_key))
+            map = &renderer->store.maps[i];
+    assert_non_null(map);
+    float given_up = -1, undecided = KD_FATE_UNDECIDED;
+    uint32_t words[2];
+    memcpy(&words[0], &given_up, 4);
+    memcpy(&words[1], &undecided, 4);
+    OK(kd_vk_fill(renderer->vk, map->bands.buffers[0], 4 * 40 * 3, 4 * 40, words[0], &error));
+    OK(kd_vk_fill(renderer->vk, map->bands.buffers[0], 4 * ((plan.planes - 1) * plan.rays + 40 * 20), 4 * 40, words[1], &error));
+    OK(kd_vk_submit(renderer->vk, NULL, &error));
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+    assert_true(frame.lens_reused);
+    for (size_t i = 0; i < 40; i++)
+        assert_true(magenta((unsigned char *)frame.pixels + 3 * (40 * 3 + i)));
+    int sky = 0;
+    for (size_t i = 0; i < 40; i++)
+        sky += magenta((unsigned char *)frame.pixels + 3 * (40 * 20 + i));
+    assert_true(sky > 0); /* where no disk is in front */
+    kd_frame_finish(&frame);
+    memset(map->key, 0, sizeof map->key); /* nobody else gets it */
+}
+
+/* What an engine, a precision or a tolerance cannot be had for is said before anything is traced. */
+static void test_refused(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0);
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &capacity);
+    scene.accuracy.tolerance = 1e-15;
+    FAILS(KD_EINVAL, "holds 6e-08 and above", kd_plan_make(&scene, &capacity, &plan, &error));
+    scene.accuracy.tolerance = 1e-5;
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    assert_true(plan.setting.holds <= 1e-5 && plan.path == KD_LENS_RADIUS);
+    scene.accuracy.tolerance = INFINITY;
+    scene.accuracy.precision = KD_PRECISION_F32 + 1;
+    scene.accuracy.engine = KD_ENGINE_CLOSED + 1;
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    scene.sky.model = KD_SKY_GRID;
+    FAILS(KD_EINVAL, "radii to an observer at infinity alone", kd_plan_make(&scene, &capacity, &plan, &error));
+    scene.accuracy.precision = 0;
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    assert_int_equal(plan.path, KD_LENS_LISTED);
+    scene.camera.r = 1.7;
+    scene.camera.observer = KD_OBSERVER_ZAMO;
+    FAILS(KD_EINVAL, "ergosphere", kd_plan_make(&scene, &capacity, &plan, &error));
+    capacity.float64 = false;
+    scene = scene_of(0);
+    scene.accuracy.precision = KD_PRECISION_F64 + 1;
+    scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
+    FAILS(KD_EINVAL, "this device has not", kd_plan_make(&scene, &capacity, &plan, &error));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_engines_agree),
+        cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_given_up),
+        cmocka_unit_test(test_refused),
+    };
+    int status = open_renderer();
+    return status ? status : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
