@@ -7,9 +7,8 @@
 #include "scene/scan.h"
 #include "scene/table.h"
 #include "scene/text.h"
-#include "scene/value.h"
+#include "scene/tree.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,19 +142,6 @@ struct document {
     struct kd_error *error;
 };
 
-static struct kd_value value_of(const cJSON *item)
-{
-    switch (item->type & 0xff) {
-    case cJSON_Number: return (struct kd_value) { KD_VALUE_NUMBER, item->valuedouble, NULL };
-    case cJSON_String: return (struct kd_value) { KD_VALUE_STRING, 0, item->valuestring };
-    case cJSON_True: return (struct kd_value) { KD_VALUE_BOOL, 1, NULL };
-    case cJSON_False: return (struct kd_value) { KD_VALUE_BOOL, 0, NULL };
-    case cJSON_Array: return (struct kd_value) { KD_VALUE_ARRAY, 0, NULL };
-    case cJSON_Object: return (struct kd_value) { KD_VALUE_OBJECT, 0, NULL };
-    default: return (struct kd_value) { KD_VALUE_NULL, 0, NULL };
-    }
-}
-
 /* Once each: a second one would silently win. */
 static enum kd_status once(struct document *d, size_t bit, const char *pointer)
 {
@@ -186,7 +172,7 @@ static enum kd_status read_member(struct document *d, const char *section, const
     for (size_t i = 0; i < N_FIELDS; i++) {
         if (strcmp(fields[i].section, section) || strcmp(fields[i].name, item->string))
             continue;
-        struct kd_value value = value_of(item);
+        struct kd_value value = kd_tree_value(item);
         enum kd_status status = once(d, i, fields[i].pointer);
         return status ? status : put(d->request, &fields[i], &value, d->error);
     }
@@ -196,7 +182,7 @@ static enum kd_status read_member(struct document *d, const char *section, const
 static enum kd_status wrong_type(struct document *d, const cJSON *item, const char *pointer, const char *allowed)
 {
     char given[KD_VALUE_SIZE];
-    struct kd_value value = value_of(item);
+    struct kd_value value = kd_tree_value(item);
     kd_value_describe(&value, given);
     return kd_error_field(d->error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given,
                           allowed);

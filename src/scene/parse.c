@@ -1,12 +1,8 @@
 /* Scene documents: JSON in. */
 #include "scene/hint.h"
-#include "scene/number.h"
-#include "scene/scan.h"
 #include "scene/text.h"
-#include "scene/value.h"
+#include "scene/tree.h"
 
-#include <cjson/cJSON.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct reader {
@@ -14,19 +10,6 @@ struct reader {
     bool seen_field[KD_FIELD_COUNT], seen_section[KD_SECTION_COUNT], seen_version;
     struct kd_error *error;
 };
-
-static struct kd_value value_of(const cJSON *item)
-{
-    switch (item->type & 0xff) {
-    case cJSON_Number: return (struct kd_value) { KD_VALUE_NUMBER, item->valuedouble, NULL };
-    case cJSON_String: return (struct kd_value) { KD_VALUE_STRING, 0, item->valuestring };
-    case cJSON_True: return (struct kd_value) { KD_VALUE_BOOL, 1, NULL };
-    case cJSON_False: return (struct kd_value) { KD_VALUE_BOOL, 0, NULL };
-    case cJSON_Array: return (struct kd_value) { KD_VALUE_ARRAY, 0, NULL };
-    case cJSON_Object: return (struct kd_value) { KD_VALUE_OBJECT, 0, NULL };
-    default: return (struct kd_value) { KD_VALUE_NULL, 0, NULL };
-    }
-}
 
 /* Once each: a second one would silently win. */
 static enum kd_status once(struct reader *reader, bool *seen, const char *section, const char *name)
@@ -48,7 +31,7 @@ static enum kd_status read_field(struct reader *reader, const char *section, con
     const struct kd_field *field = kd_field_find(section, item->string);
     if (!field)
         return kd_hint_unknown(reader->error, section, item->string);
-    struct kd_value value = value_of(item);
+    struct kd_value value = kd_tree_value(item);
     enum kd_status status = once(reader, &reader->seen_field[field - kd_fields], section, item->string);
     return status ? status : kd_value_store(&reader->scene, field, &value, reader->error);
 }
@@ -59,7 +42,7 @@ static enum kd_status read_section(struct reader *reader, const struct kd_sectio
     enum kd_status status = once(reader, &reader->seen_section[section - kd_sections], "", section->name);
     if (!status && !cJSON_IsObject(object)) {
         char pointer[KD_PATH_SIZE] = "", given[KD_VALUE_SIZE];
-        struct kd_value value = value_of(object);
+        struct kd_value value = kd_tree_value(object);
         kd_text_pointer(pointer, sizeof pointer, section->name);
         kd_value_describe(&value, given);
         status = kd_error_field(reader->error, pointer, "%s is %s, allowed is an object with fields",
@@ -73,7 +56,7 @@ static enum kd_status read_section(struct reader *reader, const struct kd_sectio
 static enum kd_status read_member(struct reader *reader, const cJSON *item)
 {
     if (!strcmp(item->string, "version")) {
-        struct kd_value value = value_of(item);
+        struct kd_value value = kd_tree_value(item);
         enum kd_status status = once(reader, &reader->seen_version, "", "version");
         return status ? status : kd_value_version(&value, reader->error);
     }
@@ -86,7 +69,7 @@ static enum kd_status read_document(struct reader *reader, const cJSON *root)
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(root)) {
         char given[KD_VALUE_SIZE];
-        struct kd_value value = value_of(root);
+        struct kd_value value = kd_tree_value(root);
         kd_value_describe(&value, given);
         return kd_error_field(reader->error, "", "the document is %s, allowed is an object", given);
     }
@@ -95,52 +78,16 @@ static enum kd_status read_document(struct reader *reader, const cJSON *root)
     return status;
 }
 
-/* text ends in a NUL that length does not count: cJSON peeks one byte past what it is told. */
-static enum kd_status parse(const char *text, size_t length, cJSON **out, struct kd_error *error)
-{
-    const char *end = text;
-    struct kd_number_locale locale = kd_number_locale_enter();
-    cJSON *root = cJSON_ParseWithLengthOpts(text, length + 1, &end, 0);
-    kd_number_locale_leave(locale);
-    size_t at = (size_t)(end - text);
-    if (!root && at >= length)
-        return kd_error_set(error, KD_EINVAL,
-                            "the document is not valid JSON: it ends too early, after %zu bytes", length);
-    if (!root)
-        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu", at);
-    at += strspn(end, " \t\n\r");
-    if (at < length) {
-        cJSON_Delete(root);
-        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu", at);
-    }
-    *out = root;
-    return KD_OK;
-}
-
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
                                   struct kd_error *error)
 {
-    if (length > KD_SCENE_JSON_MAX)
-        return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %u", length,
-                            KD_SCENE_JSON_MAX);
-    enum kd_status status = kd_scan_json(text, length, error);
-    if (status)
-        return status;
-    char *copy = malloc(length + 1);
-    if (!copy)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
-    if (length)
-        memcpy(copy, text, length);
-    copy[length] = 0;
-
     cJSON *root = NULL;
     struct reader reader = { .scene = *scene, .error = error };
-    status = parse(copy, length, &root, error);
+    enum kd_status status = kd_tree_parse(text, length, KD_SCENE_JSON_MAX, &root, error);
     if (!status)
         status = read_document(&reader, root);
     if (!status)
         *scene = reader.scene;
     cJSON_Delete(root);
-    free(copy);
     return status;
 }
