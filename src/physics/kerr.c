@@ -14,6 +14,8 @@ double kd_kerr_ergosphere(double a, double cos_theta) { return 1 + sqrt(one_minu
 
 double kd_kerr_isco(double a)
 {
+    if (a == 0) /* the square of the rounded root of 6 is less */
+        return 6;
     double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
     double z2 = sqrt(3 * a * a + z1 * z1);
     double r = 3 + z2 - copysign(sqrt((3 - z1) * (3 + z1 + 2 * z2)), a);

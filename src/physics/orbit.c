@@ -76,7 +76,7 @@ static bool find_range(struct kd_orbit *o, double w)
         if (allowed && here) {
             high = next;
             o->w_low = low, o->w_high = high;
-            o->turns_out = i > 0;
+            o->turns_out = low > 0; /* with E = 1 infinity is a root */
             o->turns_in = i < n;
             o->circular = touches;
             return true;

@@ -26,14 +26,19 @@ static double radial_force(const struct kd_orbit_path *p, double w, double rest)
     return 0.5 * ((right - left) * g + left * right * slope);
 }
 
-/* Derivatives of the rates at a place: forces, that on y without its elastic part, then the rates of proper time, t and chi.
- * rest: what w lacks. */
+static double pull_of_spring(const struct kd_spring *s, double q, double rest)
+{
+    return s->strength * ((q - s->centre) + rest);
+}
+
+/* Derivatives of the rates at a place: forces besides those of the springs, then the rates of proper time, t and chi. rest: what w
+ * lacks. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
     double a = o->a, w = q[KD_PATH_W], y = q[KD_PATH_Y], w2 = w * w, a2w2 = a * a * w2, y2 = y * y;
     double flat = a * a * o->binding, up = a * a * o->z * y2, far = 1 / w2;
-    f[KD_PATH_W] = radial_force(p, w, rest);
+    f[KD_PATH_W] = radial_force(p, w, rest) + pull_of_spring(&p->spring[KD_PATH_W], w, rest);
     f[KD_PATH_Y] = y * (2 * flat * o->z * y2 + p->stiff);
     f[KD_PATH_PROPER] = far + up;
     double turn = p->twist * (1 - y2) / (1 - p->nu * y2);
@@ -70,42 +75,44 @@ static double drift_of(int stage)
 
 /* An oscillator's turn in the time of each drift, as three shears: whatever rounding makes of their coefficients, the area stays,
  * and errors do not add up. */
-static void set_turns(struct kd_orbit_path *p, double h)
+static void set_turns(struct kd_spring *s, double h)
 {
-    double omega = sqrt(p->elastic);
+    double omega = sqrt(s->strength);
     for (int i = 0; i < 4; i++) {
         double time = drift_of(i) * h;
-        p->turn[i].kick = -omega * tan(0.5 * omega * time);
-        p->turn[i].drift = omega > 0 ? sin(omega * time) / omega : time;
+        s->turn[i].kick = -omega * tan(0.5 * omega * time);
+        s->turn[i].drift = omega > 0 ? sin(omega * time) / omega : time;
     }
-    p->turn_h = h;
 }
 
-/* Free motion of w, the elastic motion of y exactly: it is all there is where a = 0. */
-static void drift(struct kd_orbit_path *p, int stage, double h)
+/* Motion under the springs alone, exactly. */
+static void drift(struct kd_orbit_path *p, int stage)
 {
-    int which = stage < 4 ? stage : 7 - stage;
-    struct kd_exact *y = &p->place[KD_PATH_Y], *rate = &p->rate[KD_PATH_Y];
-    add(&p->place[KD_PATH_W], drift_of(stage) * h * p->rate[KD_PATH_W].value);
-    add(rate, p->turn[which].kick * y->value);
-    add(y, p->turn[which].drift * rate->value);
-    add(rate, p->turn[which].kick * y->value);
+    for (int i = 0; i < KD_PATH_PLACES; i++) {
+        const struct kd_spring *s = &p->spring[i];
+        double kick = s->turn[stage < 4 ? stage : 7 - stage].kick;
+        add(&p->rate[i], kick * (p->place[i].value - s->centre));
+        add(&p->place[i], s->turn[stage < 4 ? stage : 7 - stage].drift * p->rate[i].value);
+        add(&p->rate[i], kick * (p->place[i].value - s->centre));
+    }
 }
 
 static void yoshida(struct kd_orbit_path *p, double h)
 {
     if (h != p->turn_h)
-        set_turns(p, h);
+        for (int i = 0; i < KD_PATH_PLACES; i++)
+            set_turns(&p->spring[i], h);
+    p->turn_h = h;
     for (int stage = 0; stage < 7; stage++) {
         double q[KD_PATH_PLACES], f[KD_PATH_RATES];
-        drift(p, stage, h);
+        drift(p, stage);
         for (int i = 0; i < KD_PATH_PLACES; i++)
             q[i] = p->place[i].value;
         pull(p, q, p->place[KD_PATH_W].rest, f);
         for (int i = 0; i < KD_PATH_RATES; i++)
             add(&p->rate[i], kicks[kick_of(stage)] * h * f[i]);
     }
-    drift(p, 7, h);
+    drift(p, 7);
 }
 
 /* The whole force after the time `at` h, with the places moved by h^2 sum besides. */
@@ -120,7 +127,8 @@ static void stage_of(const struct kd_orbit_path *p, double at, double h, const d
             rest = to.rest;
     }
     pull(p, q, rest, f);
-    f[KD_PATH_Y] -= p->elastic * q[KD_PATH_Y];
+    f[KD_PATH_W] -= pull_of_spring(&p->spring[KD_PATH_W], q[KD_PATH_W], rest);
+    f[KD_PATH_Y] -= pull_of_spring(&p->spring[KD_PATH_Y], q[KD_PATH_Y], 0);
 }
 
 static void albrecht(struct kd_orbit_path *p, double h)
@@ -191,8 +199,10 @@ void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const
     *p = (struct kd_orbit_path) { .orbit = *o, .method = method, .factored = o->turns_in && o->turns_out };
     if (p->factored)
         kd_orbit_factor(o, p->g);
-    p->elastic = fmax(sum, 0);
-    p->stiff = p->elastic - sum;
+    p->spring[KD_PATH_Y].strength = fmax(sum, 0);
+    p->stiff = fmax(-sum, 0);
+    if (!o->circular && 12 * o->k * o->w_high < sum)
+        p->spring[KD_PATH_W] = (struct kd_spring) { .strength = sum, .centre = 1 / sum };
     p->cc = o->momentum != 0 ? fabs(o->momentum) / (o->n - flat) : 0;
     p->nu = -flat * p->cc * p->cc;
     p->twist = copysign(-flat * p->cc, -flat * o->momentum);
@@ -276,43 +286,54 @@ static struct kd_orbit_path moved(const struct kd_orbit_path *path, double h)
     return to;
 }
 
-/* Where one of the numbers passes `aim`: regula falsi with Illinois' halving, then it is as good as rounding lets it be. */
-static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h, bool apsis, double aim)
+/* What an event is a zero of. */
+enum event { APSIS, RADIUS, TIME };
+
+static double height(const struct kd_orbit_path *p, enum event event, double aim)
 {
-    struct kd_orbit_path best = *path;
-    double low = 0, high = h;
-#define HEIGHT(path) (apsis ? (path)->rate[KD_PATH_W].value : ((path)->place[KD_PATH_W].value - aim) + (path)->place[KD_PATH_W].rest)
-    double f_low = HEIGHT(path);
-    best = moved(path, h);
-    double f_high = HEIGHT(&best);
-    for (int i = 0; i < 60 && f_low != f_high; i++) {
-        double at = high - f_high * (high - low) / (f_high - f_low);
-        if (!(at > fmin(low, high) && at < fmax(low, high)))
+    switch (event) {
+    case APSIS: return p->rate[KD_PATH_W].value;
+    case RADIUS: return (p->place[KD_PATH_W].value - aim) + p->place[KD_PATH_W].rest;
+    case TIME: break;
+    }
+    double t = kd_orbit_path_place(p).t;
+    return isnan(t) ? INFINITY : t - aim;
+}
+
+/* Regula falsi with Illinois' halving, until rounding lets it come no nearer. */
+static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h, enum event event, double aim)
+{
+    struct kd_orbit_path best = moved(path, h);
+    double low = 0, high = h, f_low = height(path, event, aim), f_high = height(&best, event, aim);
+    for (int i = 0; i < 100 && f_low != f_high; i++) {
+        double at = isfinite(f_high) ? high - f_high * (high - low) / (f_high - f_low) : 0.5 * (low + high);
+        if (!(at > fmin(low, high) && at < fmax(low, high)) || fabs(high - low) < 1e-15 * fabs(h))
             break;
         best = moved(path, at);
-        double f = HEIGHT(&best);
+        double f = height(&best, event, aim);
         if (f == 0)
             break;
         if ((f < 0) == (f_high < 0)) {
-            high = at, f_high = f;
-            f_low *= 0.5;
+            f_low *= isfinite(f_high) ? 0.5 : 1;
         } else {
             low = high, f_low = f_high;
-            high = at, f_high = f;
         }
-        if (fabs(high - low) < 1e-15 * fabs(h))
-            break;
+        high = at, f_high = f;
     }
-#undef HEIGHT
     return best;
 }
 
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h)
 {
-    return to_event(path, h, true, 0);
+    return to_event(path, h, APSIS, 0);
 }
 
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w)
 {
-    return to_event(path, h, false, w);
+    return to_event(path, h, RADIUS, w);
+}
+
+struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t)
+{
+    return to_event(path, h, TIME, t);
 }

@@ -13,9 +13,11 @@
  * (for light in null_polar.h; checked by quadrature, tests/unit/physics_orbit.c). E and L of the orbit are parameters here, L enters
  * no momentum and is held exactly.
  *
- *   KD_ORBIT_YOSHIDA6  H. Yoshida 1990, Phys. Lett. A 150, 262, solution A: seven leapfrogs a step, in which y turns as the
- *                      harmonic oscillator that it is where a = 0. Symplectic: the errors of the first integrals stay bounded. All sums
- *                      are compensated, so that rounding does not add up either.
+ *   KD_ORBIT_YOSHIDA6  H. Yoshida 1990, Phys. Lett. A 150, 262, solution A: seven leapfrogs a step. In these y moves as the
+ *                      harmonic oscillator that it is where a = 0, and w, where relativity is a small disturbance (periastron
+ *                      above some 12 M), as that of Kepler's ellipse, after J. Wisdom & M. Holman 1991, AJ 102, 1528. Symplectic:
+ *                      the errors of the first integrals stay bounded. All sums are compensated, so that rounding does not add
+ *                      up either.
  *   KD_ORBIT_RKN6      J. Albrecht 1955, ZAMM 35, 100: Nystroem's method of order 6 in five stages
  *
  * t and phi diverge at the horizon. A plunging path is followed in ingoing coordinates from where it falls for good, and its t
@@ -37,23 +39,29 @@ struct kd_exact {
 enum { KD_PATH_W, KD_PATH_Y, KD_PATH_PLACES };
 enum { KD_PATH_PROPER = KD_PATH_PLACES, KD_PATH_T, KD_PATH_CHI, KD_PATH_RATES };
 
+/* The linear part of a force, -strength (q - centre): its motion is known, and its turns in the drifts of a step are kept as shears. */
+struct kd_spring {
+    double strength, centre;
+    struct {
+        double kick, drift;
+    } turn[4];
+};
+
 struct kd_orbit_path {
     /* read only */
     struct kd_orbit orbit;
     enum kd_orbit_method method;
     bool factored, ingoing;
     double g[3];
-    double elastic, stiff;                 /* -(L^2 + Q + a^2 b) = stiff - elastic, both >= 0 */
+    struct kd_spring spring[KD_PATH_PLACES];
+    double stiff;                          /* of y, where its linear force drives it away */
     double cc, nu, twist, swing;           /* of the azimuth; the last at the start */
     double entry_t, entry_phi;             /* what the ingoing coordinates were ahead by where they were entered */
     struct kd_exact place[KD_PATH_PLACES]; /* w, y */
     struct kd_exact rate[KD_PATH_RATES];   /* their derivatives; then proper time, t, the smooth part of phi */
     struct kd_exact mino;
     int half_turns;
-    double turn_h; /* the step that `turn` belongs to */
-    struct {
-        double kick, drift; /* shears of y */
-    } turn[4];
+    double turn_h; /* the step that the springs' turns belong to */
 };
 
 /* `start` as kd_orbit_start or kd_orbit_from_state give it. */
@@ -73,7 +81,8 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 
 /* From `path`, whose radial velocity changes sign within a step of h, to where it vanishes. */
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h);
-/* The same to the radius 1/w, which it passes within the step. */
+/* The same to the radius 1/w, and to the time t, which it passes within the step. */
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
+struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);
 
 #endif
