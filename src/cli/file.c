@@ -136,9 +136,12 @@ static bool write_all(int fd, const struct source *source)
 {
     char chunk[64 * 1024];
     size_t n;
-    while ((n = source->read(source->user, chunk, sizeof chunk)))
-        if (!write_bytes(fd, chunk, n))
+    while ((n = source->read(source->user, chunk, sizeof chunk))) {
+        if (n == KD_FILE_STOP)
+            errno = ECANCELED;
+        if (n == KD_FILE_STOP || !write_bytes(fd, chunk, n))
             return false;
+    }
     return true;
 }
 

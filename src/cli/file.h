@@ -16,7 +16,9 @@ enum kd_status kd_file_check(const char *path, struct kd_error *error);
 /* Under a temporary name, then renamed: nobody ever sees half a file. A device or a pipe is written to. */
 enum kd_status kd_file_write(const char *path, const struct kd_buffer *data, struct kd_error *error);
 
-/* The same for bytes that are made while they are written: `read` gives up to `size` more, 0 at the end. */
+/* The same for bytes that are made while they are written: `read` gives up to `size` more, 0 at the end, KD_FILE_STOP where it has
+ * failed: no file is left then, and its reason is the caller's to report. */
+#define KD_FILE_STOP ((size_t)-1)
 enum kd_status kd_file_stream(const char *path, size_t (*read)(void *user, void *to, size_t size), void *user,
                               struct kd_error *error);
 

@@ -15,16 +15,17 @@ MODULES = {
     "scene": {"base", "physics"},
     "quantity": {"base", "physics", "scene"},  # of scene: how numbers and names are read and written
     "image": {"base"},
+    "orbit": {"base", "physics", "scene", "image"},  # of scene: as quantity
     "vk": {"base"},
     "render": {"base", "physics", "scene", "image", "vk"},
-    "server": {"base", "physics", "scene", "quantity", "image", "render"},
-    "cli": {"base", "physics", "scene", "quantity", "image", "vk", "render", "server"},
+    "server": {"base", "physics", "scene", "quantity", "orbit", "image", "render"},
+    "cli": {"base", "physics", "scene", "quantity", "orbit", "image", "vk", "render", "server"},
     "main.c": {"cli"},
 }
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},
-    "cjson/": {"scene", "render", "server", "cli"},
+    "cjson/": {"scene", "orbit", "render", "server", "cli"},
     "microhttpd.h": {"server"},
     "png.h": {"image"},
     "zlib.h": {"image"},

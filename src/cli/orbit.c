@@ -1,0 +1,230 @@
+/* kerrd orbit: timelike geodesics. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "orbit/feed.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_FIRST = 256 };
+
+/* In the order of the keys: as kd_orbit_request_set calls them, and how --help does. */
+static const struct {
+    const char *name, *argument, *help;
+} fields[] = {
+    { "case", "NAME", "mercury, zoom-whirl, plunge, isco or spherical" },
+    { "spin", "A", "spin of the hole, above -1 and below 1" },
+    { "p", "P", "a bound orbit between the radii P/(1+E) and P/(1-E)" },
+    { "e", "E", "and its eccentricity, below 1" },
+    { "inclination_deg", "I", "and its inclination; above 90 is retrograde" },
+    { "energy", "E", "an orbit by its constants per unit mass: energy" },
+    { "angular_momentum", "L", "about the axis" },
+    { "carter", "Q", "Carter's constant, 0 (the default) in the equatorial plane" },
+    { "r", "R", "a radius on the way; or of the position" },
+    { "outward", "true|false", "whether it moves outwards there" },
+    { "theta_deg", "T", "an orbit by position and velocity: polar angle" },
+    { "phi_deg", "F", "azimuth" },
+    { "frame", "NAME", "whose velocity it is: zamo (the default) or static" },
+    { "v_r", "V", "components of the velocity, in units of that of light" },
+    { "v_theta", "V", NULL },
+    { "v_phi", "V", NULL },
+    { "periods", "N", "how long: radial periods (10), turns where r is constant" },
+    { "time", "T", "or coordinate time, in M" },
+    { "samples", "N", "of the path, both ends counted (1000); 0 for none" },
+    { "method", "NAME", "yoshida6 (the default), rkn6 or closed" },
+    { "steps", "N", "per radial period, instead of a tolerance" },
+    { "tolerance", "X", "relative error after a period that chooses the step (1e-12)" },
+    { "r_max", "R", "where what escapes is let go (100)" },
+    { "mass_msun", "M", "mass of the hole: frequencies in Hz, advance per century" },
+};
+#define N_FIELDS (sizeof fields / sizeof *fields)
+
+struct arguments {
+    const char *input, *output, *format;
+    const char *given[N_FIELDS];
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    if (key >= KEY_FIRST && key < KEY_FIRST + (int)N_FIELDS) {
+        arguments->given[key - KEY_FIRST] = text;
+        return 0;
+    }
+    switch (key) {
+    case 'o': arguments->output = text; return 0;
+    case 'f':
+        if (strcmp(text, "json") && strcmp(text, "ndjson") && strcmp(text, "csv") && strcmp(text, "npy"))
+            argp_error(state, "--format %s: json, ndjson, csv or npy", text);
+        arguments->format = text;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (arguments->input)
+            argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
+        arguments->input = text;
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static enum kd_orbit_format format_of(const struct arguments *arguments)
+{
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    return !strcmp(format, "npy")      ? KD_ORBIT_NPY
+           : !strcmp(format, "csv")    ? KD_ORBIT_CSV
+           : !strcmp(format, "ndjson") ? KD_ORBIT_NDJSON
+                                       : KD_ORBIT_JSON;
+}
+
+static enum kd_status load(const struct arguments *arguments, struct kd_orbit_request *request, struct kd_error *error)
+{
+    struct kd_buffer file = { 0 };
+    enum kd_status status = KD_OK;
+    if (arguments->input) {
+        status = kd_file_read(arguments->input, KD_ORBIT_BODY_MAX, &file, error);
+        if (!status && (status = kd_orbit_request_json(request, file.data ? (const char *)file.data : "", file.size, error)))
+            kd_cli_prefix(error, strcmp(arguments->input, "-") ? arguments->input : "standard input");
+        kd_buffer_finish(&file);
+    }
+    for (size_t i = 0; i < N_FIELDS && !status; i++)
+        if (arguments->given[i])
+            status = kd_orbit_request_set(request, fields[i].name, arguments->given[i], error);
+    return status ? status : kd_orbit_request_check(request, error);
+}
+
+/* The bytes of the answer as the file asks for them. */
+struct source {
+    struct kd_orbit_feed *feed;
+    struct kd_buffer ready;
+    size_t taken;
+    struct kd_progress progress;
+    enum kd_status status;
+    struct kd_error *error;
+};
+
+static size_t produce(void *user, void *to, size_t size)
+{
+    struct source *s = user;
+    while (s->taken == s->ready.size && !s->status && !kd_orbit_feed_done(s->feed)) {
+        s->ready.size = s->taken = 0;
+        s->status = kd_orbit_feed_more(s->feed, &s->ready, s->error);
+        if (!s->status && !kd_progress_update(&s->progress, kd_orbit_feed_fraction(s->feed)))
+            s->status = kd_error_set(s->error, KD_ECANCELLED, "stopped");
+    }
+    size_t n = s->ready.size - s->taken < size ? s->ready.size - s->taken : size;
+    if (s->status)
+        return KD_FILE_STOP;
+    if (n)
+        memcpy(to, s->ready.data + s->taken, n);
+    s->taken += n;
+    return n;
+}
+
+static void *help(void *feed)
+{
+    while (kd_orbit_feed_help(feed)) {
+    }
+    return NULL;
+}
+
+/* Many orbits: on every core before the answer is asked for. */
+static void share(struct kd_orbit_feed *feed)
+{
+    pthread_t threads[15];
+    cpu_set_t set;
+    int n = 0, cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    while (n < 15 && n + 1 < cores && !pthread_create(&threads[n], NULL, help, feed))
+        n++;
+    help(feed);
+    while (n > 0)
+        pthread_join(threads[--n], NULL);
+}
+
+static enum kd_status write_answer(const struct arguments *arguments, struct kd_orbit_feed *feed, struct kd_error *error)
+{
+    const char *path = arguments->output ? arguments->output : "-";
+    struct source source = { .feed = feed, .error = error };
+    if (strcmp(path, "-") || feed->format == KD_ORBIT_NPY) {
+        enum kd_status status = kd_file_check(path, error);
+        if (status)
+            return status;
+    }
+    kd_progress_init(&source.progress);
+    kd_progress_catch_signals();
+    /* What is wrong is known before a byte of the answer is, and then there is no file. */
+    source.status = kd_orbit_feed_more(feed, &source.ready, error);
+    if (!source.status && feed->request->many) {
+        share(feed);
+        if (!kd_orbit_feed_done(feed))
+            source.status = kd_orbit_feed_more(feed, &source.ready, error);
+    }
+    enum kd_status status = source.status;
+    if (!status)
+        status = kd_file_stream(path, produce, &source, error);
+    kd_progress_finish(&source.progress);
+    kd_buffer_finish(&source.ready);
+    return source.status ? source.status : status;
+}
+
+static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
+{
+    struct kd_orbit_request request;
+    struct kd_orbit_feed *feed = calloc(1, sizeof *feed);
+    kd_orbit_request_init(&request);
+    enum kd_status status = feed ? load(arguments, &request, error) : kd_error_set(error, KD_ENOMEM, "out of memory");
+    if (!status)
+        status = kd_orbit_feed_init(feed, &request, format_of(arguments), error);
+    if (!status) {
+        status = write_answer(arguments, feed, error);
+        kd_orbit_feed_finish(feed);
+    }
+    free(feed);
+    kd_orbit_request_finish(&request);
+    return status;
+}
+
+/* --inclination-deg for inclination_deg. */
+static void set_options(struct argp_option *options, char names[N_FIELDS][32])
+{
+    options[0] = (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats", 0 };
+    options[1] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, ndjson, csv or npy, whatever the name of the output", 0 };
+    for (size_t i = 0; i < N_FIELDS; i++) {
+        strncpy(names[i], fields[i].name, 31);
+        for (char *c = names[i]; (c = strchr(c, '_'));)
+            *c = '-';
+        options[2 + i] = (struct argp_option) { names[i], KEY_FIRST + (int)i, fields[i].argument, 0, fields[i].help, 0 };
+    }
+}
+
+int kd_cli_orbit(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
+    static char names[N_FIELDS][32];
+    struct argp_option options[N_FIELDS + 3] = { 0 };
+    const struct argp argp = {
+        .options = options,
+        .parser = parse,
+        .args_doc = "[FILE.json|-]",
+        .doc = "Follow a body round a Kerr hole: its path, turning points, constants of motion and their drift, frequencies, and the "
+               "advance of its periastron.\v"
+               "FILE is what POST /v1/orbits takes, one orbit or a list of them; options change what it says, or say it all: kerrd "
+               "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
+        .children = children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+
+    set_options(options, names);
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &error);
+    if (!status)
+        return KD_EXIT_OK;
+    int code = kd_cli_fail(&error);
+    if (status == KD_ECANCELLED)
+        kd_progress_reraise();
+    return code;
+}

@@ -1,0 +1,407 @@
+#include "orbit/answer.h"
+
+#include "base/decimal.h"
+#include "image/npy.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SUN_S 4.925490947e-6 /* GM/c^3 of the Sun, IAU 2015 nominal */
+#define CENTURY_S (36525 * 86400.)
+
+enum { COLUMNS = 10, SUMMARY = 15 };
+
+static const char *const columns[COLUMNS] = { "mino", "tau_proper", "t", "r", "theta", "phi", "x", "y", "z", "energy_error" };
+
+static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
+{
+    const double all[COLUMNS] = { s->place.mino, s->place.proper, s->place.t, s->place.r, s->place.theta, s->place.phi,
+                                  s->x, s->y, s->z, s->energy_error };
+    memcpy(to, all, sizeof all);
+}
+
+/* A status that stays once it has failed. */
+struct text {
+    struct kd_buffer *out;
+    enum kd_status status;
+};
+
+static void put(struct text *t, const char *s)
+{
+    if (!t->status)
+        t->status = kd_buffer_append(t->out, s, strlen(s));
+}
+
+static void number(struct text *t, double value, const char *otherwise)
+{
+    char text[KD_DECIMAL_SIZE];
+    if (isfinite(value))
+        kd_decimal_print(text, value);
+    put(t, isfinite(value) ? text : otherwise);
+}
+
+/* "name":value with a comma before it unless it is the first of its object. */
+static void member(struct text *t, const char *name, double value)
+{
+    if (t->status)
+        return;
+    bool first = t->out->size && t->out->data[t->out->size - 1] == '{';
+    t->status = kd_buffer_printf(t->out, "%s\"%s\":", first ? "" : ",", name);
+    number(t, value, "null");
+}
+
+static void open(struct text *t, const char *name)
+{
+    bool first = t->out->size && t->out->data[t->out->size - 1] == '{';
+    if (!t->status)
+        t->status = kd_buffer_printf(t->out, "%s\"%s\":{", first ? "" : ",", name);
+}
+
+static void close(struct text *t)
+{
+    put(t, "}");
+}
+
+const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
+{
+    const char *const all[] = {
+        "a test particle: it has no mass of its own, radiates nothing and is not torn",
+        run->orbit.fate == KD_ORBIT_PLUNGE ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends" : NULL,
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i] && !index--)
+            return all[i];
+    return NULL;
+}
+
+static void frequencies(struct text *t, const struct kd_orbit_run *run)
+{
+    const struct kd_orbit_frequencies *f = &run->frequencies;
+    open(t, "frequencies");
+    open(t, "mino");
+    member(t, "r", f->mino_r);
+    member(t, "theta", f->mino_theta);
+    member(t, "phi", f->mino_phi);
+    member(t, "t", f->mino_t);
+    member(t, "tau_proper", f->mino_proper);
+    close(t);
+    open(t, "coordinate");
+    member(t, "r", f->r);
+    member(t, "theta", f->theta);
+    member(t, "phi", f->phi);
+    close(t);
+    open(t, "proper");
+    member(t, "r", f->mino_r / f->mino_proper);
+    member(t, "theta", f->mino_theta / f->mino_proper);
+    member(t, "phi", f->mino_phi / f->mino_proper);
+    close(t);
+    if (!isnan(run->mass_msun)) {
+        open(t, "hz");
+        double cycles = 1 / (2 * M_PI * SUN_S * run->mass_msun);
+        member(t, "r", f->r * cycles);
+        member(t, "theta", f->theta * cycles);
+        member(t, "phi", f->phi * cycles);
+        close(t);
+    }
+    close(t);
+}
+
+/* Per radial period; for a circle it is that of the smallest oscillation, at its edge infinite. */
+static void advances(struct text *t, const struct kd_orbit_run *run, double p)
+{
+    double advance = kd_orbit_periastron_advance(&run->bound);
+    open(t, "advance");
+    member(t, "periastron", advance);
+    member(t, "weak_field", 6 * M_PI / p);
+    member(t, "node", kd_orbit_nodal_advance(&run->bound));
+    if (!isnan(run->mass_msun)) {
+        double period_s = 2 * M_PI / run->frequencies.r * SUN_S * run->mass_msun;
+        member(t, "periastron_arcsec_per_century", advance * 180 / M_PI * 3600 * CENTURY_S / period_s);
+    }
+    close(t);
+}
+
+static void head(struct text *t, const struct kd_orbit_run *run)
+{
+    const struct kd_orbit *o = &run->orbit;
+    double swing = asin(fmin(sqrt(o->z), 1)) * 180 / M_PI;
+    member(t, "spin", o->a);
+    put(t, ",\"fate\":\"");
+    put(t, kd_orbit_fate_name(o->fate));
+    put(t, o->circular ? "\",\"circular\":true" : "\",\"circular\":false");
+    open(t, "constants");
+    member(t, "energy", o->energy);
+    member(t, "binding", o->binding);
+    member(t, "angular_momentum", o->momentum);
+    member(t, "carter", o->carter);
+    if (o->a == 0)
+        member(t, "binet_c", -o->binding / o->total);
+    close(t);
+    open(t, "turning_points");
+    member(t, "r_min", o->turns_in ? 1 / o->w_high : NAN);
+    member(t, "r_max", o->turns_out ? 1 / o->w_low : NAN);
+    member(t, "theta_min_deg", 90 - swing);
+    member(t, "theta_max_deg", o->carter < 0 ? NAN : 90 + swing);
+    close(t);
+    if (!run->closed)
+        return;
+    double p = 2 / (o->w_low + o->w_high);
+    open(t, "shape");
+    member(t, "p", p);
+    member(t, "e", (o->w_high - o->w_low) / (o->w_high + o->w_low));
+    member(t, "inclination_deg", acos(copysign(fmin(sqrt(o->axis_gap), 1), o->momentum)) * 180 / M_PI);
+    close(t);
+    frequencies(t, run);
+    advances(t, run, p);
+}
+
+static void drift(struct text *t, const struct kd_orbit_run *run)
+{
+    open(t, "drift"); /* L is a parameter of the equations, and no step touches it */
+    member(t, "energy", run->worst.energy);
+    member(t, "angular_momentum", 0);
+    member(t, "carter", run->worst.carter);
+    member(t, "mass", run->worst.mass);
+    if (run->orbit.a == 0)
+        member(t, "binet_c", run->worst.binet);
+    close(t);
+}
+
+/* The end of the path less the closed form there: two methods that share no step. */
+static void against_closed(struct text *t, const struct kd_orbit_run *run)
+{
+    struct kd_orbit_place got = kd_orbit_path_place(&run->path), want = kd_orbit_bound_at(&run->bound, run->path.mino.value);
+    open(t, "closed_form_difference");
+    member(t, "tau_proper", got.proper - want.proper);
+    member(t, "t", got.t - want.t);
+    member(t, "r", got.r - want.r);
+    member(t, "theta", got.theta - want.theta);
+    member(t, "phi", got.phi - want.phi);
+    close(t);
+}
+
+static void result(struct text *t, const struct kd_orbit_run *run)
+{
+    bool closed = run->params->way == KD_WAY_CLOSED;
+    const char *sentence;
+    put(t, "\"method\":\"");
+    put(t, kd_orbit_way_name(run->params->way));
+    put(t, "\",\"end\":\"");
+    put(t, kd_orbit_end_name(run->end));
+    put(t, "\"");
+    member(t, "mino_end", run->mino_end);
+    if (!closed) {
+        member(t, "steps", (double)run->steps);
+        member(t, "mino_step", run->h);
+        member(t, "error_estimate", run->error_estimate);
+        drift(t, run);
+        if (run->closed && !run->orbit.circular) {
+            member(t, "periastra", (double)run->periastra);
+            member(t, "periastron_advance_measured", kd_orbit_run_advance_measured(run));
+        }
+        if (run->closed)
+            against_closed(t, run);
+    }
+    put(t, ",\"approximations\":[");
+    for (size_t i = 0; (sentence = kd_orbit_approximation(run, i)); i++) {
+        put(t, i ? ",\"" : "\"");
+        put(t, sentence);
+        put(t, "\"");
+    }
+    put(t, "]");
+}
+
+static void column_names(struct text *t)
+{
+    put(t, "\"columns\":[");
+    for (int i = 0; i < COLUMNS; i++) {
+        put(t, i ? ",\"" : "\"");
+        put(t, columns[i]);
+        put(t, "\"");
+    }
+    put(t, "]");
+}
+
+static void json_row(struct text *t, const struct kd_orbit_sample *sample, bool first)
+{
+    double values[COLUMNS];
+    columns_of(sample, values);
+    put(t, first ? "[" : ",[");
+    for (int i = 0; i < COLUMNS; i++) {
+        put(t, i ? "," : "");
+        number(t, values[i], "null");
+    }
+    put(t, "]");
+}
+
+static void csv_names(struct text *t, const char *const *names, int n)
+{
+    for (int i = 0; i < n; i++) {
+        put(t, i ? "," : "");
+        put(t, names[i]);
+    }
+    put(t, "\n");
+}
+
+static void csv_row(struct text *t, const double *values, int n)
+{
+    for (int i = 0; i < n; i++) {
+        put(t, i ? "," : "");
+        number(t, values[i], "");
+    }
+    put(t, "\n");
+}
+
+/* Little-endian whatever the machine is. */
+static void bytes(struct text *t, const double *values, int n)
+{
+    for (int i = 0; i < n && !t->status; i++) {
+        uint64_t bits;
+        uint8_t out[8];
+        memcpy(&bits, &values[i], sizeof bits);
+        for (int k = 0; k < 8; k++)
+            out[k] = (uint8_t)(bits >> 8 * k);
+        t->status = kd_buffer_append(t->out, out, sizeof out);
+    }
+}
+
+static void npy_head(struct text *t, const char *const *names, int n, uint64_t first, uint64_t second)
+{
+    struct kd_npy array = { .n_fields = (size_t)n, .shape = { first, second }, .n_dimensions = second ? 2 : 1 };
+    for (int i = 0; i < n; i++) {
+        snprintf(array.fields[i].name, KD_NPY_NAME, "%s", names[i]);
+        array.fields[i].type = KD_NPY_F8;
+    }
+    if (!t->status)
+        t->status = kd_npy_write_header(&array, t->out);
+}
+
+enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out)
+{
+    struct text t = { out, KD_OK };
+    switch (format) {
+    case KD_ORBIT_JSON:
+        put(&t, "{");
+        head(&t, run);
+        if (run->samples) {
+            put(&t, ",\"series\":{");
+            column_names(&t);
+            put(&t, ",\"rows\":[");
+        }
+        break;
+    case KD_ORBIT_NDJSON:
+        put(&t, "{\"head\":{");
+        head(&t, run);
+        put(&t, "}}\n{");
+        column_names(&t);
+        put(&t, "}\n");
+        break;
+    case KD_ORBIT_CSV: csv_names(&t, columns, COLUMNS); break;
+    case KD_ORBIT_NPY: npy_head(&t, columns, COLUMNS, run->samples, 0); break;
+    }
+    return t.status;
+}
+
+enum kd_status kd_orbit_answer_samples(enum kd_orbit_format format, const struct kd_orbit_sample *samples, size_t n, size_t first,
+                                       struct kd_buffer *out)
+{
+    struct text t = { out, KD_OK };
+    double values[COLUMNS];
+    if (format == KD_ORBIT_NDJSON)
+        put(&t, "{\"rows\":[");
+    for (size_t i = 0; i < n && !t.status; i++) {
+        columns_of(&samples[i], values);
+        switch (format) {
+        case KD_ORBIT_JSON: json_row(&t, &samples[i], !(first + i)); break;
+        case KD_ORBIT_NDJSON: json_row(&t, &samples[i], !i); break;
+        case KD_ORBIT_CSV: csv_row(&t, values, COLUMNS); break;
+        case KD_ORBIT_NPY: bytes(&t, values, COLUMNS); break;
+        }
+    }
+    if (format == KD_ORBIT_NDJSON)
+        put(&t, "]}\n");
+    return t.status;
+}
+
+enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct kd_buffer *out)
+{
+    return kd_buffer_printf(out, "{\"progress\":%.4f}\n", kd_orbit_run_fraction(run));
+}
+
+enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out)
+{
+    struct text t = { out, KD_OK };
+    if (format == KD_ORBIT_JSON) {
+        put(&t, run->samples ? "]},\"result\":{" : ",\"result\":{");
+        result(&t, run);
+        put(&t, "}}\n");
+    } else if (format == KD_ORBIT_NDJSON) {
+        put(&t, "{\"result\":{");
+        result(&t, run);
+        put(&t, "}}\n");
+    }
+    return t.status;
+}
+
+static const char *const summary_names[SUMMARY] = { "fate", "spin", "energy", "angular_momentum", "carter", "r_min", "r_max", "omega_r",
+                                                    "omega_theta", "omega_phi", "periastron_advance", "advance_measured", "energy_drift",
+                                                    "carter_drift", "error_estimate" };
+
+/* fate: 0 bound, 1 plunge, 2 escape. */
+static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
+{
+    const struct kd_orbit *o = &run->orbit;
+    const struct kd_orbit_frequencies *f = &run->frequencies;
+    bool closed = run->params->way == KD_WAY_CLOSED;
+    const double all[SUMMARY] = { o->fate, o->a, o->energy, o->momentum, o->carter, o->turns_in ? 1 / o->w_high : NAN,
+                                  o->turns_out ? 1 / o->w_low : NAN, run->closed ? f->r : NAN, run->closed ? f->theta : NAN,
+                                  run->closed ? f->phi : NAN, run->closed ? kd_orbit_periastron_advance(&run->bound) : NAN,
+                                  kd_orbit_run_advance_measured(run), closed ? NAN : run->worst.energy,
+                                  closed ? NAN : run->worst.carter, run->error_estimate };
+    memcpy(to, all, sizeof all);
+}
+
+static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples)
+{
+    put(t, "{\"orbits\":[");
+    for (size_t i = 0; i < n && !t->status; i++) {
+        put(t, i ? ",\n" : "\n");
+        t->status = t->status ? t->status : kd_orbit_answer_begin(&runs[i], KD_ORBIT_JSON, t->out);
+        if (samples && !t->status)
+            t->status = kd_orbit_answer_samples(KD_ORBIT_JSON, samples + i * runs[i].samples, runs[i].samples, 0, t->out);
+        if (!t->status)
+            t->status = kd_orbit_answer_end(&runs[i], KD_ORBIT_JSON, t->out);
+        t->out->size -= !t->status; /* its newline */
+    }
+    put(t, "\n]}\n");
+}
+
+enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
+                                    enum kd_orbit_format format, struct kd_buffer *out)
+{
+    struct text t = { out, KD_OK };
+    double values[SUMMARY];
+    if (format == KD_ORBIT_JSON) {
+        many_json(&t, runs, n, samples);
+        return t.status;
+    }
+    const char *const *names = samples ? columns : summary_names;
+    int count = samples ? COLUMNS : SUMMARY;
+    if (format == KD_ORBIT_NPY)
+        npy_head(&t, names, count, n, samples ? runs->samples : 0);
+    else
+        csv_names(&t, names, count);
+    for (size_t i = 0; i < n && !t.status; i++) {
+        if (samples) {
+            t.status = kd_orbit_answer_samples(format, samples + i * runs[i].samples, runs[i].samples, 0, out);
+            continue;
+        }
+        summary_of(&runs[i], values);
+        if (format == KD_ORBIT_NPY)
+            bytes(&t, values, SUMMARY);
+        else
+            csv_row(&t, values, SUMMARY);
+    }
+    return t.status;
+}

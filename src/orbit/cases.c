@@ -1,0 +1,50 @@
+#include "orbit/cases.h"
+
+#include "physics/kerr.h"
+
+#include <math.h>
+
+const char *kd_orbit_case_name(enum kd_orbit_case which)
+{
+    static const char *const names[KD_CASES] = { "mercury", "zoom-whirl", "plunge", "isco", "spherical" };
+    return names[which];
+}
+
+double kd_orbit_case_mass_msun(enum kd_orbit_case which)
+{
+    return which == KD_CASE_MERCURY ? 1 : NAN;
+}
+
+/* Semi-major axis and eccentricity of Mercury (NASA's planetary fact sheet), GM of the Sun (IAU 2015 nominal). */
+static struct kd_orbit_spec mercury(double spin)
+{
+    const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
+    return (struct kd_orbit_spec) { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0 : spin, .e = e,
+                                    .p = axis_m * (1 - e * e) / gm_m };
+}
+
+struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
+{
+    struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin };
+    switch (which) {
+    case KD_CASE_MERCURY: return mercury(spin);
+    case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: some turns of whirl for each leaf */
+        spec.e = 0.8;
+        spec.p = 1.0001 * kd_orbit_separatrix(spec.spin, spec.e, 1);
+        return spec;
+    case KD_CASE_PLUNGE: /* thrown sideways too slowly */
+        spec.form = KD_ORBIT_STATE;
+        spec.place_r = 2 * kd_kerr_isco(spec.spin);
+        spec.theta_deg = 90;
+        spec.frame = KD_ORBIT_ZAMO;
+        spec.v[2] = 0.2;
+        return spec;
+    case KD_CASE_ISCO: spec.p = kd_kerr_isco(spec.spin); return spec;
+    case KD_CASE_SPHERICAL:
+        spec.inclination_deg = 60;
+        spec.p = 1.5 * kd_orbit_separatrix(spec.spin, 0, 0.5);
+        return spec;
+    case KD_CASES: break;
+    }
+    return spec;
+}

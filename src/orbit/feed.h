@@ -1,0 +1,34 @@
+/* From a request to the bytes of its answer, in pieces of some 30 ms: what POST /v1/orbits and `kerrd orbit` share. */
+#ifndef KD_ORBIT_FEED_H
+#define KD_ORBIT_FEED_H
+
+#include "base/buffer.h"
+#include "orbit/answer.h"
+#include "orbit/batch.h"
+
+#define KD_ORBIT_FEED_SAMPLES 256
+
+struct kd_orbit_feed {
+    const struct kd_orbit_request *request;
+    enum kd_orbit_format format;
+    enum { KD_FEED_START, KD_FEED_SERIES, KD_FEED_DONE } stage;
+    struct kd_orbit_run run;     /* of one orbit */
+    struct kd_orbit_batch batch; /* of many */
+    uint64_t told;               /* steps done when progress was last written */
+    struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
+};
+
+/* The request, checked, must outlive the feed. Every orbit is solved here: KD_EINVAL as kd_orbit_run_init; NDJSON is for one orbit. */
+enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request, enum kd_orbit_format format,
+                                  struct kd_error *error);
+void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
+
+/* The next piece, appended to `out`; of many nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before anything is written. */
+enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
+bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
+double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
+
+/* Many: help with the batch, on another thread than kd_orbit_feed_more's. False when there is nothing left to begin. */
+bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
+
+#endif

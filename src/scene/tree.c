@@ -1,0 +1,59 @@
+#include "scene/tree.h"
+
+#include "scene/number.h"
+#include "scene/scan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct kd_value kd_tree_value(const cJSON *item)
+{
+    switch (item->type & 0xff) {
+    case cJSON_Number: return (struct kd_value) { KD_VALUE_NUMBER, item->valuedouble, NULL };
+    case cJSON_String: return (struct kd_value) { KD_VALUE_STRING, 0, item->valuestring };
+    case cJSON_True: return (struct kd_value) { KD_VALUE_BOOL, 1, NULL };
+    case cJSON_False: return (struct kd_value) { KD_VALUE_BOOL, 0, NULL };
+    case cJSON_Array: return (struct kd_value) { KD_VALUE_ARRAY, 0, NULL };
+    case cJSON_Object: return (struct kd_value) { KD_VALUE_OBJECT, 0, NULL };
+    default: return (struct kd_value) { KD_VALUE_NULL, 0, NULL };
+    }
+}
+
+/* text ends in a NUL that length does not count: cJSON peeks one byte past what it is told. */
+static enum kd_status parse(const char *text, size_t length, cJSON **out, struct kd_error *error)
+{
+    const char *end = text;
+    struct kd_number_locale locale = kd_number_locale_enter();
+    cJSON *root = cJSON_ParseWithLengthOpts(text, length + 1, &end, 0);
+    kd_number_locale_leave(locale);
+    size_t at = (size_t)(end - text);
+    if (!root && at >= length)
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes", length);
+    if (!root)
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu", at);
+    at += strspn(end, " \t\n\r");
+    if (at < length) {
+        cJSON_Delete(root);
+        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu", at);
+    }
+    *out = root;
+    return KD_OK;
+}
+
+enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, cJSON **out, struct kd_error *error)
+{
+    if (length > most)
+        return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);
+    enum kd_status status = kd_scan_json(text, length, error);
+    if (status)
+        return status;
+    char *copy = malloc(length + 1);
+    if (!copy)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
+    if (length)
+        memcpy(copy, text, length);
+    copy[length] = 0;
+    status = parse(copy, length, out, error);
+    free(copy);
+    return status;
+}

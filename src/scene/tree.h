@@ -1,0 +1,18 @@
+/* A JSON document as cJSON's tree, with what cJSON lets pass refused (scan.h). Any thread. */
+#ifndef KD_SCENE_TREE_H
+#define KD_SCENE_TREE_H
+
+#include "base/error.h"
+#include "scene/value.h"
+
+#include <cjson/cJSON.h>
+#include <stddef.h>
+
+/* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most` bytes. Free *out with
+ * cJSON_Delete. */
+enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, cJSON **out, struct kd_error *error);
+
+/* Valid as long as the item. */
+struct kd_value kd_tree_value(const cJSON *item);
+
+#endif
