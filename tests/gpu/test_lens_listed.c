@@ -2,6 +2,8 @@
  * a ray to its end. And what becomes of rays that were given up. */
 #include "render_support.h"
 
+#include "physics/kerr.h"
+#include "render/accuracy.h"
 #include "render/internal.h"
 
 #include <math.h>
@@ -148,6 +150,51 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
+/* What the profiles promise of crossing radii over the bulk set, from the ISCO to 1000 M, against the closed form: the median, and the
+ * worst. The rows of the accuracy table that they stand for hold less over all sets. */
+static void test_profiles(void **state)
+{
+    (void)state;
+    enum { RAYS = 4096, ORDERS = KD_ACCURACY_ORDERS };
+    static const struct { int profile; double median, worst; } promises[] = {
+        { KD_PROFILE_DRAFT, 2e-6, 1e-2 },     { KD_PROFILE_BALANCED, 2e-7, 1e-4 },
+        { KD_PROFILE_HIGH, 2e-7, 1e-4 },      { KD_PROFILE_REFERENCE, 1e-12, 1e-9 },
+    };
+    static double rays[2 * RAYS], errors[RAYS * ORDERS];
+    static struct kd_ray_crossing exact[RAYS * ORDERS], found[RAYS * ORDERS];
+    static struct kd_ray_end exact_ends[RAYS], ends[RAYS];
+    struct kd_accuracy_view all[KD_ACCURACY_VIEWS], view;
+    kd_accuracy_views(KD_ACCURACY_BULK, all);
+    view = all[0];
+    kd_accuracy_rays(KD_ACCURACY_BULK, 0, RAYS, rays);
+    struct kd_rays_params params = { .spin = view.spin, .r = INFINITY, .inclination_deg = view.inclination_deg, .orders = ORDERS,
+                                     .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    OK(kd_rays_trace(NULL, &params, rays, RAYS, exact, exact_ends, NULL, NULL, &error));
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    for (size_t k = 0; k < sizeof promises / sizeof *promises; k++) {
+        struct kd_wish wish = KD_WISH_NONE;
+        struct kd_setting by;
+        wish.profile = promises[k].profile;
+        OK(kd_setting_of(&wish, NULL, capacity.float64, &by, &error));
+        params.engine = by.engine, params.precision = by.precision, params.steps = by.steps;
+        OK(kd_rays_trace(renderer, &params, rays, RAYS, found, ends, NULL, NULL, &error));
+        int n = 0, differ = 0;
+        for (int i = 0; i < RAYS; i++) {
+            differ += ends[i].n_crossings != exact_ends[i].n_crossings || ends[i].fate != exact_ends[i].fate;
+            for (uint32_t j = 0; j < ends[i].n_crossings && j < exact_ends[i].n_crossings; j++) {
+                double r = exact[i * ORDERS + (int)j].r;
+                if (r >= kd_kerr_isco(view.spin) && r <= KD_ACCURACY_FAR)
+                    errors[n++] = fabs(found[i * ORDERS + (int)j].r / r - 1);
+            }
+        }
+        double median = quantile(errors, n, 0.5), worst = quantile(errors, n, 1);
+        print_message("profile %d, %s %s, %u steps: r %.1e, worst %.1e of %d\n", promises[k].profile, kd_engine_name(by.engine),
+                      kd_precision_name(by.precision), by.steps, median, worst, n);
+        assert_true(n > RAYS && differ == 0 && median <= promises[k].median && worst <= promises[k].worst);
+    }
+}
+
 static bool magenta(const unsigned char *pixel) { return pixel[0] > 200 && pixel[1] < 60 && pixel[2] > 200; }
 
 /* Rays that were given up, planted in a map that is kept: a crossing in row 3, the sky in row 20. */
@@ -231,6 +278,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_engines_agree),
         cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_profiles),
         cmocka_unit_test(test_given_up),
         cmocka_unit_test(test_refused),
     };

@@ -258,22 +258,26 @@ static double least_potential(double a, double inclination_deg, const double *x)
     return least;
 }
 
+/* The near-critical set lies on both sides of the critical curve in turn, at the distances it is said to; no other set comes near. */
 static void critical_curve(void **state)
 {
     (void)state;
-    static const double spins[] = { 0.9, -0.6, 0.9999 }, inclinations[] = { 70, 17, 130 };
-    for (int i = 0; i < 3; i++)
-        for (double t = 0.03; t < 1; t += 0.23) {
-            double x[2], outside[2], inside[2], a = spins[i];
-            kd_critical_point(a, inclinations[i], t, x);
-            for (int k = 0; k < 2; k++)
-                outside[k] = x[k] * 1.001, inside[k] = x[k] * 0.999;
-            double on = least_potential(a, inclinations[i], x);
-            /* 1e-5 beside a double root R is 1e-10 of its second derivative, some ten. */
-            if (!(fabs(on) < 1e-7) || !(least_potential(a, inclinations[i], outside) < -1e-4) ||
-                !(least_potential(a, inclinations[i], inside) > 1e-4))
-                fail_msg("a = %g, t = %g: R is %g at best", a, t, on);
-        }
+    enum { N = 40 };
+    double rays[2 * N];
+    struct kd_accuracy_view views[KD_ACCURACY_VIEWS];
+    kd_accuracy_views(KD_ACCURACY_NEAR_CRITICAL, views);
+    kd_accuracy_rays(KD_ACCURACY_NEAR_CRITICAL, 0, N, rays);
+    double a = views[0].spin, i = views[0].inclination_deg;
+    for (int k = 0; k < N; k++) {
+        int decade = k / 2 % 5 + 2;
+        double least = least_potential(a, i, rays + 2 * k), scale = fabs(least) * 0.2 * pow(10, decade);
+        /* R grows with the distance from the curve, some tens of M^4 a unit of it: beyond 1e-4 its least value has been found. */
+        if ((k % 2 ? least > 0 : least < 0) || (decade <= 4 && !(scale > 5 && scale < 500)))
+            fail_msg("ray %d: R is %g at least, 5e-%d from the curve", k, least, decade);
+    }
+    kd_accuracy_rays(KD_ACCURACY_BULK, 0, N, rays);
+    for (int k = 0; k < N; k++)
+        assert_true(fabs(least_potential(a, i, rays + 2 * k)) > 5e-2);
 }
 
 static void lists_of_rays(void **state)
