@@ -14,7 +14,7 @@ struct kd_selftest {
 /* Hand a finished row over. */
 enum kd_status kd_selftest_end(const struct kd_selftest *test, struct kd_selftest_row *row);
 
-enum kd_status kd_selftest_orbits(const struct kd_selftest *test); /* radii of orbits, the disk's flux: no device */
+enum kd_status kd_selftest_orbits(const struct kd_selftest *test); /* orbits, the disk's flux: no device */
 enum kd_status kd_selftest_rays(const struct kd_selftest *test);   /* listed rays, by every engine */
 enum kd_status kd_selftest_maps(const struct kd_selftest *test);   /* the lens map's kernels */
 enum kd_status kd_selftest_light(const struct kd_selftest *test);  /* brightness and encoding */

@@ -34,6 +34,12 @@ struct kd_selftest_deflection { const char *name; double spin, b, phi, gain; };
 /* A point of the critical curve: rays nearer to the origin are captured. */
 struct kd_selftest_critical { const char *name; double spin, inclination_deg, alpha, beta; };
 
+/* An orbit between p/(1+e) and p/(1-e) that leaves the plane by the angle whose cosine is x: constants of motion, and how
+ * fast it goes through its radial and polar cycles, azimuth, time and proper time in Mino time. */
+struct kd_selftest_bound {
+    double spin, p, e, x, energy, momentum, carter, mino_r, mino_theta, mino_phi, mino_t, mino_proper;
+};
+
 struct kd_selftest_flux { double spin, r, flux; };
 
 /* Brightness g^4 F / F_max where ray number `ray` first meets the disk. */
@@ -48,10 +54,11 @@ struct kd_selftest_reference {
     struct kd_selftest_camera cameras[4];
     struct kd_selftest_deflection deflections[8];
     struct kd_selftest_critical criticals[8];
+    struct kd_selftest_bound bounds[8];
     struct kd_selftest_flux fluxes[16];
     struct kd_selftest_pixel pixels[16];
     struct kd_selftest_grey greys[16];
-    size_t n_orbits, n_rays, n_cameras, n_deflections, n_criticals, n_fluxes, n_pixels, n_greys;
+    size_t n_orbits, n_rays, n_cameras, n_deflections, n_criticals, n_bounds, n_fluxes, n_pixels, n_greys;
 };
 
 extern const struct kd_selftest_reference kd_selftest_reference;

@@ -66,6 +66,9 @@ static void test_everything_wrong(void **state)
         wrong.deflections[i].phi += 1e-3;
     for (size_t i = 0; i < wrong.n_criticals; i++) /* two of the rays beside it change sides */
         wrong.criticals[i].alpha *= 1 + 2e-5, wrong.criticals[i].beta *= 1 + 2e-5;
+    for (size_t i = 0; i < wrong.n_bounds; i++)
+        for (double *x = &wrong.bounds[i].energy; x <= &wrong.bounds[i].mino_proper; x++)
+            *x *= 1 + 1e-11;
     for (size_t i = 0; i < wrong.n_fluxes; i++)
         wrong.fluxes[i].flux *= 1 + 1e-9;
     for (size_t i = 0; i < wrong.n_pixels; i++)
@@ -74,7 +77,7 @@ static void test_everything_wrong(void **state)
         wrong.greys[i].srgb += 3 / 65535.0, wrong.greys[i].film[i % 3] += 3 / 65535.0;
     run(&wrong, &table);
     for (int i = 0; i < table.n; i++) {
-        bool itself = table.rows[i].bound == 0; /* compares kerrd with kerrd */
+        bool itself = table.rows[i].bound == 0 || strstr(table.rows[i].what, "Mercury"); /* not from the table */
         if (table.rows[i].ok != itself)
             fail_msg("%s by %s: %g, bound %g", table.rows[i].what, table.rows[i].by, table.rows[i].error, table.rows[i].bound);
     }

@@ -3,12 +3,12 @@
 
     python3 tests/oracle/selftest_reference.py > src/render/selftest_reference.c      (needs mpmath; some minutes)
 
-Nothing here is a formula of src/ or shaders/. Orbits come from the metric alone (kerr_reference.py), fluxes from Page & Thorne's
-integral by quadrature (disk_reference.py), rays from Taylor series of the equations of motion (null_reference.py), deflections
-from quadrature of dphi/dw, checked against the series of Keeton & Petters 2005 where the field is weak, points of the
-critical curve from R = R' = 0, redshifts from the metric contracted with photon and gas, the directions of cameras from
-tetrads by Gram-Schmidt. A gain is the sum of |x df/dx| over what a ray is given by: x = alpha, beta, spin, inclination,
-radius; by differences in 38 digits.
+Nothing here is a formula of src/ or shaders/. Circular orbits come from the metric alone (kerr_reference.py), the others and the
+disk's flux by quadrature (orbit_reference.py, disk_reference.py), rays from Taylor series of the equations of motion
+(null_reference.py), deflections from quadrature of dphi/dw, checked against the series of Keeton & Petters 2005 where the field
+is weak, points of the critical curve from R = R' = 0, redshifts from the metric contracted with photon and gas, the directions of
+cameras from tetrads by Gram-Schmidt. A gain is the sum of |x df/dx| over what a ray is given by: x = alpha, beta, spin,
+inclination, radius; by differences in 38 digits.
 """
 import sys
 from multiprocessing import Pool
@@ -17,6 +17,7 @@ from mpmath import mp, mpf, sqrt, cos, sin, pi, inf, quad, findroot, log, acos, 
 import disk_reference
 import kerr_reference
 import null_reference
+import orbit_reference
 from null_reference import INF
 
 mp.dps = 38
@@ -184,7 +185,8 @@ def critical():
     yield "a = 0: 3 sqrt 3", 0.0, 45, b * mpf("0.8"), b * mpf("0.6")
     a = mpf(0.9)
     r = findroot(lambda x: spherical(a, x)[0], mpf("2.6"))  # no angular momentum: seen on the axis
-    yield "a = 0.9 on the axis", 0.9, 0, mpf("0.6") * sqrt(spherical(a, r)[1] + a * a), mpf("0.8") * sqrt(spherical(a, r)[1] + a * a)
+    b = sqrt(spherical(a, r)[1] + a * a)
+    yield "a = 0.9 on the axis", 0.9, 0, mpf("0.6") * b, mpf("0.8") * b
     lam, eta = spherical(a, mpf("2.5"))
     u = angles(70)
     alpha = -lam / sqrt(1 - u * u)
@@ -201,6 +203,18 @@ def orbit_rows():
         _, energy, _, _ = kerr_reference.orbit(a, isco)
         yield (f"      {{ {spin!r}, {number(1 + sqrt((1 - a) * (1 + a)))}, {number(photon)}, {number(bound)}, {number(isco)}, "
                f"{number(1 - energy)} }},")
+
+
+def bound_rows():
+    """Constants of motion, and frequencies in Mino time."""
+    for spin, p, e, x in ((0.0, 8.0, 0.5, 1.0), (0.9, 6.0, 0.5, 0.75), (0.9, 10.0, 0.25, -1.0), (0.998, 3.0, 0.25, 0.875),
+                          (-0.7, 10.0, 0.375, 0.25)):
+        o = orbit_reference.Orbit(mpf(spin), mpf(p), mpf(e), mpf(x))
+        half = [orbit_reference.integral(o.by_radius, pi, i) for i in range(4)]
+        swing = [orbit_reference.integral(o.by_theta, pi, i) for i in range(4)]
+        proper, t, phi = (half[i] / half[0] + swing[i] / swing[0] for i in (1, 2, 3))
+        values = [o.energy, o.l, o.q, pi / half[0], pi / swing[0], phi, t, proper]
+        yield f"      {{ {spin!r}, {p!r}, {e!r}, {x!r},\n        {', '.join(map(number, values))} }},"
 
 
 def flux_rows():
@@ -227,17 +241,24 @@ def pixel_rows():
         yield f"      {{ {k}, {number(g**4 * disk_reference.flux(a, r, isco) / peaks[a])} }},"
 
 
-def post_rows():
-    """Grey: linear, as sRGB (IEC 61966-2-1), and through S. Hill's fit of ACES first, whose matrices keep grey grey to 1e-4."""
-    srgb = lambda c: 12.92 * c if c <= mpf("0.0031308") else mpf("1.055") * c**(1 / mpf("2.4")) - mpf("0.055")
+INTO = [["0.59719", "0.35458", "0.04823"], ["0.07600", "0.90834", "0.01566"], ["0.02840", "0.13383", "0.83777"]]
+OUT_OF = [["1.60475", "-0.53108", "-0.07367"], ["-0.10208", "1.10813", "-0.00605"], ["-0.00327", "-0.07276", "1.07602"]]
+
+
+def film(x):
+    return (x * (x + mpf("0.0245786")) - mpf("0.000090537")) / (x * (mpf("0.983729") * x + mpf("0.4329510")) + mpf("0.238081"))
+
+
+def srgb(x):
+    c = min(max(x, mpf(0)), mpf(1))
+    return 12.92 * c if c <= mpf("0.0031308") else mpf("1.055") * c**(1 / mpf("2.4")) - mpf("0.055")
+
+
+def grey_rows():
+    """Linear, as sRGB (IEC 61966-2-1), and through S. Hill's fit of ACES first, whose matrices keep grey grey to 1e-4."""
     for c in (0.0, 0.0009765625, 0.0031308, 0.01, 0.18, 0.5, 0.75, 1.0, 4.0):
-        m, n = mp.matrix([["0.59719", "0.35458", "0.04823"], ["0.07600", "0.90834", "0.01566"], ["0.02840", "0.13383", "0.83777"]]), \
-            mp.matrix([["1.60475", "-0.53108", "-0.07367"], ["-0.10208", "1.10813", "-0.00605"], ["-0.00327", "-0.07276", "1.07602"]])
-        v = m * mp.matrix([c, c, c])
-        v = mp.matrix([(x * (x + mpf("0.0245786")) - mpf("0.000090537")) / (x * (mpf("0.983729") * x + mpf("0.4329510")) + mpf("0.238081"))
-                       for x in v])
-        film = [srgb(min(max(x, mpf(0)), mpf(1))) for x in n * v]
-        yield f"      {{ {c!r}, {number(srgb(min(mpf(c), mpf(1))))}, {{ {', '.join(map(number, film))} }} }},"
+        seen = mp.matrix(OUT_OF) * mp.matrix([film(x) for x in mp.matrix(INTO) * mp.matrix([c, c, c])])
+        yield f"      {{ {c!r}, {number(srgb(mpf(c)))}, {{ {', '.join(number(srgb(x)) for x in seen)} }} }},"
 
 
 def table(name, rows):
@@ -264,9 +285,10 @@ def main():
         table("cameras", (f"      {{ {c[3]}, {c[4]}, {c[5]},\n{text} }}," for c, text in zip(CAMERAS, texts)))
     table("deflections", deflections())
     table("criticals", (f'      {{ "{n}", {a!r}, {number(i)}, {number(x)}, {number(y)} }},' for n, a, i, x, y in critical()))
+    table("bounds", bound_rows())
     table("fluxes", flux_rows())
     table("pixels", pixel_rows())
-    table("greys", post_rows())
+    table("greys", grey_rows())
     print("};")
 
 
