@@ -32,8 +32,8 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(push_constant) uniform Push { uint first, count; } push;
 layout(set = 0, binding = 0) readonly buffer Rays {
-    float spin, u, s, horizon, root, w0, epsilon;    /* the hole and the observer; unit roundoff */
-    float list[];                                            /* alpha, beta, 1: inwards or -1: outwards */
+    float spin, u, s, horizon, root, w0, epsilon; /* the hole and the observer; unit roundoff */
+    float list[];                                 /* alpha, beta, 1: inwards or -1: outwards */
 } cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "trace.glsl"

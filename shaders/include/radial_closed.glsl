@@ -4,17 +4,18 @@
  * invariants are polynomials in the coefficients of R. With P = wp - A/12 and q = 1/(4P), E = 1:
  *   q'^2 = N(q) = q + A q^2 + 4 D q^3 + 16 G q^4,  G = (K^2 + A D)/4,    w = (2 q' + 4 K q^2) / (1 + 4 D q^2).
  * q starts as tau^2/4; the duplication formula q(2z) = 4 N / M with M = 1 - 8 D q^2 - 128 G q^3 - 64 (A G - D^2/4) q^4
- * carries a short series at tau/2^n to tau. For an observer at infinity only: there q has no pole outside the horizon,
+ * carries a short series at tau/2^n to tau. All that in units of sqrt|A|, some b: in M its fifth power overflows from b = 1e4. For an observer at infinity only: there q has no pole outside the horizon,
  * since w = K/D >= 1/a^2 at the pole. */
 #ifndef KD_RADIAL_CLOSED_GLSL
 #define KD_RADIAL_CLOSED_GLSL
 
 struct kd_radial {
+    float scale;              /* b: what follows belongs to the time b tau and to w/b */
     float a2, k, d;           /* A, K, D of the motion */
     float g16;                /* 16 G */
     float m3, m4;             /* M = 1 - 8 D q^2 + m3 q^3 + m4 q^4 */
     float s1, s2, s3, s4, s5; /* z^2 / (4 q) = 1 + s1 z^2 + s2 z^4 + ... */
-    float horizon;            /* w of the outer horizon */
+    float horizon;            /* w of the outer horizon, in M */
     float limit;              /* captured rays: an upper bound of the Mino time to the horizon; 0: the ray scatters */
 };
 
@@ -22,16 +23,18 @@ struct kd_radial {
 kd_radial kd_radial_of(kd_motion m, float horizon)
 {
     kd_radial o;
-    float g = 0.25 * (m.k * m.k + m.d * m.a2);
-    o.a2 = m.a2;
-    o.k = m.k;
-    o.d = m.d;
+    o.scale = sqrt(max(abs(m.a2), 1.0));
+    float unit = 1.0 / o.scale, unit2 = unit * unit;
+    o.a2 = m.a2 * unit2;
+    o.k = m.k * unit2 * unit;
+    o.d = m.d * unit2 * unit2;
+    float g = 0.25 * (o.k * o.k + o.d * o.a2);
     o.g16 = 16.0 * g;
     o.m3 = -128.0 * g;
-    o.m4 = -64.0 * (m.a2 * g - 0.25 * m.d * m.d);
-    float g2 = m.a2 * m.a2 * (1.0 / 12.0) - m.d;
-    float g3 = m.a2 * (m.a2 * m.a2 * (1.0 / 432.0) - g2 * (1.0 / 12.0)) - g;
-    o.s1 = m.a2 * (-1.0 / 12.0);
+    o.m4 = -64.0 * (o.a2 * g - 0.25 * o.d * o.d);
+    float g2 = o.a2 * o.a2 * (1.0 / 12.0) - o.d;
+    float g3 = o.a2 * (o.a2 * o.a2 * (1.0 / 432.0) - g2 * (1.0 / 12.0)) - g;
+    o.s1 = o.a2 * (-1.0 / 12.0);
     o.s2 = g2 * (1.0 / 20.0);
     o.s3 = g3 * (1.0 / 28.0);
     o.s4 = g2 * g2 * (1.0 / 1200.0);
@@ -64,7 +67,7 @@ struct kd_radius { float w; bool valid; };
 kd_radius kd_radial_at(kd_radial o, float tau, int extra)
 {
     kd_radius r;
-    float z = tau * (0.125 / float(1 << extra)), z2 = z * z;
+    float z = tau * o.scale * (0.125 / float(1 << extra)), z2 = z * z;
     float q = 0.25 * z2 / (1.0 + z2 * (o.s1 + z2 * (o.s2 + z2 * (o.s3 + z2 * (o.s4 + z2 * o.s5)))));
     float low = q;
     for (int i = 0; i < extra; i++) {
@@ -85,8 +88,9 @@ kd_radius kd_radial_at(kd_radial o, float tau, int extra)
     float dq = 2.0 * sqrt(max(n, 0.0)) * inv * inv * (nq * mm - n * mq);
     float ddq = 0.5 + q2 * (o.a2 + q2 * (6.0 * o.d + q2 * 2.0 * o.g16));
     float den = 1.0 / (1.0 + 4.0 * o.d * q2 * q2);
-    r.w = (2.0 * dq + 4.0 * o.k * q2 * q2) * den;
-    float dw = ddq + 4.0 * q2 * dq * (o.k - o.d * r.w); /* half of dw/dtau, over den */
+    float v = (2.0 * dq + 4.0 * o.k * q2 * q2) * den;
+    float dw = ddq + 4.0 * q2 * dq * (o.k - o.d * v); /* half of dw/dtau, over den */
+    r.w = v / o.scale;
     r.valid = min(low, q2) > 0.0 && r.w > 0.0 && r.w < o.horizon && (o.limit == 0.0 || (dw > 0.0 && tau < o.limit));
     return r;
 }

@@ -48,6 +48,7 @@ struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
     if (low < 0) { /* grey of luminance 1 is (1, 1, 1): c + s (1 - c) with the least s that lifts `low` to 0 */
         double s = low / (low - 1);
         c = (struct kd_colour_rgb){ c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };
+        c = (struct kd_colour_rgb){ fmax(c.r, 0), fmax(c.g, 0), fmax(c.b, 0) }; /* the lifted one by rounding */
     }
     return c;
 }

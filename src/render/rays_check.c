@@ -60,7 +60,7 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
     if (!status && (!n || n > KD_RAYS_MAX))
         status = kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX);
     double s = sin(p->inclination_deg * (M_PI / 180)), u2 = 1 - s * s, a = p->spin, r = p->r;
-    double delta = (r - 2) * r + a * a;
+    double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
     for (size_t i = 0; i < n && !status; i++) {
         double alpha = alpha_beta[2 * i], beta = alpha_beta[2 * i + 1];
         status = check_number(alpha, i, 0, error);

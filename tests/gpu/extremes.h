@@ -22,8 +22,8 @@ struct extreme_row {
     size_t broken;              /* rays with a number that is not finite, or a wrong fate or crossing of which nothing warns */
 };
 
-/* Print a row, the first one under its heading. It breaks if `broken` is not 0, a worst error exceeds its bound, more rays are unsure
- * than may be, or more than one in a hundred is loose. */
+/* Print a row, the first one under its heading. It breaks if `broken` is not 0, a worst error exceeds its bound, more rays are
+ * unsure than may be, or more than one in a hundred is loose. */
 void extreme_row(const struct extreme_row *row);
 /* Rows so far; of them, those that broke. */
 size_t extreme_rows(size_t *broken);

@@ -14,8 +14,8 @@ static struct kd_null_path moved(const struct kd_null_ray *ray, int input, doubl
     inputs(&near, x);
     *x[input] *= 1 + by;
     near.cos_theta = fmax(-1, fmin(1, near.cos_theta));
-    if (!(fabs(near.spin) < 1)) /* beyond is nothing: as far the other way */
-        near.spin = ray->spin * (1 - fabs(by));
+    if (input == 3) /* taken from the cosine */
+        near.sin_theta = 0;
     return kd_null_trace_fast(&near);
 }
 
@@ -25,8 +25,8 @@ void extreme_condition(const struct kd_null_ray *ray, const struct kd_null_path 
     for (int n = 0; n < path->crossings; n++)
         r[n] = phi[n] = 0;
     for (int k = 0; k < EXTREME_INPUTS; k++) {
-        struct kd_null_path near = moved(ray, k, -step);
         double w = weight ? weight[k] : 1;
+        struct kd_null_path near = moved(ray, k, -step); /* less, of a spin too */
         for (int n = 0; n < path->crossings; n++) {
             const struct kd_null_crossing *x = &path->crossing[n], *y = &near.crossing[n];
             bool lost = n >= near.crossings;
@@ -36,10 +36,13 @@ void extreme_condition(const struct kd_null_ray *ray, const struct kd_null_path 
     }
 }
 
-bool extreme_steady(const struct kd_null_ray *ray, const struct kd_null_path *path, double step, const double weight[EXTREME_INPUTS])
+bool extreme_steady(const struct kd_null_ray *ray, const struct kd_null_path *path, double step,
+                    const double weight[EXTREME_INPUTS])
 {
     for (int k = 0; k < 2 * EXTREME_INPUTS; k++) {
         double by = step * (weight ? weight[k / 2] : 1);
+        if (k / 2 == 2) /* whoever rounds a spin takes the horizon from where it is exact */
+            by = fmin(by, 0.1 * (1 - fabs(ray->spin)));
         struct kd_null_path near = moved(ray, k / 2, k % 2 ? by : -by);
         if (near.crossings != path->crossings || near.fate != path->fate || near.status != path->status)
             return false;

@@ -14,6 +14,8 @@ int main(void)
     size_t broken;
     extreme_closed();
     extreme_rays(renderer);
+    extreme_lenses(renderer);
+    extreme_pictures(renderer);
     size_t rows = extreme_rows(&broken);
     printf("%zu rows, %zu broken\n", rows, broken);
     return close_renderer(broken > 0);

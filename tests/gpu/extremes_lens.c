@@ -1,0 +1,203 @@
+/* The lens maps of pictures at the extremes: every plane finite, radii, azimuths and fates against the closed form, for cameras at
+ * infinity and at rest in a locally non-rotating frame next to the horizon.
+ *
+ * A picture's ray knows its labels as well as a float does: those of a finite camera are differences, E = e0 + e1 m_phi and L
+ * likewise, and cost the digits that cancel there. Rays that are others when all inputs move by a few roundings are unsure. */
+#include "extremes.h"
+
+#include "physics/kerr.h"
+#include "render/camera.h"
+#include "vk/vk.h"
+
+#include "interface.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { GRID = 20, RAYS = GRID * GRID, ORDERS = 8, PLANES = 2 * ORDERS + 3 };
+
+struct kernel {
+    const char *name;
+    struct kd_needs needs;
+    int profile;
+    double bound, phi_bound;
+};
+
+/* What docs/accuracy.md says of them; the closed form's series starts at an eighth of the time and loses a digit at order 7. */
+static const struct kernel kernels[] = {
+    { "lens_radius", { .disk = true }, KD_PROFILE_BALANCED, 5e-6, INFINITY },
+    { "lens_map 8", { .disk = true, .sky = true }, KD_PROFILE_BALANCED, 5e-6, INFINITY },
+    { "lens_map 16", { .disk = true, .phi = true, .sky = true }, KD_PROFILE_HIGH, 5e-6, 2e-6 },
+};
+
+struct camera { const char *what; double spin, inclination, r, field, beta, yaw; };
+
+static struct kd_scene scene_of(const struct camera *v, int profile)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = v->spin;
+    scene.camera.inclination_deg = v->inclination;
+    scene.camera.r = v->r;
+    scene.camera.observer = isinf(v->r) ? KD_OBSERVER_STATIC : KD_OBSERVER_ZAMO;
+    *(isinf(v->r) ? &scene.camera.field_m : &scene.camera.fov_deg) = v->field;
+    scene.camera.centre_beta = v->beta;
+    scene.camera.yaw_deg = v->yaw;
+    scene.image.width = scene.image.height = GRID;
+    scene.accuracy.orders = ORDERS;
+    scene.accuracy.profile = profile;
+    return scene;
+}
+
+/* The ray of a pixel with the kernel's own arithmetic, and how much more its labels are off than one rounding; false for E <= 0,
+ * which the closed form does not know. */
+static bool ray_of(const struct camera *v, const struct kd_camera_push *c, int pixel, struct kd_null_ray *ray, double *weight)
+{
+    float x = (float)(pixel % GRID) - c->middle_x, y = c->middle_y - (float)(pixel / GRID);
+    float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
+    double i = v->inclination;
+    *ray = (struct kd_null_ray) { .spin = v->spin, .radius = v->r, .cos_theta = i == 90 ? 0 : cos(i * (M_PI / 180)),
+                                  .sin_theta = i == 180 ? 0 : sin(i * (M_PI / 180)), .alpha = kx, .beta = ky, .orders = ORDERS };
+    for (int k = 0; k < EXTREME_INPUTS; k++)
+        weight[k] = 1;
+    if (isinf(v->r))
+        return true;
+    float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
+    double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi, l = c->l0 + c->l1 * m_phi;
+    ray->alpha = -l / energy;
+    ray->beta = -c->cp * ky * n / energy;
+    ray->outward = kx > 0;
+    double cancels = (fabs(c->e0) + fabs(c->e1 * m_phi)) / fabs(energy);
+    weight[0] = cancels + (fabs(c->l0) + fabs(c->l1 * m_phi)) / fmax(fabs(l), 1e-30);
+    weight[1] = cancels + 1;
+    return energy > 1e-6;
+}
+
+struct tally { double r[RAYS * ORDERS], phi; size_t n; };
+
+static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
+
+static void judge(const struct camera *v, const struct kd_plan *plan, const float *map, const struct kd_null_ray *ray,
+                  const double *weight, struct tally *t, struct extreme_row *row)
+{
+    struct kd_null_path p = kd_null_trace(ray);
+    double gain[KD_NULL_ORDERS], phi_gain[KD_NULL_ORDERS], least = INFINITY;
+    const float *fate = map + (plan->planes - 1) * plan->rays;
+    int found = 0;
+    for (uint32_t k = 0; k < plan->planes; k++)
+        if (!isfinite(map[k * plan->rays])) {
+            row->broken++;
+            return;
+        }
+    while (found < ORDERS && map[(uint64_t)found * plan->rays] > 0)
+        found++;
+    for (int n = 0; n < p.crossings; n++) { /* from the horizon, and on the way out from infinity */
+        double w = 1 / p.crossing[n].r;
+        least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_kerr_horizon(v->spin) - w));
+    }
+    /* Some twenty roundings: as many as the chain from a pixel to its labels and the motion has. */
+    bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
+    extreme_condition(ray, &p, 1e-9, weight, gain, phi_gain);
+    if (!steady || (p.crossings && gain[p.crossings - 1] > 1e5)) {
+        row->unsure++;
+        return;
+    }
+    row->broken += found != p.crossings || (plan->sky && (*fate == (float)KD_FATE_ESCAPED) != (p.fate == KD_NULL_ESCAPED));
+    for (int n = 0; n < p.crossings && n < found; n++) {
+        const struct kd_null_crossing *x = &p.crossing[n];
+        double w = map[(uint64_t)n * plan->rays];
+        t->r[t->n++] = fmax(fabs(1 / w / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
+        if (!plan->phi || x->r < 1.6 * kd_kerr_horizon(v->spin))
+            continue;
+        double phi = map[(uint64_t)(ORDERS + n) * plan->rays];
+        t->phi = fmax(t->phi, fmax(turn(phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]));
+    }
+}
+
+/* A thousandth of M at the edge of the shadow: nothing is sure. In the throat of an extremal hole all rays that come to infinity
+ * have L = 2E within 1e-4: half their digits are lost with the labels. */
+static double unsure_most(const struct camera *v)
+{
+    return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;
+}
+
+static void look(struct kd_renderer *renderer, const struct camera *v, const struct kernel *kernel)
+{
+    static struct tally t;
+    static float planes[PLANES * RAYS];
+    struct extreme_row row = { .engine = kernel->name, .rays = RAYS, .bound = kernel->bound, .phi_bound = kernel->phi_bound,
+                               .unsure_most = unsure_most(v) };
+    struct kd_scene scene = scene_of(v, kernel->profile);
+    struct kd_camera_push camera = kd_camera_push(&scene);
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_error error = { 0 };
+    kd_renderer_capacity(renderer, &capacity);
+    snprintf(row.what, sizeof row.what, "%s", v->what);
+    t.n = 0, t.phi = 0;
+    if (kd_scene_validate(&scene, &error) || kd_plan_make_for(&scene, &kernel->needs, &capacity, &plan, &error) ||
+        kd_render_lens(renderer, &scene, &plan, planes, NULL, &error)) {
+        printf("%s: %s\n", v->what, error.message);
+        row.broken = RAYS;
+        extreme_row(&row);
+        return;
+    }
+    for (int k = 0; k < RAYS; k++) {
+        struct kd_null_ray ray;
+        double weight[EXTREME_INPUTS];
+        if (ray_of(v, &camera, k, &ray, weight)) {
+            judge(v, &plan, planes + k, &ray, weight, &t, &row);
+            continue;
+        }
+        for (uint32_t n = 0; n < plan.planes; n++)
+            row.broken += !isfinite(planes[n * plan.rays + (uint64_t)k]);
+    }
+    extreme_spread(t.r, t.n, &row);
+    row.phi = t.n && plan.phi ? t.phi : NAN;
+    extreme_row(&row);
+}
+
+static void look_with_all(struct kd_renderer *renderer, const struct camera *v)
+{
+    for (int k = isinf(v->r) ? 0 : 1; k < 3; k++)
+        look(renderer, v, &kernels[k]);
+}
+
+void extreme_lenses(struct kd_renderer *renderer)
+{
+    const double near1 = 0.999999999999, up = nextafter(90, 91), down = nextafter(90, 0);
+    const struct camera far[] = {
+        { "a 0, i 90-", 0, down, INFINITY, 24, 0, 0 },
+        { "a 5e-324, i 0+", 5e-324, 5e-324, INFINITY, 24, 0, 0 },
+        { "a 0.9, i 90, 21 M", 0.9, 90, INFINITY, 21, 0, 0 },
+        { "a 0.9, i 180", 0.9, 180, INFINITY, 24, 0, 0 },
+        { "a 1-1e-7, i 85", 0.9999999, 85, INFINITY, 20, 0, 0 },
+        { "a 1-1e-12, i 0", near1, 0, INFINITY, 24, 0, 0 },
+        { "a 1-1e-12, i 60", near1, 60, INFINITY, 24, 0, 0 },
+        { "a 1-1e-12, i 90+", near1, up, INFINITY, 24, 0, 0 },
+        { "a -1+1e-12, i 90", -near1, 90, INFINITY, 24, 0, 0 },
+        { "a -1+1e-12, i 120", -near1, 120, INFINITY, 24, 0, 0 },
+        { "a 0.9, i 60, 1e5 M", 0.9, 60, INFINITY, 1e5, 0, 0 },
+        { "a 0, i 60, 1e-6 M at the edge", 0, 60, INFINITY, 1e-6, 5.196152422706632, 0 },
+    };
+    for (size_t k = 0; k < sizeof far / sizeof *far; k++)
+        look_with_all(renderer, &far[k]);
+    static const struct { const char *name; double a; } spins[] = { { "a 0", 0 }, { "a 0.9", 0.9 }, { "a 1-1e-12", 0.999999999999 },
+                                                                    { "a -1+1e-12", -0.999999999999 } };
+    for (int a = 0; a < 4; a++) {
+        double spin = spins[a].a;
+        const struct { const char *name; double r, fov, yaw; } places[] = {
+            { "1.0001 r+", 1.0001 * kd_kerr_horizon(spin), 120, 180 }, { "r photon", kd_kerr_photon_orbit(spin), 120, 90 },
+            { "r photon, retrograde", kd_kerr_photon_orbit(-spin), 120, 90 }, { "r 1e6", 1e6, 2e-3, 0 },
+        };
+        for (int k = 0; k < 8; k++) {
+            char what[48];
+            if (places[k / 2].r < 1.000001 * kd_kerr_horizon(spin)) /* a prograde photon orbit that a float does not part from it */
+                continue;
+            snprintf(what, sizeof what, "%s, i %d, %s", spins[a].name, k % 2 ? 90 : 60, places[k / 2].name);
+            look_with_all(renderer, &(struct camera) { what, spin, k % 2 ? 90 : 60, places[k / 2].r, places[k / 2].fov, 0,
+                                                        places[k / 2].yaw });
+        }
+    }
+}
