@@ -98,41 +98,46 @@ static void defaults_answer(void **state)
     }
 }
 
-/* What is kept from point to point changes nothing: each point of a range is what it is on its own. */
+/* Each point of a range of parameter i is what it is on its own. */
+static void points_of(struct kd_quantity_request request, size_t i)
+{
+    struct kd_quantity_answer curve, point;
+    const struct kd_parameter *p = &request.quantity->parameters[i];
+    size_t outputs = request.quantity->n_outputs, inner = 1;
+    double at = request.axes[i].first;
+    request.axes[i] = (struct kd_axis) { at, at + 0.04 * (p->maximum < 2 * at + 1 ? p->maximum - at : at + 1), 3 };
+    assert_int_equal(kd_quantity_evaluate(&request, &curve, NULL), KD_OK);
+    for (size_t k = i + 1; k < request.quantity->n_parameters; k++)
+        inner *= request.axes[k].count;
+    for (size_t k = 0; k < 3; k++) {
+        struct kd_quantity_request single = request;
+        single.axes[i].first = single.axes[i].last = kd_axis_at(&request.axes[i], k);
+        single.axes[i].count = 1;
+        assert_int_equal(kd_quantity_evaluate(&single, &point, NULL), KD_OK);
+        for (size_t o = 0; o < point.points / inner; o++)
+            assert_memory_equal(point.values + o * inner * outputs, curve.values + (o * 3 + k) * inner * outputs,
+                                inner * outputs * sizeof *point.values);
+        kd_quantity_answer_finish(&point);
+    }
+    kd_quantity_answer_finish(&curve);
+}
+
+/* What is kept from point to point changes nothing, whether the other parameters are ranges or not. */
 static void points_stand_alone(void **state)
 {
     (void)state;
-    for (size_t q = 0; q < kd_quantity_count; q++) {
-        const struct kd_quantity *quantity = kd_quantities[q];
-        for (size_t i = 0; i < quantity->n_parameters; i++) {
-            const struct kd_parameter *p = &quantity->parameters[i];
+    for (size_t q = 0; q < kd_quantity_count; q++)
+        for (size_t i = 0; i < kd_quantities[q]->n_parameters; i++) {
+            const struct kd_parameter *p = &kd_quantities[q]->parameters[i];
             struct kd_quantity_request request;
-            struct kd_quantity_answer curve;
-            kd_quantity_request_init(&request, quantity);
-            double at = request.axes[i].first;
-            if (p->words || p->whole || isinf(at))
+            kd_quantity_request_init(&request, kd_quantities[q]);
+            if (p->words || p->whole || isinf(request.axes[i].first))
                 continue;
-            request.axes[i] = (struct kd_axis) { at, at + 0.04 * (p->maximum < 2 * at + 1 ? p->maximum - at : at + 1), 3 };
-            assert_int_equal(kd_quantity_evaluate(&request, &curve, NULL), KD_OK);
-            size_t inner = 1;
-            for (size_t k = i + 1; k < quantity->n_parameters; k++)
-                inner *= request.axes[k].count;
-            for (size_t k = 0; k < 3; k++) {
-                struct kd_quantity_request single = request;
-                struct kd_quantity_answer point;
-                single.axes[i].first = single.axes[i].last = kd_axis_at(&request.axes[i], k);
-                single.axes[i].count = 1;
-                assert_int_equal(kd_quantity_evaluate(&single, &point, NULL), KD_OK);
-                size_t outer = point.points / inner;
-                for (size_t o = 0; o < outer; o++)
-                    assert_memory_equal(point.values + o * inner * quantity->n_outputs,
-                                        curve.values + (o * 3 + k) * inner * quantity->n_outputs,
-                                        inner * quantity->n_outputs * sizeof *point.values);
-                kd_quantity_answer_finish(&point);
-            }
-            kd_quantity_answer_finish(&curve);
+            points_of(request, i);
+            for (size_t k = 0; k < kd_quantities[q]->n_parameters; k++)
+                request.axes[k] = (struct kd_axis) { request.axes[k].last, request.axes[k].last, 1 };
+            points_of(request, i);
         }
-    }
 }
 
 static void bad_requests(void **state)
@@ -223,18 +228,18 @@ static void json_of_a_curve(void **state)
 static void csv_has_a_line_a_point(void **state)
 {
     (void)state;
-    struct kd_quantity_answer answer = ASK("frame-dragging", "r", "2:10:3", "theta_deg", "0:90:2");
+    struct kd_quantity_answer answer = ASK("frame-dragging", "spin", "0.5:0.75:2", "r", "2:10:3", "theta_deg", "0:90:2");
     struct kd_buffer text = { 0 };
     assert_int_equal(kd_quantity_csv(&answer, &text), KD_OK);
     char *line = strtok((char *)text.data, "\n");
     assert_string_equal(line, "spin,theta_deg,r,omega,far_field,omega_least,omega_most,horizon_omega,ergosphere");
-    for (size_t point = 0; point < 6; point++) {
+    for (size_t point = 0; point < 12; point++) {
         double spin, theta, r, omega;
         line = strtok(NULL, "\n");
         assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf", &spin, &theta, &r, &omega), 4);
-        assert_true(spin == 0.9 && theta == (point < 3 ? 0 : 90) && r == 2 + 4 * (double)(point % 3));
+        assert_true(spin == (point < 6 ? 0.5 : 0.75) && theta == (point % 6 < 3 ? 0 : 90) && r == 2 + 4 * (double)(point % 3));
         assert_true(omega == value(&answer, point, "omega"));
-        assert_int_equal(strstr(line, ",,,") != NULL, point < 3); /* on the axis there is no cone */
+        assert_int_equal(strstr(line, ",,,") != NULL, point % 6 < 3); /* on the axis there is no cone */
     }
     assert_null(strtok(NULL, "\n"));
     kd_buffer_finish(&text);

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""The plots of docs/physics.md, from the numbers of `kerrd physics`.
+
+    bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs]
+
+Needs matplotlib (pip install matplotlib). Writes physics-holes.svg and physics-light.svg.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+
+import matplotlib
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+
+BLUE, SKY, GREEN, ORANGE, RED, PINK = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7" # Okabe and Ito
+KERRD = "build/src/kerrd"
+
+
+def ask(name, **parameters):
+    """(parameters, values) of an answer; a missing number is None, which leaves a gap in a line."""
+    options = [f"--{key.replace('_', '-')}={value}" for key, value in parameters.items()]
+    answer = json.loads(subprocess.run([KERRD, "physics", name, *options], check=True, stdout=subprocess.PIPE).stdout)
+    return answer["parameters"], {key: [float("nan") if x is None else x for x in value] if isinstance(value, list) else value
+                                  for key, value in answer["values"].items()}
+
+
+def radii(axes):
+    p, v = ask("kerr", spin="-0.9999:0.9999:121", r="isco")
+    for name, label, colour in (("isco", "ISCO", BLUE), ("marginally_bound", "marginally bound", GREEN),
+                                ("photon_prograde", "photon orbit", ORANGE), ("horizon", "horizon", "black")):
+        axes.plot(p["spin"], v[name], color=colour, label=label)
+    axes.axhline(2, color="0.6", linestyle=":", label="static limit in the plane")
+    axes.set(xlabel="spin a", ylabel="r / M", ylim=(0, 9.5), title="Circular orbits (a < 0: against the hole)")
+
+
+def frequencies(axes):
+    for a, style in ((0, "--"), (0.9, "-")):
+        p, v = ask("kerr", spin=a, r="2:14:121")
+        for name, label, colour in (("omega_phi", "Ω", "black"), ("omega_theta", "Ω θ", BLUE), ("kappa", "κ", RED)):
+            axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
+    axes.set(xlabel="r / M", ylabel="M × angular frequency", yscale="log", ylim=(6e-3, 0.4), title="Orbit and its small oscillations")
+
+
+def potential(axes):
+    for l, colour in ((2, SKY), (12**0.5, BLUE), (3.75, GREEN), (4, ORANGE), (4.3, RED)):
+        p, v = ask("potential", l=l, r="2:24:221")
+        axes.plot(p["r"], v["v_matter"], color=colour, label=f"L = {l:.4g}")
+        if isinstance(v["r_min_matter"], float) and v["r_max_matter"]:
+            axes.plot([v["r_min_matter"], v["r_max_matter"]], [v["v_min_matter"], v["v_max_matter"]], ".", color=colour)
+    axes.set(xlabel="r / M", ylabel="V", ylim=(0.85, 1.08), title="Effective potential of matter, a = 0; dots: its extrema")
+
+
+def embedding(axes):
+    for a, colour in ((0, BLUE), (0.9, GREEN), (0.999, RED)):
+        horizon = ask("kerr", spin=a)[1]["horizon"]
+        _, v = ask("flamm", spin=a, r=f"{horizon!r}:16:161")
+        axes.plot(v["radius"], v["z"], color=colour, label=f"a = {a}")
+        axes.plot([-x for x in v["radius"]], v["z"], color=colour)
+    axes.set(xlabel="circumference / 2π", ylabel="z / M", title="The equatorial plane embedded in flat space", aspect="equal")
+
+
+def shadows(axes):
+    for a, colour in ((0, "black"), (0.5, BLUE), (0.9, GREEN), (0.998, RED)):
+        _, v = ask("shadow", spin=a, inclination_deg=85, angle_deg="0:360:121")
+        axes.plot(v["alpha"], v["beta"], color=colour, label=f"a = {a}")
+    axes.set(xlabel="α / M", ylabel="β / M", title="Edge of the shadow at i = 85°", aspect="equal", xlim=(-10, 8))
+
+
+def redshift(axes):
+    p, v = ask("redshift", spin=0, inclination_deg=75, r=6, phi_deg="0:360:121")
+    for name, label, colour, style in (("g", "direct image", BLUE, "-"), ("g_1", "order 1", RED, "-"), ("g_flat", "straight rays", "0.4", ":")):
+        axes.plot(p["phi_deg"], v[name], style, color=colour, label=label)
+    axes.set(xlabel="φ on the ring, degrees", ylabel="g", title="Redshift round the ISCO, a = 0, i = 75°", xticks=range(0, 361, 90))
+
+
+def flux(axes):
+    for a, colour in ((0, BLUE), (0.9, GREEN), (0.998, RED)):
+        isco = ask("kerr", spin=a)[1]["isco"]
+        p, v = ask("disk-flux", spin=a, r=f"{isco!r}:20:301")
+        axes.plot(p["r"], v["page_thorne"], color=colour, label=f"a = {a}")
+        axes.plot(p["r"], v["shakura_sunyaev"], ":", color=colour)
+    axes.set(xlabel="r / M", ylabel="F M² / Ṁ", yscale="log", ylim=(1e-6, 2e-2), title="Disk flux; dotted: Newton's, cut at the ISCO")
+
+
+def colours(axes):
+    p, v = ask("blackbody", temperature_k="1000:12000:111")
+    for i, t in enumerate(p["temperature_k"]):
+        axes.axvspan(t - 50, t + 50, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)
+    for name, style in (("srgb_r", "-"), ("srgb_g", "--"), ("srgb_b", ":")):
+        axes.plot(p["temperature_k"], v[name], style, color="black", label=name[-1].upper())
+    axes.set(xlabel="T / K", ylabel="encoded sRGB", xlim=(1000, 12000), title="Colour of a black body")
+
+
+def draw(panels, path):
+    figure, grid = plt.subplots(2, 2, figsize=(9.5, 7.5))
+    for panel, axes in zip(panels, grid.flat):
+        panel(axes)
+        axes.title.set_fontsize(9)
+        axes.tick_params(labelsize=8)
+        axes.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})
+
+
+def main():
+    global KERRD
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--kerrd", default=KERRD)
+    parser.add_argument("-o", "--output", default="docs", type=pathlib.Path)
+    arguments = parser.parse_args()
+    KERRD = arguments.kerrd
+    plt.rcParams.update({"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}) # the same file each time
+    draw((radii, frequencies, potential, embedding), arguments.output / "physics-holes.svg")
+    draw((shadows, redshift, flux, colours), arguments.output / "physics-light.svg")
+
+
+if __name__ == "__main__":
+    main()
