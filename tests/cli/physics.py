@@ -25,6 +25,14 @@ class Physics(Case):
         self.assertEqual(curve["isco"][0], values["isco"])
         self.assertEqual(curve["isco"][1], curve["isco_retrograde"][1])
 
+    def test_ringdown(self):
+        rows = list(csv.DictReader(io.StringIO(self.good("physics", "qnm", "--spin", "0:0.68:2", "-f", "csv").decode())))
+        # Berti's public table, and Stein 2019
+        for row, omega in zip(rows, (0.3736716844180419, 0.5239751042900845)):
+            self.assertAlmostEqual(float(row["omega_re"]), omega, delta=1e-13)
+        self.bad(2, "(at /m)", "physics", "qnm", "--l", "3", "--m=-4")
+        self.bad(2, "-3 to 3", "physics", "qnm", "--l", "3", "--m=-4")
+
     def test_forms(self):
         options = ["physics", "disk-flux", "--mass-msun", "10", "--r", "5:25:5"]
         table = self.good(*options, "-f", "csv")

@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import math
 import time
 import unittest
 
@@ -80,6 +81,55 @@ class Physics(daemon.Case):
             self.assertAlmostEqual(values['x'][i]**2 + values['y'][i]**2, (2 + 2 * (i // 9))**2, delta=1e-12)
             self.assertAlmostEqual(values['z'][i], values['flamm'][i], delta=1e-13)
 
+    def values(self, target):
+        return self.daemon.get('/v1/physics/' + target).json()['values']
+
+    def test_ringdown(self):
+        """Leaver 1985, table 1, and Stein's example of 2019; the same mode with the hole turned over."""
+        still = self.values('qnm?spin=0&n=1&m=-1')
+        self.assertAlmostEqual(2 * still['omega_re'], 0.693422, delta=1e-6)
+        self.assertAlmostEqual(2 * still['omega_im'], -0.547830, delta=1e-6)
+        self.assertEqual((still['fit_quality'], still['quality_cubic']), (None, None))
+        mode, turned = self.values('qnm?spin=0.68&t=10'), self.values('qnm?spin=-0.68&m=-2&t=10')
+        self.assertEqual(mode, turned)
+        self.assertAlmostEqual(mode['omega_re'], 0.5239751042900845, delta=1e-13)
+        self.assertAlmostEqual(mode['quality'], mode['omega_re'] / -2 / mode['omega_im'], delta=1e-14)
+        self.assertAlmostEqual(mode['quality_cubic'], 2.1 + 11.3 * 0.68**3, delta=1e-14)
+        self.assertGreater(mode['quality_cubic_error'], 0.7)
+        self.assertLess(abs(mode['fit_quality_error']), 0.009)
+        # 1/(2 pi) of it over 60 solar masses of 4.9255 us each
+        self.assertAlmostEqual(mode['frequency_hz'], 0.52397510 / 2 / math.pi / (60 * 4.925490947e-6), delta=1e-5)
+        self.assertAlmostEqual(mode['wave'], math.exp(10 * mode['omega_im']) * math.cos(10 * mode['omega_re']), delta=1e-14)
+        start = time.monotonic()
+        curve = self.values('qnm?spin=0:0.998:100')
+        self.assertLess(time.monotonic() - start, 1)  # 10 ms of work on a machine of its own
+        self.assertEqual(curve['quality'], sorted(curve['quality']))
+
+    def test_bending(self):
+        far, near = self.values('deflection?spin=0&b=1e6'), self.values('deflection?spin=0.9&b=2:8:7')
+        self.assertAlmostEqual(far['angle'], 4.0000117810151178e-6, delta=1e-19)  # tests/oracle/deflection_reference.py
+        self.assertEqual((far['angle'], far['weak']), (far['angle_retrograde'], 4e-6))
+        for b, angle, against in zip(range(2, 9), near['angle'], near['angle_retrograde']):
+            self.assertEqual((angle is None, against is None), (b < 2.844, b < 6.832))
+
+    def test_pulsar(self):
+        """Weisberg, Nice & Taylor 2010."""
+        values = self.values('inspiral')
+        self.assertAlmostEqual(values['period_rate'], -2.402531e-12, delta=1e-16)
+        self.assertAlmostEqual(values['time_yr'], 3.0e8, delta=5e6)
+        chirp = self.values('inspiral?before_s=0.001:1:2')
+        self.assertEqual((chirp['chirp_hz'][0], chirp['chirp_strain'][0]), (None, None))  # inside 6 M
+        self.assertAlmostEqual(chirp['chirp_hz'][1], 134 * (1.21 / chirp['chirp_mass'])**0.625, delta=1)
+
+    def test_torn_star(self):
+        values = self.values('tidal')
+        self.assertAlmostEqual(values['fallback_days'], 41, delta=0.2)
+        self.assertEqual(values['rate_msun_yr'], values['peak_msun_yr'])
+        at_capture = self.values(f"tidal?mass_msun={values['capture_msun']!r}")
+        self.assertAlmostEqual(at_capture['pericentre_over_capture'], 1, delta=1e-14)
+        end = self.values(f"tidal?time_days={values['above_eddington_days']!r}")
+        self.assertAlmostEqual(end['rate_msun_yr'] * values['peak_eddington'], values['peak_msun_yr'], delta=1e-12)
+
     def test_refused(self):
         for query, pointer, words in (
                 ('spin=1', '/spin', 'above -1 and below 1'), ('spin=-1.5', '/spin', '"-1.5"'), ('spin=NaN', '/spin', 'NaN'),
@@ -95,7 +145,9 @@ class Physics(daemon.Case):
         for target, pointer in (('redshift?inclination_deg=90', '/inclination_deg'), ('redshift?r=1.2', '/r'),
                                 ('shadow?observer_r=1.9&inclination_deg=90', '/observer_r'), ('scale?hole=none', '/mass_msun'),
                                 ('scale?hole=none&mass_msun=1', '/distance_pc'), ('flamm?r=1.5', '/r'), ('potential?r=1', '/r'),
-                                ('frame-dragging?r=1', '/r'), ('disk-flux?mdot_edd=0', '/mdot_edd'), ('scale?hole=m31', '/hole'),
+                                ('frame-dragging?r=1', '/r'), ('qnm?m=3', '/m'), ('qnm?l=5', '/l'), ('qnm?n=0.5', '/n'),
+                                ('qnm?spin=0.99995', '/spin'), ('inspiral?eccentricity=1', '/eccentricity'),
+                                ('inspiral?period_s=1e-4', '/period_s'), ('deflection?spin=1', '/spin'), ('tidal?penetration=0', '/penetration'), ('disk-flux?mdot_edd=0', '/mdot_edd'), ('scale?hole=m31', '/hole'),
                                 ('blackbody?temperature_k=0', '/temperature_k')):
             with self.subTest(target):
                 problem = self.assertProblem(self.daemon.get('/v1/physics/' + target), 422, 'invalid-parameters')

@@ -1,0 +1,67 @@
+#include "quantity/define.h"
+
+#include "physics/deflection.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    KD_PARAMETER_SPIN(P)                                                                                               \
+    P(b, .unit = "M", .initial = "10", .minimum = 1, .maximum = 1e12, .along = true,                                   \
+      .help = "impact parameter of light in the equatorial plane, |L|/E")
+#define OUTPUTS(O)                                                                                                     \
+    O(angle, .unit = "radians", .help = "total bending towards +phi, whole turns included; null if captured, b < b_critical") \
+    O(angle_retrograde, .unit = "radians", .help = "the same of light that turns towards -phi")                        \
+    O(weak, .unit = "radians", .help = "weak field, 4/b")                                                              \
+    O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a)/b^2")                         \
+    O(weak_second_retrograde, .unit = "radians", .help = "the same towards -phi")                                      \
+    O(strong, .unit = "radians", .help = "limit next to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
+    O(strong_retrograde, .unit = "radians", .help = "the same towards -phi")                                           \
+    O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured")                  \
+    O(closest_retrograde, .unit = "M", .help = "the same towards -phi")                                                \
+    O(b_critical, .unit = "M", .fixed = true, .help = "impact parameter of the circular photon orbit towards +phi")    \
+    O(b_critical_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi")                              \
+    O(strong_rate, .unit = "1", .fixed = true, .help = "rate of the strong limit, 1 at spin 0") \
+    O(strong_offset, .unit = "radians", .fixed = true, .help = "its offset")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "C. G. Darwin 1959, Proc. R. Soc. Lond. A 249, 180; S. V. Iyer & E. C. Hioki 2009, arXiv:0907.0352",
+    "V. Bozza 2002, Phys. Rev. D 66, 103001 (strong limit)",
+    NULL,
+};
+static const char *const approximations[] = {
+    "angle is exact; weak, weak_second and strong are limits, shown to be compared",
+    NULL,
+};
+
+struct memory {
+    struct kd_deflection_strong with, against;
+};
+
+static double strong(struct kd_deflection_strong limit, double b, double critical)
+{
+    return b > critical ? limit.offset - limit.rate * log(b / critical - 1) : NAN;
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    struct memory *m = memory;
+    double a = p->spin, b = p->b;
+    (void)error;
+    if (fresh) {
+        *m = (struct memory) { kd_deflection_strong(a), kd_deflection_strong(-a) };
+        o->b_critical = kd_deflection_critical(a), o->b_critical_retrograde = kd_deflection_critical(-a);
+        o->strong_rate = m->with.rate, o->strong_offset = m->with.offset;
+    }
+    o->angle = kd_deflection(a, b), o->angle_retrograde = kd_deflection(-a, b);
+    o->weak = kd_deflection_weak(b);
+    o->weak_second = kd_deflection_weak_second(a, b);
+    o->weak_second_retrograde = kd_deflection_weak_second(-a, b);
+    o->strong = strong(m->with, b, o->b_critical);
+    o->strong_retrograde = strong(m->against, b, o->b_critical_retrograde);
+    o->closest = kd_deflection_closest(a, b), o->closest_retrograde = kd_deflection_closest(-a, b);
+    return KD_OK;
+}
+
+KD_QUANTITY(deflection, "deflection", "bending of light in the equatorial plane, exact and in its limits",
+            .memory_size = sizeof(struct memory), .point_us = 12, .fresh_us = 12)

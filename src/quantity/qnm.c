@@ -1,0 +1,89 @@
+#include "quantity/define.h"
+
+#include "physics/qnm.h"
+#include "physics/ringdown.h"
+#include "physics/scale.h"
+
+#include <stdlib.h>
+
+#define PARAMETERS(P)                                                                                                  \
+    P(l, .unit = "1", .initial = "2", .minimum = KD_QNM_L_MIN, .maximum = KD_QNM_L_MAX, .whole = true,                 \
+      .help = "multipole")                                                                                             \
+    P(m, .unit = "1", .initial = "2", .minimum = -KD_QNM_L_MAX, .maximum = KD_QNM_L_MAX, .whole = true,                \
+      .help = "azimuthal number, -l to l; m > 0 turns with a hole of positive spin")                                   \
+    P(n, .unit = "1", .initial = "0", .minimum = 0, .maximum = KD_QNM_N_MAX, .whole = true,                            \
+      .help = "overtone, counted at spin 0; 0 decays slowest")                                                         \
+    P(spin, .unit = "M", .initial = "0.7", .minimum = -KD_QNM_SPIN_MAX, .maximum = KD_QNM_SPIN_MAX,                    \
+      .help = "spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them")      \
+    P(mass_msun, .unit = "solar masses", .initial = "60", .minimum = 1e-3, .maximum = 1e12, .along = true,             \
+      .help = "mass of the hole, with any redshift: m (1 + z)")                                                        \
+    P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, .help = "time of the sample `wave`")
+#define OUTPUTS(O)                                                                                                     \
+    O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency")                                             \
+    O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate")                                        \
+    O(separation_re, .unit = "1", .fixed = true, .help = "separation constant A_lm(a omega), l(l+1) - 2 at spin 0")    \
+    O(separation_im, .unit = "1", .fixed = true, .help = "its imaginary part")                                         \
+    O(quality, .unit = "1", .fixed = true, .help = "Q = omega_re/(-2 omega_im)")                                       \
+    O(quality_cubic, .unit = "1", .fixed = true, .help = "2.1 + 11.3 a^3, which circulates for l = m = 2, n = 0; null else") \
+    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "how far it is off, relative")                          \
+    O(fit_omega_re, .unit = "1/M", .fixed = true, .help = "fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null else") \
+    O(fit_quality, .unit = "1", .fixed = true, .help = "their Q")                                                      \
+    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "how far it is off, relative")                           \
+    O(fit_quality_error, .unit = "1", .fixed = true, .help = "how far it is off, relative")                            \
+    O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun")                                             \
+    O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e")                                        \
+    O(t_s, .unit = "s", .help = "t for mass_msun")                                                                     \
+    O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "S. A. Teukolsky 1973, ApJ 185, 635; E. W. Leaver 1985, Proc. R. Soc. Lond. A 402, 285 (continued fractions)",
+    "H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (their remainder); S. R. Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (start at spin 0)",
+    "fit: E. Berti, V. Cardoso & C. M. Will 2006, Phys. Rev. D 73, 064030, table VIII",
+    "quality_cubic: no source found; for comparison alone",
+    NULL,
+};
+static const char *const approximations[] = {
+    "first order in the perturbation; gravitational waves (spin weight -2) alone",
+    "wave is one mode of amplitude and phase 1 and 0, not a signal",
+    NULL,
+};
+
+static void fill_fits(const struct parameters *p, struct outputs *o)
+{
+    double a = fabs(p->spin);
+    bool with = p->l == 2 && p->m == (p->spin < 0 ? -2 : 2);
+    struct kd_ringdown_fit fit = kd_ringdown_fit(with ? (int)p->n : -1, a);
+    o->quality_cubic = with && p->n == 0 ? kd_ringdown_quality_cubic(a) : NAN;
+    o->quality_cubic_error = o->quality_cubic / o->quality - 1;
+    o->fit_omega_re = fit.omega_re;
+    o->fit_quality = fit.quality;
+    o->fit_omega_re_error = fit.omega_re / o->omega_re - 1;
+    o->fit_quality_error = fit.quality / o->quality - 1;
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    (void)memory;
+    if (fabs(p->m) > p->l)
+        return kd_quantity_outside(error, "m", p->m, "and l is %g; allowed is -%g to %g", p->l, p->l, p->l);
+    if (fresh) {
+        struct kd_qnm mode;
+        if (!kd_qnm_find((int)p->l, (int)p->m, (int)p->n, p->spin, &mode))
+            return kd_quantity_outside(error, "spin", p->spin, "where the iteration for this mode does not settle");
+        o->omega_re = creal(mode.omega), o->omega_im = cimag(mode.omega);
+        o->separation_re = creal(mode.separation), o->separation_im = cimag(mode.separation);
+        o->quality = kd_ringdown_quality(mode.omega);
+        fill_fits(p, o);
+    }
+    double unit = kd_scale_seconds(p->mass_msun);
+    o->frequency_hz = o->omega_re / (2 * M_PI * unit);
+    o->damping_s = -unit / o->omega_im;
+    o->t_s = p->t * unit;
+    o->wave = kd_ringdown_wave(o->omega_re + I * o->omega_im, p->t);
+    return KD_OK;
+}
+
+KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .point_us = 1, .fresh_us = 200)

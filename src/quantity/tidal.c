@@ -1,0 +1,93 @@
+#include "quantity/define.h"
+
+#include "physics/constants.h"
+#include "physics/disk.h"
+#include "physics/kerr.h"
+#include "physics/scale.h"
+#include "physics/tidal.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true,                                    \
+      .help = "spin parameter a; a < 0: the star comes in against the hole's spin")                                    \
+    P(mass_msun, .unit = "solar masses", .initial = "1e6", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole") \
+    P(star_mass_msun, .unit = "solar masses", .initial = "1", .minimum = 1e-3, .maximum = 1e3, .help = "mass of the star") \
+    P(star_radius_rsun, .unit = "solar radii", .initial = "1", .minimum = 1e-6, .maximum = 1e4, .help = "its radius")  \
+    P(penetration, .unit = "1", .initial = "1", .minimum = 0.1, .maximum = 100, .along = true,                         \
+      .help = "tidal radius over pericentre of its parabolic orbit")                                                   \
+    P(time_days, .unit = "days", .initial = "fallback", .minimum = 0, .maximum = 1e9, .word = "fallback", .along = true, \
+      .help = "time after the disruption, for the rate of fallback; \"fallback\": when the first debris returns")
+#define OUTPUTS(O)                                                                                                     \
+    O(tidal_radius, .unit = "M", .fixed = true, .help = "r_t = R (M/m)^(1/3)")                                         \
+    O(tidal_radius_km, .unit = "km", .fixed = true, .help = "r_t")                                                     \
+    O(horizon, .unit = "M", .fixed = true, .help = "outer horizon")                                                    \
+    O(marginally_bound, .unit = "M", .fixed = true, .help = "parabolic orbits with a smaller pericentre are captured") \
+    O(hills_msun, .unit = "solar masses", .fixed = true, .help = "mass of a hole whose horizon is at r_t of this star (Hills)") \
+    O(capture_msun, .unit = "solar masses", .fixed = true, .help = "with the marginally bound orbit at r_t: the heaviest that tears it") \
+    O(energy_spread, .unit = "c^2", .fixed = true, .help = "half the range of specific energy in the debris, M R/r_t^2") \
+    O(fallback_s, .unit = "s", .fixed = true, .help = "time t_fb until the first debris returns")                      \
+    O(fallback_days, .unit = "days", .fixed = true, .help = "the same")                                                \
+    O(peak_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "largest rate of fallback, m/(3 t_fb)")      \
+    O(peak_eddington, .unit = "Eddington rates", .fixed = true, .help = "the same, with the efficiency of this spin")  \
+    O(above_eddington_days, .unit = "days", .fixed = true, .help = "until the rate falls to the Eddington rate; null if it is never above") \
+    O(pericentre, .unit = "M", .help = "r_t over penetration")                                                         \
+    O(pericentre_over_capture, .unit = "1", .help = "over marginally_bound: below 1 the star is swallowed whole") \
+    O(rate_msun_yr, .unit = "solar masses a year", .help = "rate of fallback at time_days, as t^(-5/3) after t_fb, 0 before")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "J. G. Hills 1975, Nature 254, 295; M. J. Rees 1988, Nature 333, 523; E. S. Phinney 1989, IAU Symp. 136, 543",
+    "N. Stone, R. Sari & A. Loeb 2013, MNRAS 435, 1809 (energy spread at r_t, whatever the pericentre)",
+    "M. Kesden 2012, Phys. Rev. D 85, 024037 (capture)",
+    "constants: CODATA 2018; the sun: IAU 2015 resolution B3",
+    NULL,
+};
+static const char *const approximations[] = {
+    "Newton's tide on a star without structure or spin, on a parabolic orbit; spin enters through horizon and capture alone",
+    "debris spread evenly in energy and half of it bound; simulations differ by factors of two, and rise smoothly to the peak",
+    NULL,
+};
+
+static const double day = 86400;
+
+static struct kd_tidal in_m(const struct parameters *p) /* in units of the hole's M */
+{
+    return (struct kd_tidal) { 1, p->star_mass_msun / p->mass_msun,
+                               p->star_radius_rsun * KD_R_SUN_M / kd_scale_metres(p->mass_msun) };
+}
+
+static void fill_star(const struct parameters *p, struct kd_tidal t, struct outputs *o)
+{
+    double unit_s = kd_scale_seconds(p->mass_msun), m_sun_kg = KD_GM_SUN_SI / KD_G_SI;
+    double to_msun_yr = p->mass_msun * KD_YEAR_S / unit_s, fallback = kd_tidal_fallback_time(t);
+    o->tidal_radius = kd_tidal_radius(t);
+    o->tidal_radius_km = o->tidal_radius * kd_scale_metres(p->mass_msun) * 1e-3;
+    o->horizon = kd_kerr_horizon(p->spin);
+    o->marginally_bound = kd_kerr_marginally_bound(p->spin);
+    o->hills_msun = kd_tidal_hills_mass(t, p->spin) * p->mass_msun;
+    o->capture_msun = kd_tidal_capture_mass(t, p->spin) * p->mass_msun;
+    o->energy_spread = kd_tidal_energy_spread(t);
+    o->fallback_s = fallback * unit_s;
+    o->fallback_days = o->fallback_s / day;
+    o->peak_msun_yr = kd_tidal_fallback_rate(t, fallback) * to_msun_yr;
+    o->peak_eddington = o->peak_msun_yr / (kd_disk_rate(p->spin, p->mass_msun, 1) * KD_YEAR_S / m_sun_kg);
+    o->above_eddington_days = o->peak_eddington > 1 ? o->fallback_days * pow(o->peak_eddington, 0.6) : NAN;
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    struct kd_tidal t = in_m(p);
+    double unit_s = kd_scale_seconds(p->mass_msun);
+    (void)memory, (void)error;
+    if (fresh)
+        fill_star(p, t, o);
+    o->pericentre = o->tidal_radius / p->penetration;
+    o->pericentre_over_capture = o->pericentre / o->marginally_bound;
+    double time = isinf(p->time_days) ? kd_tidal_fallback_time(t) : p->time_days * day / unit_s;
+    o->rate_msun_yr = kd_tidal_fallback_rate(t, time) * p->mass_msun * KD_YEAR_S / unit_s;
+    return KD_OK;
+}
+
+KD_QUANTITY(tidal, "tidal", "a star torn by a hole: tidal radius, fallback, and the heaviest hole that tears it",
+            .point_us = 1, .fresh_us = 1)
