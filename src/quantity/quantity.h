@@ -68,6 +68,10 @@ const struct kd_quantity *kd_quantity_find(const char *name); /* NULL: none of t
 /* "kerr, potential, ..." into out, cut if it must be. */
 void kd_quantity_names(char *out, size_t size);
 
+/* The first word of "a|b|c" into out; returns the others, "" after the last. */
+enum { KD_WORD_TEXT = 40 };
+const char *kd_parameter_word(const char *words, char out[KD_WORD_TEXT]);
+
 /* What a parameter allows: "0 to 10 M, and \"isco\"". */
 enum { KD_ALLOWED_TEXT = 200 };
 void kd_parameter_allowed(const struct kd_parameter *parameter, char out[KD_ALLOWED_TEXT]);

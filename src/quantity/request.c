@@ -15,17 +15,23 @@ double kd_axis_at(const struct kd_axis *axis, size_t i)
     return axis->first + (axis->last - axis->first) * (double)i / (double)(axis->count - 1);
 }
 
+const char *kd_parameter_word(const char *words, char out[KD_WORD_TEXT])
+{
+    size_t n = strcspn(words, "|"), kept = n < KD_WORD_TEXT ? n : KD_WORD_TEXT - 1;
+    memcpy(out, words, kept);
+    out[kept] = 0;
+    return words + n + (words[n] == '|');
+}
+
 static int word_index(const char *words, const char *text)
 {
-    size_t n = strlen(text);
-    for (int i = 0;; i++) {
-        size_t m = strcspn(words, "|");
-        if (m == n && !memcmp(words, text, n))
+    char word[KD_WORD_TEXT];
+    for (int i = 0; *words; i++) {
+        words = kd_parameter_word(words, word);
+        if (!strcmp(word, text))
             return i;
-        if (!words[m])
-            return -1;
-        words += m + 1;
     }
+    return -1;
 }
 
 void kd_parameter_allowed(const struct kd_parameter *p, char out[KD_ALLOWED_TEXT])
@@ -34,10 +40,12 @@ void kd_parameter_allowed(const struct kd_parameter *p, char out[KD_ALLOWED_TEXT
     bool pure = p->words || !strcmp(p->unit, "1");
     size_t used;
     if (p->words) {
+        char word[KD_WORD_TEXT];
         used = 0;
-        for (const char *w = p->words; *w && used < KD_ALLOWED_TEXT; w += strcspn(w, "|"), w += *w == '|')
-            used += (size_t)snprintf(out + used, KD_ALLOWED_TEXT - used, "%s\"%.*s\"", w == p->words ? "" : ", ",
-                                     (int)strcspn(w, "|"), w);
+        for (const char *rest = p->words; *rest && used < KD_ALLOWED_TEXT;) {
+            rest = kd_parameter_word(rest, word);
+            used += (size_t)snprintf(out + used, KD_ALLOWED_TEXT - used, "%s\"%s\"", used ? ", " : "", word);
+        }
         return;
     }
     kd_number_format(low, p->minimum);

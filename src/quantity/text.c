@@ -19,15 +19,15 @@ void kd_quantity_write_number(struct kd_writer *w, double value, const char *mis
 
 void kd_quantity_write_value(struct kd_writer *w, const struct kd_parameter *parameter, double value, const char *quote)
 {
-    const char *word = parameter->words;
-    for (int i = (int)(word ? value : 0); i > 0; i--)
-        word = strchr(word, '|') + 1;
-    if (!word && isinf(value))
-        word = parameter->word;
-    if (word)
-        kd_write(w, "%s%.*s%s", quote, (int)strcspn(word, "|"), word, quote);
-    else
+    char word[KD_WORD_TEXT];
+    if (parameter->words || isinf(value)) {
+        const char *rest = kd_parameter_word(parameter->words ? parameter->words : parameter->word, word);
+        for (int i = parameter->words ? (int)value : 0; i > 0; i--)
+            rest = kd_parameter_word(rest, word);
+        kd_write(w, "%s%s%s", quote, word, quote);
+    } else {
         kd_quantity_write_number(w, value, "");
+    }
 }
 
 void kd_quantity_write_sentences(struct kd_writer *w, const char *const *sentences)

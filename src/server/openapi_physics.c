@@ -10,11 +10,10 @@
 static cJSON *words(const char *text)
 {
     cJSON *list = cJSON_CreateArray();
-    for (const char *at = text; *at; at += *at == '|') {
-        char word[40];
-        snprintf(word, sizeof word, "%.*s", (int)strcspn(at, "|"), at);
+    char word[KD_WORD_TEXT];
+    while (*text) {
+        text = kd_parameter_word(text, word);
         cJSON_AddItemToArray(list, cJSON_CreateString(word));
-        at += strcspn(at, "|");
     }
     return list;
 }

@@ -216,6 +216,18 @@ static void unit_colours_inside_the_gamut(void **state)
     }
 }
 
+/* IEC 61966-2-1 undoes it by ((c + 0.055)/1.055)^2.4 and c/12.92; the two pieces meet to the standard's own digits. */
+static void encoding(void **state)
+{
+    (void)state;
+    for (double c = 0; c <= 1; c += 1. / 1024) {
+        double e = kd_colour_srgb_encode(c), back = e <= 0.04045 ? e / 12.92 : pow((e + 0.055) / 1.055, 2.4);
+        near("decoded", c, back, c, 1e-15);
+    }
+    near("middle grey", 0.5, kd_colour_srgb_encode(0.5), 0.7353569830524495, 1e-15);
+    near("where the pieces meet", 0, kd_colour_srgb_encode(0.0031308 * (1 + 1e-12)), kd_colour_srgb_encode(0.0031308), 1e-7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -223,6 +235,7 @@ int main(void)
         cmocka_unit_test(along_the_locus),       cmocka_unit_test(stefan_and_boltzmann),
         cmocka_unit_test(luminous_efficacy),     cmocka_unit_test(the_matrix_of_srgb),
         cmocka_unit_test(unit_colours),          cmocka_unit_test(unit_colours_inside_the_gamut),
+        cmocka_unit_test(encoding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

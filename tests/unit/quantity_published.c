@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "physics/constants.h"
 #include "quantity/quantity.h"
 
 #include <math.h>
@@ -65,6 +66,25 @@ static void figures(void **state)
     published("12.69 million km, Sgr A*'s horizon for its mass", ASK("scale", "horizon_km", "hole=sgra"), 1.269e7, 5e3);
 }
 
+/* What constants.h calls exact follows from what defines the units, and its derived ones from each other. */
+static void constants(void **state)
+{
+    (void)state;
+    double k = KD_K_J_K, h = KD_H_J_S, c = KD_C_M_S;
+    double stefan = 2 * pow(M_PI, 5) * k * k * k * k / (15 * h * h * h * c * c);
+    published("Stefan-Boltzmann", KD_STEFAN_BOLTZMANN_SI / stefan, 1, 1e-15);
+    double x = 5, y = 3; /* of B_lambda and B_nu: x = 5 (1 - e^-x), y = 3 (1 - e^-y) */
+    for (int i = 0; i < 100; i++)
+        x = -5 * expm1(-x), y = -3 * expm1(-y);
+    published("Wien", KD_WIEN_M_K / (h * c / (k * x)), 1, 1e-15);
+    published("Wien, frequency", KD_WIEN_HZ_K / (k * y / h), 1, 1e-15);
+    published("parsec", KD_PARSEC_M / (648000 / M_PI * KD_AU_M), 1, 1e-15);
+    published("microarcsecond", KD_MICROARCSECOND_RAD / (M_PI / 6.48e11), 1, 1e-15);
+    published("mass of the sun, kg, IAU 2015 B3 with CODATA 2014", KD_GM_SUN_SI / KD_G_SI, 1.98848e30, 1e26);
+    published("Thomson: 8 pi/3 r_e^2, r_e of CODATA 2018", KD_THOMSON_M2 / (8 * M_PI / 3 * pow(2.8179403262e-15, 2)), 1, 1e-9);
+    published("astronomical unit over the radius of the sun", KD_AU_M / KD_R_SUN_M, 215.032, 5e-4);
+}
+
 /* What reaches infinity is 1 - E(ISCO) a unit of accreted mass: F is a proper flux a proper area, r dr dphi on both faces,
  * and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are smooth and vanish at the ends, by Simpson's rule. */
 static void energy_is_conserved(void **state)
@@ -102,6 +122,7 @@ static void face_on(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(constants),
+                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
