@@ -18,7 +18,8 @@ static void bands(void)
 {
     struct kd_critical c = curve_of(0, 0);
     struct kd_critical_point p = kd_critical_at(&c, 0);
-    puts("| n | inner edge, b/M | outer edge, b/M | width, M | to the critical curve: inside | outside |\n|---|---|---|---|---|---|");
+    puts("| n | inner edge, b/M | outer edge, b/M | width, M | to the critical curve: inside | outside |\n"
+         "|---|---|---|---|---|---|");
     for (int n = 1; n <= ORDERS; n++) {
         double in = kd_lensing_edge(&c, &p, n, 2), out = kd_lensing_edge(&c, &p, n, INFINITY);
         printf("| %d | %.9f | %.9f | %.5g | %.5g | %.5g |\n", n, p.rho * (1 + in), p.rho * (1 + out), p.rho * (out - in),

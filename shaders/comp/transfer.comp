@@ -21,6 +21,8 @@ layout(constant_id = 6) const bool DOPPLER = true;
 layout(constant_id = 7) const bool REDSHIFT = true;
 layout(constant_id = 8) const bool VISIBLE = false; /* brightness as the eye weighs it instead of bolometric */
 layout(constant_id = 9) const bool OPAQUE = true;   /* the first crossing that meets the disk ends the ray */
+layout(constant_id = 10) const bool RING = false;   /* rays are not on the camera's grid: the map holds alpha */
+layout(constant_id = 11) const uint ALPHA_PLANE = 0;
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -110,7 +112,7 @@ void main()
             if (DISK && (DOPPLER || FINITE)) {
                 kd_ray ray = kd_camera_ray(x, row);
                 energy = ray.e;
-                momentum = ray.l * cam.s;
+                momentum = (RING ? -lens[at + ALPHA_PLANE * cam.stride] : ray.l) * cam.s;
             }
             vec3 light = vec3(0.0);
             float through = 1.0; /* what the gas in front lets pass */

@@ -3,6 +3,7 @@
 #include "physics/kerr.h"
 #include "render/camera.h"
 #include "render/lens_listed.h"
+#include "render/ring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,6 +37,22 @@ static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_
     *out = (struct kd_camera_label) {
         .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0,
     };
+}
+
+/* As the map's own rays were made. */
+static void label_of(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y, struct kd_camera_label *out)
+{
+    if (plan->ring) {
+        const struct kd_ring ring = kd_ring_of(scene);
+        const struct kd_critical_point column = kd_ring_column(&ring, x);
+        *out = kd_ring_label(&ring, &column, y);
+    } else if (plan->path == KD_LENS_LISTED) {
+        const struct kd_camera_exact exact = kd_camera_exact(scene);
+        kd_camera_label(&exact, x, y, out);
+    } else {
+        const struct kd_camera_push rounded = kd_camera_push(scene);
+        label_in_single(&rounded, !isinf(scene->camera.r), x, y, out);
+    }
 }
 
 static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *plan, const struct kd_lens_map *map,
@@ -100,18 +117,13 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
                           const struct kd_lens_map *map, struct sample *s, struct kd_accuracy_report *out,
                           struct kd_error *error)
 {
-    const struct kd_camera_exact exact = kd_camera_exact(scene);
-    const struct kd_camera_push rounded = kd_camera_push(scene);
     const struct kd_setting closed = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
     uint32_t place[ROWS * COLUMNS], n = 0;
     for (uint32_t j = 0; j < s->rows; j++)
         for (uint32_t i = 0; i < s->columns; i++, n++) {
             uint32_t x = spread(i, s->columns, s->width), y = spread(j, s->rows, s->height);
             struct kd_camera_label label;
-            if (plan->path == KD_LENS_LISTED)
-                kd_camera_label(&exact, x, y, &label);
-            else
-                label_in_single(&rounded, !isinf(scene->camera.r), x, y, &label);
+            label_of(scene, plan, x, y, &label);
             s->rays[2 * n] = label.alpha;
             s->rays[2 * n + 1] = label.beta;
             s->outward[n] = label.outward;

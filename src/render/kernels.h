@@ -20,7 +20,7 @@ enum kd_kernel {
     KD_KERNEL_POST,
 };
 
-#define KD_KERNEL_MAX_CONSTANTS 10
+#define KD_KERNEL_MAX_CONSTANTS 12
 #define KD_KERNELS_KEPT 48
 
 struct kd_kernel_entry {

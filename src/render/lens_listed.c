@@ -3,6 +3,7 @@
 #include "render/camera.h"
 #include "render/rays_closed.h"
 #include "render/rays_device.h"
+#include "render/ring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,6 +88,9 @@ static void fill(const struct work *w, float *planes)
     for (uint32_t k = 0; plan->phi && k < plan->orders; k++)
         fill_azimuths(w, k, planes + k * w->n);
     planes += plan->phi ? plan->orders * w->n : 0;
+    for (size_t i = 0; plan->ring && i < w->n; i++)
+        planes[i] = (float)w->alpha_beta[2 * i];
+    planes += plan->ring ? w->n : 0;
     if (plan->sky)
         fill_sky(w, planes, planes + w->n, planes + 2 * w->n);
 }
@@ -109,15 +113,32 @@ static enum kd_status upload(struct kd_renderer *r, const struct work *w, const 
     return status;
 }
 
+static void keep(struct work *w, size_t i, const struct kd_camera_label *label)
+{
+    w->alpha_beta[2 * i] = label->alpha;
+    w->alpha_beta[2 * i + 1] = label->beta;
+    w->outward[i] = label->outward;
+}
+
 static void make_rays(const struct kd_scene *scene, const struct kd_lens_rows *rows, uint32_t width, struct work *w)
 {
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     struct kd_camera_label label;
     for (size_t i = 0; i < w->n; i++) {
         kd_camera_label(&camera, (uint32_t)(i % width), rows->first + (uint32_t)(i / width), &label);
-        w->alpha_beta[2 * i] = label.alpha;
-        w->alpha_beta[2 * i + 1] = label.beta;
-        w->outward[i] = label.outward;
+        keep(w, i, &label);
+    }
+}
+
+static void make_ring(const struct kd_scene *scene, const struct kd_lens_rows *rows, struct work *w)
+{
+    const struct kd_ring ring = kd_ring_of(scene);
+    for (uint32_t x = 0; x < ring.width; x++) {
+        const struct kd_critical_point column = kd_ring_column(&ring, x);
+        for (uint32_t k = 0; k < rows->count; k++) {
+            const struct kd_camera_label label = kd_ring_label(&ring, &column, rows->first + k);
+            keep(w, (size_t)k * ring.width + x, &label);
+        }
     }
 }
 
@@ -129,7 +150,10 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
     enum kd_status status = init(&w, plan, (size_t)width * rows->count, error);
     if (status)
         return status;
-    make_rays(scene, rows, width, &w);
+    if (plan->ring)
+        make_ring(scene, rows, &w);
+    else
+        make_rays(scene, rows, width, &w);
     const struct kd_ray_labels labels = { w.alpha_beta, w.outward, w.n };
     status = kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error);
     if (!status)

@@ -32,6 +32,8 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, disk, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
     say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
     say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
+    say(plan, plan->ring,
+        "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale");
     const struct kd_setting *by = &plan->setting;
     say(plan, by->precision == KD_PRECISION_F32,
         "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate");
@@ -170,19 +172,39 @@ static enum kd_status may_list(const struct kd_scene *scene, struct kd_error *er
                           "profile or tolerance that come to it, or move the camera out of %.9g M", scene->camera.r, ergosphere(scene));
 }
 
+/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless something is said, the
+ * closed form: it needs no device and no steps. */
+static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
+{
+    if (wish->precision == KD_PRECISION_F32)
+        return kd_error_field(error, "/accuracy/precision",
+                              "accuracy.precision is \"f32\", allowed in the ring projection are \"f64\" and \"auto\"");
+    wish->precision = KD_PRECISION_F64;
+    wish->profile = KD_PROFILE_REFERENCE;
+    if (wish->engine < 0 && isinf(wish->tolerance) && !wish->steps)
+        wish->engine = KD_ENGINE_CLOSED;
+    return KD_OK;
+}
+
 /* Which kernel, which engine. */
 static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {
-    const struct kd_wish wish = kd_wish_of(scene);
+    struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
     bool radii = isinf(scene->camera.r) && !plan->phi && !plan->sky;
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
-    enum kd_status status = kd_setting_of(&wish, c->accuracy, c->float64, by, error);
+    enum kd_status status = plan->ring ? ring(&wish, error) : KD_OK;
+    if (!status)
+        status = kd_setting_of(&wish, c->accuracy, c->float64, by, error);
     if (status)
         return status;
+    if (plan->ring && by->precision == KD_PRECISION_F32)
+        return kd_error_field(error, "/accuracy/tolerance",
+                              "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
+                              "\"profile\"", wish.tolerance);
     if (closed32 && !radii)
         return kd_error_field(error, "/accuracy/precision", "the closed form in f32 gives radii to an observer at infinity alone, "
                               "and this scene needs more: allowed is f64");
@@ -206,13 +228,14 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.side = (uint32_t)scene->image.samples;
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     plan.phi = needs->phi;
+    plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     plan.sky = needs->sky;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
     enum kd_status status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.planes = plan.orders + (plan.phi ? plan.orders : 0) + (plan.sky ? 3 : 0);
+    plan.planes = plan.orders + (plan.phi ? plan.orders : 0) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
 

@@ -43,7 +43,7 @@ struct kd_plan {
         KD_LENS_LISTED, /* as listed rays (render/rays.h), by any engine, in either precision */
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
-    bool phi, sky;                  /* the lens map holds azimuths; sky directions and fates */
+    bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
     uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */
     uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */

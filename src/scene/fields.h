@@ -30,15 +30,21 @@
          "static|zamo")                                                                                       \
     ENUM(camera, projection, KD_PROJECTION_AUTO,                                                              \
          "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "       \
-         "auto: whichever fits camera.r",                                                                     \
-         "auto|plane|pinhole")                                                                                \
+         "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "     \
+         "only; auto: plane or pinhole, whichever fits camera.r",                                             \
+         "auto|plane|pinhole|ring")                                                                                \
     REAL(camera, field_m, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)")                \
     REAL(camera, fov_deg, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)")      \
     REAL(camera, centre_alpha, 0.0, -1e7, 1e7, "M", "image-plane alpha at the middle of the picture (plane)") \
     REAL(camera, centre_beta, 0.0, -1e7, 1e7, "M", "image-plane beta at the middle of the picture (plane)")   \
     REAL(camera, yaw_deg, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (pinhole)")           \
     REAL(camera, pitch_deg, 0.0, -90.0, 90.0, "degrees", "look above the hole (pinhole)")                     \
-    REAL(camera, roll_deg, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis")
+    REAL(camera, roll_deg, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis; ring: the angle "   \
+         "in the middle of the picture, 0 at alpha > 0, rising to the right")                                   \
+    REAL(camera, ring_decades_max, 0.0, -12.0, 0.0, "decades",                                                \
+         "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)")  \
+    REAL(camera, ring_decades_min, -10.0, -13.0, -1.0, "decades",                                             \
+         "the same at the middle line, above which rays pass outside the curve and below which inside (ring)")
 
 #define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                           \
     ENUM(disk, model, KD_DISK_NOVIKOV_THORNE,                                                                 \
@@ -112,7 +118,7 @@
     SECTION(top, KD_TOP_FIELDS, "members of the document itself")
 
 enum kd_observer { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO };
-enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE };
+enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };

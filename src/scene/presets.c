@@ -34,6 +34,12 @@ const struct kd_preset kd_presets[] = {
       "{\"camera\":{\"inclination_deg\":90}}" },
     { "face-on", "The disk seen from its pole",
       "{\"camera\":{\"inclination_deg\":0,\"field_m\":80}}" },
+    { "photon-rings", "Six photon rings, one above the other: across, the angle round the shadow's edge; upwards, the distance to "
+                      "that edge, nine and a half decades of it",
+      "{\"spacetime\":{\"spin\":0.9},"
+      "\"camera\":{\"projection\":\"ring\",\"inclination_deg\":60,\"roll_deg\":90,\"ring_decades_min\":-9.5},"
+      "\"disk\":{\"inner\":4.3,\"outer\":20,\"taper\":0.8,\"opacity\":0.5,\"peak_temperature_k\":6500},"
+      "\"accuracy\":{\"orders\":7}}" },
 };
 /* clang-format on */
 const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;

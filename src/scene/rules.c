@@ -49,6 +49,9 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
             "camera.projection is \"plane\" with camera.r %s M; parallel rays need camera.r "
             "\"infinity\", at a finite radius use \"pinhole\"",
             show(camera->r).text);
+    if (camera->projection == KD_PROJECTION_RING && isfinite(camera->r))
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"ring\" with camera.r %s M, allowed is \"infinity\"", show(camera->r).text);
     return KD_OK;
 }
 
@@ -56,14 +59,14 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
 static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
-    const bool pinhole = is_pinhole(camera);
+    const bool pinhole = is_pinhole(camera), ring = camera->projection == KD_PROJECTION_RING;
     const struct {
         const char *pointer;
         double value;
         bool idle;
     } knobs[] = {
-        { "/camera/centre_alpha", camera->centre_alpha, pinhole },
-        { "/camera/centre_beta", camera->centre_beta, pinhole },
+        { "/camera/centre_alpha", camera->centre_alpha, pinhole || ring },
+        { "/camera/centre_beta", camera->centre_beta, pinhole || ring },
         { "/camera/yaw_deg", camera->yaw_deg, !pinhole },
         { "/camera/pitch_deg", camera->pitch_deg, !pinhole },
     };
@@ -72,10 +75,22 @@ static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
             return kd_error_field(
                 error, knobs[i].pointer,
                 "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
-                knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text, pinhole ? "pinhole" : "plane",
+                knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
+                pinhole ? "pinhole" : ring ? "ring" : "plane",
                 pinhole ? "camera.yaw_deg and camera.pitch_deg"
+                : ring  ? "camera.roll_deg and camera.ring_decades_max and _min"
                         : "camera.centre_alpha and camera.centre_beta");
     return KD_OK;
+}
+
+static enum kd_status decades(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *camera = &scene->camera;
+    if (camera->ring_decades_min < camera->ring_decades_max)
+        return KD_OK;
+    return kd_error_field(error, "/camera/ring_decades_min",
+                          "camera.ring_decades_min is %s, allowed is less than camera.ring_decades_max, %s",
+                          show(camera->ring_decades_min).text, show(camera->ring_decades_max).text);
 }
 
 static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *error)
@@ -135,11 +150,12 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
 
 const struct kd_rule kd_rules[] = {
     { "`image.bit_depth` is 8 or 16.", bit_depth },
-    { "`camera.projection` \"pinhole\" needs a finite `camera.r`, \"plane\" needs `camera.r` \"infinity\".",
+    { "`camera.projection` \"pinhole\" needs a finite `camera.r`, \"plane\" and \"ring\" need `camera.r` \"infinity\".",
       projection },
-    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection and are 0 with a pinhole; "
-      "`camera.yaw_deg` and `camera.pitch_deg` aim the pinhole and are 0 with a plane.",
+    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and `camera.pitch_deg` the "
+      "pinhole; each pair is 0 in the other projections.",
       aim },
+    { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2).", horizon },
     { "A static observer is outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i).", ergosphere },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },

@@ -30,6 +30,7 @@ static const struct shot {
     { "luminet1979", "luminet1979", "{" SIZE "}" },
     { "edge-on", "edge-on", "{" SIZE "}" },
     { "face-on", "face-on", "{" SIZE "}" },
+    { "photon-rings", "photon-rings", "{" SIZE "}" },
     { "retrograde", NULL, "{\"spacetime\":{\"spin\":-0.9}," SIZE "}" },
     { "zamo", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,"

@@ -22,6 +22,15 @@ static const struct rule rules[] = {
     { "{\"camera\":{\"projection\":\"plane\",\"r\":20}}", "/camera/projection", "with camera.r 20 M" },
     { "{\"camera\":{\"projection\":\"plane\"}}", NULL, NULL },
     { "{\"camera\":{\"projection\":\"auto\",\"r\":20}}", NULL, NULL },
+    { "{\"camera\":{\"projection\":\"ring\",\"r\":20}}", "/camera/projection",
+      "with camera.r 20 M, allowed is \"infinity\"" },
+    { "{\"camera\":{\"projection\":\"ring\",\"roll_deg\":90}}", NULL, NULL },
+    { "{\"camera\":{\"projection\":\"ring\",\"centre_beta\":1}}", "/camera/centre_beta",
+      "allowed is 0 in the ring projection" },
+    { "{\"camera\":{\"projection\":\"ring\",\"yaw_deg\":1}}", "/camera/yaw_deg", "camera.ring_decades_max" },
+    { "{\"camera\":{\"ring_decades_min\":-3,\"ring_decades_max\":-3}}", "/camera/ring_decades_min",
+      "camera.ring_decades_min is -3, allowed is less than camera.ring_decades_max, -3" },
+    { "{\"camera\":{\"ring_decades_min\":-3.5,\"ring_decades_max\":-3}}", NULL, NULL },
     { "{\"camera\":{\"yaw_deg\":5}}", "/camera/yaw_deg",
       "camera.yaw_deg is 5, allowed is 0 in the plane projection" },
     { "{\"camera\":{\"pitch_deg\":-5}}", "/camera/pitch_deg", "aimed with camera.centre_alpha" },
@@ -114,8 +123,8 @@ static void ranges_are_checked_again(void **state)
 static void presets_are_valid(void **state)
 {
     (void)state;
-    static const char *const names[] = { "schwarzschild", "gargantua", "m87",    "sgra",
-                                         "luminet1979",   "edge-on",   "face-on" };
+    static const char *const names[] = { "schwarzschild", "gargantua", "m87",     "sgra",
+                                         "luminet1979",   "edge-on",   "face-on", "photon-rings" };
     char hashes[16][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {

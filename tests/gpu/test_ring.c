@@ -1,0 +1,270 @@
+/* The ring projection: the edges of the orders in a lens map against the solved ones, pixel by pixel; e^-gamma read off it;
+ * its light against that of a plane picture. */
+#include "render_support.h"
+
+#include "physics/kerr.h"
+#include "physics/lensing.h"
+#include "render/ring.h"
+
+#include <math.h>
+
+enum { WIDTH = 24, HEIGHT = 800, ORDERS = 7 };
+
+static struct kd_scene scene_of(double spin, double inclination_deg)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = spin;
+    scene.camera.projection = KD_PROJECTION_RING;
+    scene.camera.inclination_deg = inclination_deg;
+    scene.camera.ring_decades_min = -9.5;
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.accuracy.orders = ORDERS;
+    return scene;
+}
+
+/* By hand: four rows of four decades, four columns of a quarter turn. */
+static void rows_and_columns(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.5, 60);
+    scene.camera.ring_decades_max = -1;
+    scene.camera.ring_decades_min = -5;
+    scene.camera.roll_deg = 90;
+    scene.image.width = scene.image.height = 2;
+    scene.image.samples = 2;
+    const struct kd_ring ring = kd_ring_of(&scene);
+    const double distances[] = { 1e-2, 1e-4, -1e-4, -1e-2 }, degrees[] = { -45, 45, 135, 225 };
+    for (uint32_t k = 0; k < 4; k++) {
+        assert_true(fabs(kd_ring_distance(&ring, k) / distances[k] - 1) < 1e-14);
+        assert_true(fabs(kd_ring_column(&ring, k).angle - degrees[k] * M_PI / 180) < 1e-14);
+    }
+}
+
+/* w of each crossing, alpha. */
+static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
+{
+    const struct kd_needs needs = { .disk = true };
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make_for(scene, &needs, &capacity, plan, &error));
+    assert_true(plan->planes == ORDERS + 1 && plan->path == KD_LENS_LISTED && plan->setting.precision == KD_PRECISION_F64);
+    float *planes = test_malloc(sizeof(float) * plan->planes * plan->rays);
+    OK(kd_render_lens(renderer, scene, plan, planes, NULL, &error));
+    return planes;
+}
+
+static const struct {
+    double spin, inclination_deg;
+} views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
+
+/* Whether a pixel sees the plane nearer than `source`, and whether the edge says so. Pixels that the edge all but touches, as far as
+ * alpha and beta can tell, do not count. */
+static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
+                        const float *w, int *skipped)
+{
+    double edge = kd_lensing_edge(&ring->curve, column, n, source);
+    int wrong = 0;
+    for (uint32_t y = 0; y < ring->height; y++) {
+        double d = kd_ring_distance(ring, y), seen = w[(size_t)y * ring->width];
+        if (fabs(d / edge - 1) < 1e-5 + 4e-15 / fabs(d)) {
+            ++*skipped;
+            continue;
+        }
+        bool nearer = source < 2.5 ? seen == 0 && d < 0 : seen > 1 / source || (seen == 0 && d < 0);
+        wrong += nearer != (d < edge);
+    }
+    return wrong;
+}
+
+static void every_edge_is_where_it_belongs(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof views / sizeof *views; k++) {
+        const struct kd_scene scene = scene_of(views[k].spin, views[k].inclination_deg);
+        const struct kd_ring ring = kd_ring_of(&scene);
+        struct kd_plan plan;
+        float *w = trace(&scene, &plan);
+        const double sources[] = { kd_kerr_horizon(views[k].spin), 6, 30, INFINITY };
+        int skipped = 0;
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            const struct kd_critical_point column = kd_ring_column(&ring, x);
+            for (int n = 1; n < ORDERS; n++)
+                for (int s = 0; s < 4; s++) {
+                    int wrong = check_column(&ring, &column, n, sources[s], w + n * plan.rays + x, &skipped);
+                    if (wrong)
+                        fail_msg("a = %g, column %u, order %d, source %g: %d pixels on the wrong side", views[k].spin, x, n,
+                                 sources[s], wrong);
+                }
+        }
+        assert_true(skipped < 20); /* of 460 800 */
+        test_free(w);
+    }
+}
+
+/* The row where order n passes r = 6. */
+static int row_of(const float *w, int height)
+{
+    int y = 0;
+    while (y < height / 2 && !(w[(size_t)y * WIDTH] > 1.0 / 6))
+        y++;
+    return y;
+}
+
+static void each_order_is_a_gamma_further_in(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof views / sizeof *views; k++) {
+        const struct kd_scene scene = scene_of(views[k].spin, views[k].inclination_deg);
+        const struct kd_ring ring = kd_ring_of(&scene);
+        double row = 2 * (ring.most - ring.least) / HEIGHT * M_LN10, sum = 0;
+        int count = 0;
+        struct kd_plan plan;
+        float *w = trace(&scene, &plan);
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            const struct kd_critical_point column = kd_ring_column(&ring, x);
+            double gamma = kd_shell_exponents(&column.orbit).gamma;
+            for (int n = 3; n + 1 < ORDERS; n++) {
+                double apart = row * (row_of(w + (n + 1) * plan.rays + x, HEIGHT) - row_of(w + n * plan.rays + x, HEIGHT));
+                if (!(fabs(apart - gamma) < 1.05 * row + 0.02)) /* two roundings to a row; order 3 is not the limit yet */
+                    fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n, n + 1,
+                             apart, gamma);
+                sum += apart / gamma;
+                count++;
+            }
+        }
+        print_message("a = %g, i = %g: exponent read off the picture over gamma: %.4f\n", views[k].spin, views[k].inclination_deg,
+                      sum / count);
+        assert_true(fabs(sum / count - 1) < 4e-3);
+        test_free(w);
+    }
+}
+
+/* An integrator in double resolves the same orders, as far as it goes. */
+static void integrators_see_the_rings_too(void **state)
+{
+    (void)state;
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    if (!capacity.float64)
+        skip();
+    struct kd_scene scene = scene_of(0.9, 60);
+    scene.image.height = 96;
+    struct kd_plan plan, closed;
+    float *w = trace(&scene, &closed);
+    scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
+
+    float *v = trace(&scene, &plan);
+    assert_true(closed.setting.engine == KD_ENGINE_CLOSED && plan.setting.engine == KD_ENGINE_MINO_RKN6);
+    int differ = 0, seen = 0;
+    for (uint64_t i = 0; i < ORDERS * plan.rays; i++) {
+        seen += w[i] > 0;
+        differ += (w[i] > 0) != (v[i] > 0) || fabs((double)w[i] - v[i]) > 1e-4 * w[i] + 1e-5;
+    }
+    print_message("%d of %d crossings differ between the closed form and Mino's in double\n", differ, seen);
+    assert_true(seen > 1000 && differ < seen / 200);
+    test_free(w);
+    test_free(v);
+}
+
+static void shoot(const struct kd_scene *scene, struct kd_frame *frame)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, &capacity, &plan, &error));
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, frame, &error));
+}
+
+/* A pixel of a ring is that of a plane picture which is aimed there: the same light, with its redshift. */
+static void light_is_that_of_a_plane_picture(void **state)
+{
+    (void)state;
+    struct kd_scene ring_scene = scene_of(0.9, 70), plane;
+    ring_scene.image.width = 10;
+    ring_scene.image.height = 12;
+    ring_scene.camera.ring_decades_max = -0.2;
+    ring_scene.camera.ring_decades_min = -2.5;
+    ring_scene.disk.opacity = 0.5;
+    ring_scene.sky.model = KD_SKY_GRID;
+    ring_scene.style.exposure = 1;
+    ring_scene.style.dither = false;
+    const struct kd_ring ring = kd_ring_of(&ring_scene);
+    struct kd_frame frame;
+    int lit = 0;
+    shoot(&ring_scene, &frame);
+    assert_true(frame.accuracy.sampled == 120 && frame.accuracy.worst < 1e-6 && frame.accuracy.differ == 0);
+    for (uint32_t i = 0; i < 120; i++) {
+        const struct kd_critical_point column = kd_ring_column(&ring, i % 10);
+        const struct kd_camera_label label = kd_ring_label(&ring, &column, i / 10);
+        struct kd_frame one;
+        plane = ring_scene;
+        plane.image.width = plane.image.height = 1;
+        plane.camera.projection = KD_PROJECTION_PLANE;
+        plane.camera.field_m = 1e-6;
+        plane.camera.centre_alpha = label.alpha;
+        plane.camera.centre_beta = label.beta;
+        plane.accuracy.engine = KD_ENGINE_CLOSED + 1;
+        plane.accuracy.precision = KD_PRECISION_F64 + 1;
+        shoot(&plane, &one);
+        const uint8_t *a = (const uint8_t *)frame.pixels + 3 * i, *b = one.pixels;
+        for (int c = 0; c < 3; c++) {
+            lit += a[c] > 16;
+            if (abs(a[c] - b[c]) > 1)
+                fail_msg("pixel %u, channel %d: %d, aimed at %d", i, c, a[c], b[c]);
+        }
+        kd_frame_finish(&one);
+    }
+    assert_true(lit > 150);
+    kd_frame_finish(&frame);
+}
+
+static void needs_double_precision(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 60);
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_error refused = { 0 };
+    kd_renderer_capacity(renderer, &capacity);
+    scene.accuracy.tolerance = 1e-4;
+    if (capacity.float64) {
+        OK(kd_plan_make(&scene, &capacity, &plan, &error));
+        assert_int_equal(plan.setting.precision, KD_PRECISION_F64);
+    }
+    scene.accuracy.tolerance = INFINITY;
+    scene.accuracy.precision = KD_PRECISION_F32 + 1;
+    assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
+    assert_string_equal(refused.pointer, "/accuracy/precision");
+    scene.accuracy.precision = 0;
+    scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
+    capacity.float64 = false;
+    assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
+    assert_string_equal(refused.pointer, "/accuracy/precision");
+    scene.accuracy.engine = 0;
+    scene.accuracy.tolerance = 1e-4;
+    assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
+    assert_string_equal(refused.pointer, "/accuracy/tolerance");
+    scene.accuracy.tolerance = INFINITY; /* the closed form needs nothing of the device */
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.precision == KD_PRECISION_F64);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_and_columns),
+        cmocka_unit_test(every_edge_is_where_it_belongs),
+        cmocka_unit_test(each_order_is_a_gamma_further_in),
+        cmocka_unit_test(integrators_see_the_rings_too),
+        cmocka_unit_test(light_is_that_of_a_plane_picture),
+        cmocka_unit_test(needs_double_precision),
+    };
+    int code = open_renderer();
+    if (code)
+        return code;
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
