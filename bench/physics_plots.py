@@ -3,7 +3,7 @@
 
     bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs]
 
-Needs matplotlib (pip install matplotlib). Writes physics-holes.svg and physics-light.svg.
+Needs matplotlib (pip install matplotlib). Writes physics-holes.svg, physics-light.svg and physics-waves.svg.
 """
 import argparse
 import json
@@ -93,6 +93,41 @@ def colours(axes):
     axes.set(xlabel="T / K", ylabel="encoded sRGB", xlim=(1000, 12000), title="Colour of a black body")
 
 
+def deflection(axes):
+    for a, colour in ((0, "black"), (0.9, BLUE)):
+        p, v = ask("deflection", spin=a, b="2.5:16:401")
+        axes.plot(p["b"], v["angle"], color=colour, label=f"a = {a}" + (", towards +φ" if a else ""))
+        if a:
+            axes.plot(p["b"], v["angle_retrograde"], color=RED, label=f"a = {a}, towards −φ")
+    axes.plot(p["b"], v["weak"], ":", color="0.4", label="4M/b")
+    axes.set(xlabel="b / M", ylabel="bending, radians", ylim=(0, 6.3), title="Bending of light; b_c is where a curve ends")
+
+
+def quality(axes):
+    for m, colour in ((2, BLUE), (1, SKY), (0, GREEN), (-1, ORANGE), (-2, RED)):
+        p, v = ask("qnm", m=m, spin="0:0.99:100")
+        axes.plot(p["spin"], v["quality"], color=colour, label=f"l = 2, m = {m}, n = 0")
+        if m == 2:
+            axes.plot(p["spin"], v["quality_cubic"], ":", color="0.4", label="2.1 + 11.3 a³")
+    axes.set(xlabel="spin a", ylabel="quality factor", ylim=(0, 15), title="Quasi-normal modes and the cubic that circulates")
+
+
+def ringdown(axes):
+    for a, colour in ((0, "black"), (0.7, BLUE), (0.98, RED)):
+        p, v = ask("qnm", spin=a, t="0:100:301")
+        axes.plot(p["t"], v["wave"], color=colour, label=f"a = {a}")
+    axes.set(xlabel="t / M", ylabel="amplitude", title="Ringdown of the mode l = m = 2, n = 0")
+
+
+def fallback(axes):
+    for mass, colour in ((1e6, BLUE), (1e7, GREEN), (1e8, RED)):
+        _, v = ask("tidal", mass_msun=mass)
+        start = v["fallback_days"]
+        p, v = ask("tidal", mass_msun=mass, time_days=f"{start * 1.000001!r}:{start * 16!r}:121")
+        axes.plot(p["time_days"], v["rate_msun_yr"], color=colour, label=f"10^{len(str(int(mass))) - 1} solar masses")
+    axes.set(xlabel="days since the disruption", ylabel="solar masses a year", xscale="log", yscale="log", title="What comes back of a torn sun, t^(−5/3)")
+
+
 def draw(panels, path):
     figure, grid = plt.subplots(2, 2, figsize=(9.5, 7.5))
     for panel, axes in zip(panels, grid.flat):
@@ -114,6 +149,7 @@ def main():
     plt.rcParams.update({"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}) # the same file each time
     draw((radii, frequencies, potential, embedding), arguments.output / "physics-holes.svg")
     draw((shadows, redshift, flux, colours), arguments.output / "physics-light.svg")
+    draw((deflection, quality, ringdown, fallback), arguments.output / "physics-waves.svg")
 
 
 if __name__ == "__main__":
