@@ -58,7 +58,7 @@ void main()
     if (PHI || SKY)
         barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
     kd_state start = y;
-    float falling = 0.0, fallen = 0.0;
+    float way = 0.0, fallen = 0.0;
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses;
@@ -68,12 +68,12 @@ void main()
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = y.w, sum = 0.0;
-        if ((PHI || SKY) && falling == 0.0 && kd_falls_in(barrier, y)) { /* from here on in ingoing coordinates */
-            falling = 1.0;
-            fallen = -kd_drag_fall(y.w, cam.spin, cam.root);
+        if ((PHI || SKY) && way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
+            way = kd_way(barrier, y);
+            fallen = -way * kd_drag_fall(y.w, cam.spin, cam.root);
         }
         if (PHI || SKY)
-            sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.root, falling);
+            sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.root, way);
         for (uint i = 0; i < STEPS; i += 4) {
             /* Boole's rule on each four steps. */
             for (uint j = 0; j < 4; j++) {
@@ -84,13 +84,13 @@ void main()
                 high = max(high, y.w);
                 if (PHI || SKY)
                     sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) *
-                           kd_drag(m, y, ray.e, cam.spin, cam.root, falling);
+                           kd_drag(m, y, ray.e, cam.spin, cam.root, way);
             }
         }
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {
             chi += sum * h * (2.0 / 45.0);
-            float fall = falling > 0.0 ? kd_drag_fall(y.w, cam.spin, cam.root) + fallen : 0.0;
+            float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
             lens[at + n * cam.stride] = y.w;
             if (PHI)
                 lens[at + (ORDERS + n) * cam.stride] = -(psi + chi + fall);

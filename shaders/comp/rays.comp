@@ -14,7 +14,8 @@
  * so that what is left to integrate is smooth, and an observer at infinity less r_o + 2 ln r_o costs nothing. That has a pole at
  * the horizon. A ray that falls in is counted in ingoing time instead: with D = Delta_w and W as in radial_step.glsl
  *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
- * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole at all. */
+ * where the first term is d/dtau of -1/w + ln(w^2/D) + 2 kd_fall and the rest has no pole at all; one that comes from next to
+ * the horizon in outgoing time, with -w' for w'. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
@@ -55,17 +56,17 @@ float energy_and_fall(kd_motion m, float w, float dw)
     return dw > 0.0 ? 1.0 + dw : max(-w * w * (m.a2 + w * (2.0 * m.k - m.d * w)), 1e-30) / (1.0 - dw);
 }
 
-kd_rates rates(kd_motion m, kd_full p, float b, float falling)
+kd_rates rates(kd_motion m, kd_full p, float b, float way)
 {
     float w = p.y.x, u = p.y.y, dw = p.dy.x, a = cam.spin, c = sqrt(b + m.energy2), lost = 1.0 - u * u;
     kd_state y = radial(p);
     kd_rates o;
     o.psi = m.momentum * m.energy2 / (c * (sqrt(b + m.energy2 * u * u) + c));
-    o.chi = kd_drag(m, y, 1.0, a, cam.root, falling);
+    o.chi = kd_drag(m, y, 1.0, a, cam.root, way);
     float a2w2 = a * a * w * w;
     o.delay = a * (m.momentum - a * lost);
-    if (falling > 0.0)
-        o.delay += (1.0 + a2w2) * m.k / kd_inward(m, y, 1.0, a);
+    if (way != 0.0)
+        o.delay += (1.0 + a2w2) * m.k / kd_one_way(m, y, 1.0, a, way);
     else
         o.delay += (4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * m.momentum * (1.0 + a2w2)) / kd_horizons(w, cam.root) +
                    w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
@@ -73,12 +74,12 @@ kd_rates rates(kd_motion m, kd_full p, float b, float falling)
 }
 
 /* What the regularisations leave at a point, to be taken between the ends; nothing at infinity. */
-float delay_edge(kd_motion m, kd_state y, float falling)
+float delay_edge(kd_motion m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
         return 0.0;
-    if (falling > 0.0)
-        return 2.0 * kd_fall(y.w, cam.root) - 1.0 / y.w + kd_log(y.w * y.w / kd_horizons(y.w, cam.root));
+    if (way != 0.0)
+        return way * (2.0 * kd_fall(y.w, cam.root) - 1.0 / y.w + kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
@@ -86,9 +87,7 @@ float delay_edge(kd_motion m, kd_state y, float falling)
  * period. */
 float drifted(kd_motion m, kd_state y, float time)
 {
-    float w2 = y.w * y.w, a = cam.spin, fall = 1.0 + a * (a - m.momentum) * w2;
-    float d = (1.0 - y.w - cam.root * y.w) * (1.0 - y.w + cam.root * y.w);
-    float off = abs(y.dw * y.dw - (fall * fall - d * m.k * w2));
+    float off = abs(y.dw * y.dw - kd_fall_squared(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
@@ -108,7 +107,7 @@ void main()
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
     kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
-    ray.dw = cam.list[3 * i + 2] * sqrt(max(1.0 + ray.w * ray.w * (m.a2 + ray.w * (2.0 * m.k - m.d * ray.w)), 0.0));
+    ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
     /* psi without its smooth part; see polar_azimuth.glsl. */
@@ -123,7 +122,7 @@ void main()
     half_.w = start.w = ray.w;
     half_.dw = start.dw = ray.dw;
     kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, cam.epsilon);
-    float falling = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
+    float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
     /* Of the start: w is rounded, and so is R, of which w' is the root. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
@@ -138,13 +137,13 @@ void main()
         ends[o + n] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
-        if (falling == 0.0 && kd_falls_in(barrier, radial(p))) { /* from here on in ingoing coordinates */
-            falling = 1.0;
+        if (way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
+            way = kd_way(barrier, radial(p));
             delay += delay_edge(m, radial(p), 0.0) - started;
-            started = delay_edge(m, radial(p), 1.0);
+            started = delay_edge(m, radial(p), way);
             fallen = kd_drag_fall(p.y.x, cam.spin, cam.root);
         }
-        kd_rates r = rates(m, p, polar.b, falling);
+        kd_rates r = rates(m, p, polar.b, way);
         vec3 sum = 7.0 * vec3(r.psi, r.chi, r.delay);
         uint j = 1;
         for (; j <= STEPS; j++) {
@@ -153,7 +152,7 @@ void main()
             p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray so amplified is lost anyway */
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
-            r = rates(m, p, polar.b, falling);
+            r = rates(m, p, polar.b, way);
             float weight = (j & 1u) == 1u ? 32.0 : (j & 3u) == 2u ? 12.0 : j == STEPS ? 7.0 : 14.0;
             sum += weight * vec3(r.psi, r.chi, r.delay);
             if ((j & 1u) == 0u) {
@@ -180,11 +179,11 @@ void main()
             psi += sum.x;
             chi += sum.y;
             delay += sum.z;
-            float fall = falling > 0.0 ? kd_drag_fall(w, cam.spin, cam.root) - fallen : 0.0;
+            float fall = way * (kd_drag_fall(w, cam.spin, cam.root) - fallen);
             float turned = peak + float(n) * side * KD_PI + psi + chi + fall;
             ends[o + 3 * n] = w;
             ends[o + 3 * n + 1] = -turned;
-            ends[o + 3 * n + 2] = delay + delay_edge(m, y, falling) - started;
+            ends[o + 3 * n + 2] = delay + delay_edge(m, y, way) - started;
             error = max(error, off / w);
             above = -above;
             last = kd_path_crossing(m, y, turned - chi - fall, chi + fall, above);

@@ -61,11 +61,14 @@ float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h)
     b.w = 0.5 * (p.y.w + q.y.w) + h * (5.0 / 32.0) * (p.v.w - q.v.w) +
           h * h * (1.0 / 64.0) * (kd_path_pull(m, p.y).w + kd_path_pull(m, q.y).w);
     c.w = q.y.w;
-    a.dw = b.dw = c.dw = 0.0;
-    return h * (1.0 / 6.0) *
-           (kd_drag(m, a, ray.e, cam.spin, cam.root, 0.0) +
-            4.0 * kd_drag(m, b, ray.e, cam.spin, cam.root, 0.0) +
-            kd_drag(m, c, ray.e, cam.spin, cam.root, 0.0));
+    a.dw = p.v.w;
+    c.dw = q.v.w;
+    b.dw = -sqrt(max(kd_fall_squared(m, b.w, ray.e, cam.spin, cam.root), 0.0));
+    float way = a.dw < 0.0 && c.dw < 0.0 ? -1.0 : 0.0; /* a ray that turns again does not escape */
+    float pole = way * (kd_drag_fall(c.w, cam.spin, cam.root) - kd_drag_fall(a.w, cam.spin, cam.root));
+    return pole + h * (1.0 / 6.0) *
+                      (kd_drag(m, a, ray.e, cam.spin, cam.root, way) + 4.0 * kd_drag(m, b, ray.e, cam.spin, cam.root, way) +
+                       kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
 kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)

@@ -25,7 +25,7 @@ float kd_azimuth_rate(float y, float root_c)
 
 float kd_azimuth_pull(kd_motion m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
 
-/* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for some time, at most half a period: by Boole's rule. */
+/* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's rule. */
 float kd_azimuth_smooth(kd_motion m, float b, float u, float du, float time)
 {
     const uint steps = 32;

@@ -4,7 +4,8 @@
  * invariants are polynomials in the coefficients of R. With P = wp - A/12 and q = 1/(4P), E = 1:
  *   q'^2 = N(q) = q + A q^2 + 4 D q^3 + 16 G q^4,  G = (K^2 + A D)/4,    w = (2 q' + 4 K q^2) / (1 + 4 D q^2).
  * q starts as tau^2/4; the duplication formula q(2z) = 4 N / M with M = 1 - 8 D q^2 - 128 G q^3 - 64 (A G - D^2/4) q^4
- * carries a short series at tau/2^n to tau. All that in units of sqrt|A|, some b: in M its fifth power overflows from b = 1e4. For an observer at infinity only: there q has no pole outside the horizon,
+ * carries a short series at tau/2^n to tau. All that in units of sqrt|A|, some b: in M its fifth power overflows from b = 1e4.
+ * For an observer at infinity only: there q has no pole outside the horizon,
  * since w = K/D >= 1/a^2 at the pole. */
 #ifndef KD_RADIAL_CLOSED_GLSL
 #define KD_RADIAL_CLOSED_GLSL

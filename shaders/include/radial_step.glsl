@@ -24,23 +24,30 @@ float kd_horizons(float w, float root)
     return max((d - h) * (d + h), 1e-30);
 }
 
-/* W + w' of a ray that falls in, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
-float kd_inward(kd_motion m, kd_state y, float e, float a)
+/* W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
+float kd_one_way(kd_motion m, kd_state y, float e, float a, float way)
 {
-    return max(e + a * (a * e - m.momentum) * y.w * y.w + max(y.dw, 0.0), 1e-12);
+    return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
+}
+
+/* w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
+float kd_fall_squared(kd_motion m, float w, float e, float a, float root)
+{
+    float w2 = w * w, all = e + a * (a * e - m.momentum) * w2;
+    return all * all - (1.0 - w - root * w) * (1.0 - w + root * w) * m.k * w2;
 }
 
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
  *
  * On the way into the horizon chi' diverges as 1/D, and its quadrature with it. What a falling ray leaves regular is the
  * azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by kd_drag_fall. As
- * w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. falling: 1 for a ray that goes
- * straight in, else 0. */
-float kd_drag(kd_motion m, kd_state y, float e, float a, float root, float falling)
+ * w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference; and the same with the other sign of w'
+ * for one that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 straight out, else 0. */
+float kd_drag(kd_motion m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;
-    if (falling > 0.0)
-        return a * (m.k * w2 / kd_inward(m, y, e, a) - e);
+    if (way != 0.0)
+        return a * (m.k * w2 / kd_one_way(m, y, e, a, way) - e);
     return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
 }
 
@@ -88,6 +95,12 @@ kd_barrier kd_barrier_of(kd_motion m, kd_ray ray, float a, float u, float horizo
 bool kd_falls_in(kd_barrier b, kd_state y)
 {
     return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0);
+}
+
+/* The way of kd_drag from here on. */
+float kd_way(kd_barrier b, kd_state y)
+{
+    return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
 }
 
 /* Whether it ends at infinity. */

@@ -33,7 +33,8 @@ static const struct picture pictures[] = {
     { "denormal spin", "{\"spacetime\":{\"spin\":1e-310}," SMALL "}", true, 0 },
     { "least spin", "{\"spacetime\":{\"spin\":-5e-324},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
     { "spin -0",
-      "{\"spacetime\":{\"spin\":-0.0},\"camera\":{\"inclination_deg\":-0.0,\"azimuth_deg\":-0.0},\"time\":-0.0," SMALL "}", true, 0 },
+      "{\"spacetime\":{\"spin\":-0.0},\"camera\":{\"inclination_deg\":-0.0,\"azimuth_deg\":-0.0},\"time\":-0.0," SMALL "}",
+      true, 0 },
     { "denormal angles and time", "{\"camera\":{\"inclination_deg\":4e-320,\"azimuth_deg\":-5e-324,\"roll_deg\":1e-310,"
       "\"centre_alpha\":1e-315,\"centre_beta\":-1e-40},\"time\":5e-324," SMALL "}", true, 0 },
     { "an ulp above the plane", "{\"camera\":{\"inclination_deg\":89.99999999999999}," SMALL "}", true, 0 },
@@ -115,7 +116,8 @@ static size_t wrong_light(struct kd_renderer *renderer, const struct kd_plan *pl
 
 static void draw(struct kd_renderer *renderer, const struct picture *picture)
 {
-    struct extreme_row row = { .engine = "picture", .median = NAN, .most = NAN, .worst = NAN, .phi = NAN, .bound = NAN, .phi_bound = NAN };
+    struct extreme_row row = { .engine = "picture", .median = NAN, .most = NAN, .worst = NAN, .phi = NAN, .bound = NAN,
+                               .phi_bound = NAN };
     struct kd_scene scene;
     struct kd_capacity capacity;
     struct kd_plan plan;

@@ -1,9 +1,11 @@
-/* Listed rays at the extremes, by the engine in Mino time in both precisions: what it says of them against the closed form, and what
- * it says of itself. The engine may be wrong about a ray if it says so: undecided, or an error that admits it. */
+/* Listed rays at the extremes, by the engine in Mino time in both precisions: what it says of them against the closed form, and
+ * what it says of itself. The engine may be wrong about a ray if it says so: undecided, or an error that admits it. From a finite
+ * radius every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/kerr.h"
 #include "render/rays.h"
+#include "render/rays_device.h"
 #include "render/rays_check.h"
 
 #include <math.h>
@@ -21,6 +23,7 @@ struct view {
 struct list {
     size_t n;
     double alpha_beta[2 * RAYS];
+    bool outward[RAYS];
     struct kd_null_path path[RAYS];
     struct kd_ray_crossing crossings[RAYS * ORDERS];
     struct kd_ray_end ends[RAYS];
@@ -69,7 +72,8 @@ static void near_critical(const struct view *v, double t, double distance, doubl
 /* Evenly over the image, with a sixth of the rays on its axes, next to them, or far out. */
 static void make(const struct view *v, struct list *list)
 {
-    static const double special[] = { 0, -0.0, 1e-12, -1e-12, 1e-310, 5e-324, -1e-40, 1e-25, 1e7, -1e7, 2, -2, 7, 5.196152422706632 };
+    static const double special[] = { 0, -0.0, 1e-12, -1e-12, 1e-310, 5e-324, -1e-40, 1e-25, 1e7, -1e7, 2, -2, 7,
+                                      5.196152422706632 };
     enum { SPECIAL = sizeof special / sizeof *special };
     struct kd_rays_params params = params_of(v, KD_PRECISION_F64);
     double half = v->r < 3 ? 6 : 9;
@@ -85,6 +89,7 @@ static void make(const struct view *v, struct list *list)
         if (kd_rays_check(&params, out, 1, NULL))
             continue; /* no light with these constants comes to where the observer is */
         struct kd_null_ray ray = ray_of(v, out);
+        ray.outward = list->outward[list->n] = !isinf(v->r) && k % 2;
         list->path[list->n++] = kd_null_trace(&ray);
     }
 }
@@ -108,7 +113,8 @@ static void judge_crossings(const struct view *v, const struct kd_null_path *p, 
         double r = fmax(fabs(c[n].r / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
         double phi = fmax(turn(c[n].phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]);
         t->r[t->n++] = r;
-        if (x->r > 1.6 * kd_kerr_horizon(v->spin))
+        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* see docs/accuracy.md */
+        if (x->r > 1.6 * kd_kerr_horizon(v->spin) && !thrown)
             t->phi = fmax(t->phi, phi);
     }
 }
@@ -119,6 +125,7 @@ static void judge(const struct view *v, const struct list *list, size_t k, struc
     const struct kd_ray_end *e = &list->ends[k];
     const struct kd_ray_crossing *c = &list->crossings[k * ORDERS];
     struct kd_null_ray ray = ray_of(v, &list->alpha_beta[2 * k]);
+    ray.outward = list->outward[k];
     double gain[ORDERS], phi_gain[ORDERS], most = 0, off = 0;
     extreme_condition(&ray, p, v->critical > 0 ? fmin(1e-9, 0.1 * v->critical) : 1e-9, NULL, gain, phi_gain);
     for (int n = 0; n < p->crossings; n++)
@@ -140,7 +147,20 @@ static void judge(const struct view *v, const struct list *list, size_t k, struc
     judge_crossings(v, p, e, c, gain, phi_gain, t);
 }
 
-static void trace(struct kd_renderer *renderer, const struct view *v, const char *what, struct list *list, enum kd_precision precision)
+static enum kd_status run(struct kd_renderer *renderer, const struct kd_rays_params *params, struct list *list,
+                          struct kd_error *error)
+{
+    if (isinf(params->r))
+        return kd_rays_trace(renderer, params, list->alpha_beta, list->n, list->crossings, list->ends, NULL, NULL, error);
+    struct kd_ray_labels labels = { list->alpha_beta, list->outward, list->n };
+    enum kd_status status = kd_rays_device(renderer, params, &labels, list->crossings, list->ends, NULL, NULL, error);
+    for (size_t i = 0; i < list->n * ORDERS; i++) /* which only kd_rays_trace fills in */
+        list->crossings[i].g = 1;
+    return status;
+}
+
+static void trace(struct kd_renderer *renderer, const struct view *v, const char *what, struct list *list,
+                  enum kd_precision precision)
 {
     static struct tally t;
     bool wide = precision == KD_PRECISION_F64;
@@ -148,12 +168,17 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
     struct extreme_row row = { .engine = wide ? "mino-rkn6 f64" : "mino-rkn6 f32", .rays = list->n, .bound = wide ? 1e-11 : 2e-6,
                                .phi_bound = wide ? 1e-9 : 2e-6, .unsure_most = 0.05 };
     struct kd_error error = { 0 };
+    /* From next to the horizon a half turn leads far out or back in, with no more steps than elsewhere. */
+    if (v->r < 1.1 * kd_kerr_horizon(v->spin)) {
+        row.bound = wide ? 2e-8 : 1e-4;
+        row.unsure_most = 0.1;
+    }
     /* How near the critical curve a precision decides; extremal holes cost it as much as the last digits do. */
     if (v->critical > 0)
         row.unsure_most = v->critical < (wide ? 1e-8 : 1e-4) ? 1 : 0.25;
     snprintf(row.what, sizeof row.what, "%s", what);
     t.n = 0, t.phi = 0;
-    if (list->n && kd_rays_trace(renderer, &params, list->alpha_beta, list->n, list->crossings, list->ends, NULL, NULL, &error)) {
+    if (list->n && run(renderer, &params, list, &error)) {
         printf("%s: %s\n", what, error.message);
         row.broken = list->n;
     } else {
@@ -182,7 +207,8 @@ enum { SPINS = sizeof spins / sizeof *spins };
 static void inclinations(struct kd_renderer *renderer)
 {
     const struct { const char *name; double i; } angles[] = {
-        { "i 0", 0 }, { "i 0+", 5e-324 }, { "i 45", 45 }, { "i 90-", nextafter(90, 0) }, { "i 90", 90 }, { "i 90+", nextafter(90, 91) },
+        { "i 0", 0 }, { "i 0+", 5e-324 }, { "i 45", 45 }, { "i 90-", nextafter(90, 0) }, { "i 90", 90 },
+        { "i 90+", nextafter(90, 91) },
         { "i 180-", nextafter(180, 0) }, { "i 180", 180 },
     };
     for (int a = 0; a < SPINS; a++)

@@ -33,15 +33,15 @@ static void number(double x)
 
 static bool holds(const struct extreme_row *r)
 {
-    return !r->broken && !(r->worst > r->bound) && !(r->phi > r->phi_bound) && (double)r->unsure <= r->unsure_most * (double)r->rays &&
-           r->loose <= r->rays / 100;
+    return !r->broken && !(r->worst > r->bound) && !(r->phi > r->phi_bound) && r->loose <= r->rays / 100 &&
+           (double)r->unsure <= r->unsure_most * (double)r->rays;
 }
 
 void extreme_row(const struct extreme_row *r)
 {
     if (!rows++)
-        printf("%-34s  %-13s  %6s  %7s  %7s  %7s  %7s  %7s  %7s  %6s  %5s  %6s\n", "case", "engine", "rays", "r: med", "99 %", "worst",
-               "bound", "phi", "bound", "unsure", "loose", "broken");
+        printf("%-34s  %-13s  %6s  %7s  %7s  %7s  %7s  %7s  %7s  %6s  %5s  %6s\n", "case", "engine", "rays", "r: med", "99 %",
+               "worst", "bound", "phi", "bound", "unsure", "loose", "broken");
     broken_rows += !holds(r);
     printf("%-34s  %-13s  %6zu", r->what, r->engine, r->rays);
     number(r->median);
