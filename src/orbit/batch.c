@@ -2,7 +2,8 @@
 
 #include <stdlib.h>
 
-#define FEW 16 /* some milliseconds at ten periods each */
+#define FEW 16         /* some milliseconds at ten periods each */
+#define STEPS 1000000u /* between two looks at whether to go on */
 
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
 {
@@ -40,8 +41,11 @@ static enum kd_status follow(struct kd_orbit_batch *batch, size_t i, struct kd_e
     struct kd_orbit_run *run = &batch->runs[i];
     struct kd_orbit_sample *samples = batch->samples ? batch->samples + i * run->samples : NULL;
     enum kd_status status = kd_orbit_run_prepare(run, error);
-    while (!status && !kd_orbit_run_done(run))
-        kd_orbit_run_advance(run, UINT64_MAX, samples ? samples + run->sampled : NULL, run->samples - run->sampled);
+    while (!status && !kd_orbit_run_done(run)) {
+        if (batch->stop && batch->stop(batch->user))
+            return kd_error_set(error, KD_ECANCELLED, "stopped");
+        kd_orbit_run_advance(run, STEPS, samples ? samples + run->sampled : NULL, run->samples - run->sampled);
+    }
     return status;
 }
 

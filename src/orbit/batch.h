@@ -12,6 +12,8 @@ struct kd_orbit_batch {
     struct kd_orbit_run *runs;
     struct kd_orbit_sample *samples; /* NULL without series */
     size_t n;
+    bool (*stop)(void *user); /* asked now and then by whoever is at work, unless NULL: true gives the batch up */
+    void *user;
     /* its own */
     _Atomic size_t next, finished;
     _Atomic bool failed;

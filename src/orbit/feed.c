@@ -60,7 +60,8 @@ static enum kd_status more_of_many(struct kd_orbit_feed *feed, struct kd_buffer 
         return KD_OK;
     feed->stage = KD_FEED_DONE;
     if (batch->failed)
-        return kd_error_field(error, batch->error.pointer, "%s", batch->error.message);
+        return batch->error.status == KD_EINVAL ? kd_error_field(error, batch->error.pointer, "%s", batch->error.message)
+                                                : kd_error_set(error, batch->error.status, "%s", batch->error.message);
     return out_of_memory(kd_orbit_answer_many(batch->runs, batch->n, batch->samples, feed->format, out), error);
 }
 

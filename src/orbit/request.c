@@ -327,7 +327,7 @@ static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *r
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length, struct kd_error *error)
 {
     cJSON *root = NULL;
-    enum kd_status status = kd_tree_parse(text, length, KD_ORBIT_BODY_MAX, &root, error);
+    enum kd_status status = kd_tree_parse(text, length, KD_ORBIT_BODY_MAX, 16 * KD_ORBITS_MAX, &root, error);
     if (!status)
         status = read_tree(request, root, error);
     cJSON_Delete(root);

@@ -1,5 +1,6 @@
 /* Scene documents: JSON in. */
 #include "scene/hint.h"
+#include "scene/scan.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 
@@ -83,7 +84,7 @@ enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size
 {
     cJSON *root = NULL;
     struct reader reader = { .scene = *scene, .error = error };
-    enum kd_status status = kd_tree_parse(text, length, KD_SCENE_JSON_MAX, &root, error);
+    enum kd_status status = kd_tree_parse(text, length, KD_SCENE_JSON_MAX, KD_SCAN_FEW, &root, error);
     if (!status)
         status = read_document(&reader, root);
     if (!status)

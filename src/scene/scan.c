@@ -10,13 +10,12 @@
 
 enum {
     DEPTH_MAX = 32,
-    NUMBER_MAX = 60,   /* cJSON stops reading a number after 63 bytes */
-    VALUES_MAX = 4096, /* far more than there are fields: such a document is wrong, and cheap to refuse now */
+    NUMBER_MAX = 60, /* cJSON stops reading a number after 63 bytes */
 };
 
 struct scan {
     const char *text;
-    size_t length, at, values;
+    size_t length, at, values, most;
     int depth;
     struct kd_error *error;
 };
@@ -102,6 +101,13 @@ static enum kd_status word(struct scan *s)
     return fail(s, s->at, what);
 }
 
+static enum kd_status too_many(struct scan *s)
+{
+    char what[40];
+    snprintf(what, sizeof what, "more than %zu values", s->most);
+    return fail(s, s->at, what);
+}
+
 static enum kd_status mark(struct scan *s, char c)
 {
     if (c == '{' || c == '[') {
@@ -110,8 +116,8 @@ static enum kd_status mark(struct scan *s, char c)
     } else if (c == '}' || c == ']') {
         s->depth--; /* cJSON finds those that do not match */
     } else if (c == ',') {
-        if (++s->values >= VALUES_MAX)
-            return fail(s, s->at, "more than 4096 values");
+        if (++s->values >= s->most)
+            return too_many(s);
     } else if (c && !strchr(": \t\n\r", c)) {
         return fail(s, s->at,
                     (c & 0x80) && !kd_text_sequence(s->text + s->at, s->length - s->at)
@@ -124,9 +130,9 @@ static enum kd_status mark(struct scan *s, char c)
     return KD_OK;
 }
 
-enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error)
+static enum kd_status scan(const char *text, size_t start, size_t end, size_t most, struct kd_error *error)
 {
-    struct scan s = { .text = text, .length = end, .at = start, .error = error };
+    struct scan s = { .text = text, .length = end, .at = start, .most = most, .error = error };
     enum kd_status status = KD_OK;
     while (!status && s.at < end) {
         char c = text[s.at];
@@ -139,7 +145,12 @@ enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, str
     return status;
 }
 
-enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error)
+enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error)
 {
-    return kd_scan_json_part(text, 0, length, error);
+    return scan(text, 0, length, most, error);
+}
+
+enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error)
+{
+    return scan(text, start, end, KD_SCAN_FEW, error);
 }

@@ -10,9 +10,12 @@
 
 #include <stddef.h>
 
-enum kd_status kd_scan_json(const char *text, size_t length, struct kd_error *error);
+/* most: values, one of which costs cJSON some 64 bytes. KD_SCAN_FEW is far more than a scene has fields: such a document is wrong, and
+ * cheap to refuse. */
+enum { KD_SCAN_FEW = 4096 };
+enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error);
 
-/* The bytes from start to end alone, for a reader that takes the rest itself; messages count from text. */
+/* The bytes from start to end alone, KD_SCAN_FEW values, for a reader that takes the rest itself; messages count from text. */
 enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error);
 
 #endif

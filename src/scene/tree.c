@@ -40,11 +40,11 @@ static enum kd_status parse(const char *text, size_t length, cJSON **out, struct
     return KD_OK;
 }
 
-enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, cJSON **out, struct kd_error *error)
+enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out, struct kd_error *error)
 {
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes, allowed are %zu", length, most);
-    enum kd_status status = kd_scan_json(text, length, error);
+    enum kd_status status = kd_scan_json(text, length, values, error);
     if (status)
         return status;
     char *copy = malloc(length + 1);

@@ -22,6 +22,7 @@
     X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid")                                         \
     X(INVALID_RAYS, 422, "invalid-rays", "The request for rays is not valid")                                \
     X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid")                             \
+    X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid")                            \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \

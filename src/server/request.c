@@ -1,8 +1,10 @@
 #include "server/request.h"
 
 #include "base/log.h"
+#include "orbit/request.h"
 #include "server/clock.h"
 #include "server/negotiate.h"
+#include "server/orbits.h"
 #include "server/reply.h"
 
 #include <stdlib.h>
@@ -10,6 +12,7 @@
 
 #define BODY_TOO_LARGE "a body may hold 1048576 bytes"
 #define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
+#define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
 
 static struct kd_connection *connection_of(struct MHD_Connection *mhd)
@@ -82,6 +85,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
         free(request->job);
     }
     kd_rays_job_destroy(request->rays);
+    kd_orbits_job_abandon(request->orbits);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
@@ -92,12 +96,20 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
 
 static size_t body_max(const struct kd_request *request)
 {
-    return request->route->takes == KD_TAKES_RAYS ? KD_RAYS_BODY_MAX : KD_BODY_MAX;
+    switch (request->route->takes) {
+    case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
+    case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
+    default: return KD_BODY_MAX;
+    }
 }
 
 static const char *too_large(const struct kd_request *request)
 {
-    return request->route->takes == KD_TAKES_RAYS ? RAYS_TOO_LARGE : BODY_TOO_LARGE;
+    switch (request->route->takes) {
+    case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
+    case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
+    default: return BODY_TOO_LARGE;
+    }
 }
 
 static bool body_fault(const struct kd_request *request, struct kd_problem *problem)

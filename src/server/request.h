@@ -22,6 +22,7 @@ struct kd_request {
     struct kd_buffer body;
     struct kd_render_job *job; /* of a render under way; owned */
     struct kd_rays_job *rays;  /* of a request for rays under way; owned */
+    struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
     char etag[96];
     size_t reply_bytes; /* of a large reply, for its deadline */
     double start_ms;

@@ -26,6 +26,8 @@ const struct kd_route kd_routes[] = {
     { "/v1/physics", KD_GET, kd_handle_quantities, JSON, "The quantities that /v1/physics/NAME gives" },
     { "/v1/physics/", KD_GET, kd_handle_quantity, JSON, "A quantity at a point, or along ranges of its parameters",
       KD_TAKES_QUANTITY },
+    { "/v1/orbits", KD_POST, kd_handle_orbits, JSON,
+      "Timelike orbits: path, turning points, constants of motion and their drift, frequencies, periastron advance", KD_TAKES_ORBITS },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

@@ -16,6 +16,7 @@ enum kd_takes {
     KD_TAKES_NOTHING,
     KD_TAKES_SCENE, /* in the body, or with GET in the query */
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
+    KD_TAKES_ORBITS,
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
@@ -48,6 +49,7 @@ enum MHD_Result kd_handle_openapi(struct kd_request *request); /* openapi.c */
 enum MHD_Result kd_handle_plan(struct kd_request *request);    /* renders.c */
 enum MHD_Result kd_handle_render(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* rays.c */
+enum MHD_Result kd_handle_orbits(struct kd_request *request); /* orbits.c */
 enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* accuracy.c */
 enum MHD_Result kd_handle_quantities(struct kd_request *request); /* physics.c */
 enum MHD_Result kd_handle_quantity(struct kd_request *request);

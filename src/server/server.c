@@ -120,6 +120,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     set_etag_tail(server);
     status = kd_rays_queue_create(or_default(params->queue, 16), server->renders, &server->reply_bytes, KD_REPLIES_MAX,
                                   &server->rays, error);
+    if (!status)
+        status = kd_turns_create(or_default(params->queue, 16), &server->turns, error);
     if (status) {
         close(fd);
         return status;
@@ -181,6 +183,7 @@ void kd_server_destroy(struct kd_server *server)
     } else if (server->daemon) {
         MHD_stop_daemon(server->daemon);
     }
+    kd_turns_destroy(server->turns);
     kd_rays_queue_destroy(server->rays);
     kd_render_queue_destroy(server->renders);
     kd_connections_destroy(server->connections);

@@ -9,13 +9,14 @@
 #include "server/rays_queue.h"
 #include "server/render_queue.h"
 #include "server/server.h"
+#include "server/turns.h"
 
 #include <microhttpd.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes; that for rays: KD_RAYS_BODY_MAX */
+#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes; those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
 #define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received */
 #define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures and rays not yet taken by their clients; one may exceed it */
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
@@ -39,6 +40,7 @@ struct kd_server {
     struct kd_connections *connections;
     struct kd_render_queue *renders;
     struct kd_rays_queue *rays;
+    struct kd_turns *turns; /* orbits */
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;
