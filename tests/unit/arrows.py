@@ -28,6 +28,8 @@ FOREIGN = {
     "cjson/": {"scene", "orbit", "render", "server", "cli"},
     "microhttpd.h": {"server"},
     "png.h": {"image"},
+    "libdeflate.h": {"image"},
+    "isa-l/": {"image"},
     "zlib.h": {"image"},
     "nettle/": {"scene"},
     "argp.h": {"cli"},

@@ -1,5 +1,6 @@
 /* Each allocation fails in turn: KD_ENOMEM, the output buffer as it was, nothing leaked. */
 #include "image/png.h"
+#include "image/png_live.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,12 +8,15 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <libdeflate.h>
 
 /* The linker sends the module's own calls here (--wrap); libpng allocates through the module. */
 void *__real_malloc(size_t size);
 void *__real_realloc(void *old, size_t size);
+void *__real_calloc(size_t n, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_realloc(void *old, size_t size);
+void *__wrap_calloc(size_t n, size_t size);
 
 static int countdown = -1; /* allocations until the one that fails; negative: none does */
 
@@ -27,6 +31,10 @@ void *__wrap_malloc(size_t size)
 void *__wrap_realloc(void *old, size_t size)
 {
     return fails() ? NULL : __real_realloc(old, size);
+}
+void *__wrap_calloc(size_t n, size_t size)
+{
+    return fails() ? NULL : __real_calloc(n, size);
 }
 
 enum { SIDE = 64 };
@@ -105,11 +113,67 @@ static void decoding(void **state)
     assert_true(n > 5);
 }
 
+/* One encoder through two frames, the second larger; then a third, when nothing fails any more. */
+static enum kd_status live_frames(enum kd_deflate_engine engine, struct kd_buffer *out, struct kd_error *error)
+{
+    static uint8_t pixels[3 * 8 * SIDE * SIDE];
+    struct kd_png_live *live;
+    for (uint32_t i = 0; i < sizeof pixels; i++)
+        pixels[i] = (uint8_t)(i * 2654435761u >> 24);
+    enum kd_status status = kd_png_live_create(engine, &live, error);
+    if (status) {
+        assert_null(live);
+        return status;
+    }
+    size_t size = out->size;
+    for (uint32_t k = 0; k < 2 && !status; k++) {
+        size = out->size;
+        status = kd_png_live_encode(live, SIDE, k ? 8 * SIDE : 8, pixels, out, error);
+    }
+    if (status) {
+        struct kd_buffer again = { 0 };
+        assert_int_equal(out->size, size);
+        countdown = -1;
+        assert_int_equal(kd_png_live_encode(live, SIDE, 8 * SIDE, pixels, &again, NULL), KD_OK);
+        kd_buffer_finish(&again);
+    }
+    kd_png_live_destroy(live);
+    return status;
+}
+
+static void live_encoding(void **state)
+{
+    (void)state;
+    libdeflate_set_memory_allocator(__wrap_malloc, free);
+    for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
+        int n = 0;
+        if (!kd_deflate_has(engine))
+            continue;
+        for (enum kd_status status = KD_ENOMEM; status; n++) {
+            struct kd_buffer out = { 0 };
+            struct kd_error error = { 0 };
+            assert_int_equal(kd_buffer_append(&out, "head", 4), KD_OK);
+            countdown = n;
+            status = live_frames(engine, &out, &error);
+            countdown = -1;
+            if (status) {
+                assert_int_equal(status, KD_ENOMEM);
+                assert_true(error.message[0]);
+            }
+            assert_true(status || n > 5); /* each allocation has had its turn */
+            assert_memory_equal(out.data, "head", 4);
+            kd_buffer_finish(&out);
+        }
+        print_message("%s: %d allocations\n", kd_deflate_name(engine), n - 1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(encoding),
         cmocka_unit_test(decoding),
+        cmocka_unit_test(live_encoding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""What encoding a live frame costs, in ms and bytes: kd_bench_encode on one core, as tables."""
+import json
+import os
+
+import measure
+
+WHOLE = ["libpng", "live, libdeflate", "live, isa-l"]
+
+
+def figure(picture, encoder, level, filter_):
+    for r in picture["rows"]:
+        if (r["encoder"], r["level"], r["filter"]) == (encoder, level, filter_):
+            return f"{r['ms']:.2f}", f"{r['bytes'] / 1000:.0f}"
+    return "–", "–"
+
+
+def title(picture):
+    dither = "" if picture["picture"] == "noise" else ", dithered" if picture["dither"] else ", not dithered"
+    return f"{picture['width']} × {picture['height']}", picture["picture"] + dither
+
+
+def whole_table(pictures):
+    rows = []
+    for p in pictures:
+        cells = [" / ".join(figure(p, encoder, 1, "sub")) for encoder in WHOLE]
+        rows.append([*title(p), *cells])
+    return measure.table(["size", "picture", *(f"{e}: ms / kB" for e in WHOLE)], rows)
+
+
+def parts_table(picture):
+    filters = [r["filter"] for r in picture["rows"] if r["encoder"] == "filter alone"]
+    engines = list(dict.fromkeys((r["encoder"], r["level"]) for r in picture["rows"] if r["encoder"] in ("libdeflate", "isa-l")))
+    rows = [["the filter alone, ms", *(figure(picture, "filter alone", 0, f)[0] for f in filters)]]
+    rows += [[f"{e} {level}", *(" / ".join(figure(picture, e, level, f)) for f in filters)] for e, level in engines]
+    return measure.table(["", *filters], rows)
+
+
+def main():
+    p = measure.parser(__doc__)
+    p.add_argument("--repeat", type=int, default=9, help="times that each encoder gets each picture (9)")
+    o = p.parse_args()
+    load = os.getloadavg()[0]
+    text = measure.one_core([measure.binary(o.build, "bench/kd_bench_encode"), "--repeat", str(o.repeat)], o.core)
+    run = json.loads(text.strip().splitlines()[-1])
+    h = measure.head(run["device"], load)
+    text = measure.head_markdown("Encoding a live frame", h)
+    text += (f"Processor time of one thread, the least of {o.repeat}; 1 kB is 1000 bytes. All at level 1 after the filter Sub, "
+             "the file whole:\n\n" + whole_table(run["pictures"]))
+    for picture in run["pictures"]:
+        size, name = title(picture)
+        if size.startswith("1280") and picture["dither"] and picture["picture"] != "noise":
+            text += f"\n{name[0].upper() + name[1:]}, {size}; filter and stream, ms / kB by filter and level:\n\n{parts_table(picture)}"
+    measure.save(o.out, "encode", h, {"pictures": run["pictures"]}, text)
+
+
+if __name__ == "__main__":
+    main()

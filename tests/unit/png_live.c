@@ -1,0 +1,247 @@
+/* Live frames, by every engine that was built in: pixel for pixel what libpng decodes; each chunk and checksum judged by zlib. */
+#include "image/png.h"
+#include "image/png_live.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+#include <zlib.h>
+
+static uint32_t seed = 2024;
+static uint32_t random_bits(void)
+{
+    return (seed = seed * 1664525u + 1013904223u) >> 8;
+}
+
+enum content { BLACK, FLAT, RANDOM, SMOOTH, DITHERED, CHECKS, SPARSE, CONTENTS };
+
+static uint8_t sample(enum content content, uint32_t x, uint32_t y, uint32_t c)
+{
+    switch (content) {
+    case BLACK: return 0;
+    case FLAT: return (uint8_t)(200 - c);
+    case RANDOM: return (uint8_t)random_bits();
+    case SMOOTH: return (uint8_t)(x * (c + 1) / 3 + y / 2);
+    case DITHERED: return (uint8_t)((x * 7 + y * 5 + random_bits() % 16) / 16);
+    case CHECKS: return (x ^ y) & 1 ? 255 : 0;
+    default: return random_bits() % 997 ? 0 : (uint8_t)random_bits();
+    }
+}
+
+static uint8_t *picture(enum content content, uint32_t width, uint32_t height)
+{
+    uint8_t *pixels = malloc((size_t)width * height * 3);
+    assert_non_null(pixels);
+    for (uint32_t y = 0, i = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++)
+            for (uint32_t c = 0; c < 3; c++)
+                pixels[i++] = sample(content, x, y, c);
+    return pixels;
+}
+
+static uint32_t big_endian(const uint8_t *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+/* The file is these four chunks and nothing else, each with its own CRC; zlib checks its own sum, and nothing is left over. */
+static void check_strictly(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
+{
+    static const char *const types[] = { "IHDR", "sRGB", "IDAT", "IEND" };
+    static const uint8_t tail[5] = { 8, 2, 0, 0, 0 };
+    size_t at = 8;
+    assert_memory_equal(file, "\x89PNG\r\n\x1a\n", 8);
+    for (int i = 0; i < 4; i++) {
+        assert_true(size - at >= 12);
+        uint32_t length = big_endian(file + at);
+        const uint8_t *data = file + at + 8;
+        assert_true(length <= size - at - 12);
+        assert_memory_equal(file + at + 4, types[i], 4);
+        assert_int_equal(big_endian(data + length), crc32(0, file + at + 4, length + 4));
+        if (i == 0) {
+            assert_int_equal(length, 13);
+            assert_int_equal(big_endian(data), width);
+            assert_int_equal(big_endian(data + 4), height);
+            assert_memory_equal(data + 8, tail, 5);
+        } else if (i == 1) {
+            assert_int_equal(length, 1);
+        } else if (i == 2) {
+            uLong expected = (3 * (uLong)width + 1) * height, used = length;
+            uLongf got = expected + 1;
+            uint8_t *rows = malloc(got);
+            assert_non_null(rows);
+            assert_int_equal(uncompress2(rows, &got, data, &used), Z_OK);
+            assert_int_equal(got, expected);
+            assert_int_equal(used, length);
+            free(rows);
+        } else {
+            assert_int_equal(length, 0);
+        }
+        at += 12 + length;
+    }
+    assert_int_equal(at, size);
+}
+
+static void check(struct kd_png_live *live, enum content content, uint32_t width, uint32_t height)
+{
+    uint8_t *pixels = picture(content, width, height);
+    struct kd_buffer file = { 0 };
+    struct kd_error error = { 0 };
+    struct kd_png png;
+    assert_int_equal(kd_png_live_encode(live, width, height, pixels, &file, &error), KD_OK);
+    check_strictly(file.data, file.size, width, height);
+    if (kd_png_decode(file.data, file.size, &png, &error))
+        fail_msg("%u x %u, content %d: %s", width, height, content, error.message);
+    assert_int_equal(png.width, width);
+    assert_int_equal(png.height, height);
+    assert_int_equal(png.bit_depth, 8);
+    assert_memory_equal(png.pixels, pixels, (size_t)width * height * 3);
+    kd_png_finish(&png);
+    kd_buffer_finish(&file);
+    free(pixels);
+}
+
+static struct kd_png_live *encoder(enum kd_deflate_engine engine)
+{
+    struct kd_png_live *live;
+    struct kd_error error = { 0 };
+    assert_int_equal(kd_png_live_create(engine, &live, &error), KD_OK);
+    return live;
+}
+
+/* One encoder for all, so that what a large frame leaves behind would show in a small one. */
+static void pixels_survive(void **state)
+{
+    (void)state;
+    static const uint32_t sides[][2] = { { 640, 360 }, { 1, 1 }, { 1, 97 }, { 97, 1 },  { 3, 2 },
+                                         { 641, 37 },  { 2, 1 }, { 32768, 2 }, { 1, 32768 }, { 1280, 720 } };
+    for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
+        if (!kd_deflate_has(engine)) {
+            print_message("skipped: %s is not built in\n", kd_deflate_name(engine));
+            continue;
+        }
+        struct kd_png_live *live = encoder(engine);
+        for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
+            for (enum content content = 0; content < CONTENTS; content++)
+                check(live, content, sides[i][0], sides[i][1]);
+        for (int i = 0; i < 400; i++)
+            check(live, random_bits() % CONTENTS, 1 + random_bits() % 90, 1 + random_bits() % 90);
+        kd_png_live_destroy(live);
+    }
+}
+
+/* Streams of any length, of bytes that end where no more may be read: assembler, which the sanitizers cannot watch. */
+static void streams_of_every_length(void **state)
+{
+    (void)state;
+    enum { ROOM = 128 * 1024, SHORT = 700 };
+    size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    uint8_t *memory = mmap(NULL, ROOM + 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(memory != MAP_FAILED);
+    assert_int_equal(mprotect(memory, page, PROT_NONE), 0);
+    assert_int_equal(mprotect(memory + page + ROOM, page, PROT_NONE), 0);
+    static uint8_t back[ROOM + 1];
+    for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
+        struct kd_deflate *deflate;
+        for (uint32_t i = 0; i < ROOM; i++)
+            memory[page + i] = (uint8_t)(random_bits() % (i % 5000 < 2500 ? 3 : 256));
+        if (kd_deflate_create(engine, &deflate, NULL))
+            continue; /* said above */
+        for (size_t n = 0; n <= ROOM; n += n < SHORT ? 1 : 1 + random_bits() % 9000)
+            for (int end = 0; end < 2; end++) {
+                const uint8_t *data = memory + page + (end ? ROOM - n : 0);
+                struct kd_buffer out = { 0 };
+                assert_int_equal(kd_deflate_append(deflate, data, n, &out), KD_OK);
+                uLong used = out.size;
+                uLongf got = sizeof back;
+                assert_int_equal(uncompress2(back, &got, out.data, &used), Z_OK);
+                assert_int_equal(got, n);
+                assert_int_equal(used, out.size);
+                assert_memory_equal(back, data, n);
+                kd_buffer_finish(&out);
+            }
+        kd_deflate_destroy(deflate);
+    }
+    munmap(memory, ROOM + 2 * page);
+}
+
+static void appends_the_same_bytes(void **state)
+{
+    (void)state;
+    uint8_t *pixels = picture(DITHERED, 320, 180), *other = picture(RANDOM, 320, 180);
+    for (enum kd_deflate_engine engine = 0; engine < KD_DEFLATE_COUNT; engine++) {
+        if (!kd_deflate_has(engine))
+            continue;
+        struct kd_png_live *live = encoder(engine);
+        struct kd_buffer a = { 0 }, b = { 0 }, c = { 0 };
+        assert_int_equal(kd_png_live_encode(live, 320, 180, pixels, &a, NULL), KD_OK);
+        assert_int_equal(kd_png_live_encode(live, 320, 180, other, &c, NULL), KD_OK);
+        assert_int_equal(kd_buffer_append(&b, "head", 4), KD_OK);
+        assert_int_equal(kd_png_live_encode(live, 320, 180, pixels, &b, NULL), KD_OK);
+        assert_int_equal(b.size, a.size + 4);
+        assert_memory_equal(b.data, "head", 4);
+        assert_memory_equal(b.data + 4, a.data, a.size);
+        assert_true(a.size < 320 * 180); /* a dithered ramp: a third of its bytes at most */
+        kd_buffer_finish(&a);
+        kd_buffer_finish(&b);
+        kd_buffer_finish(&c);
+        kd_png_live_destroy(live);
+    }
+    free(pixels);
+    free(other);
+}
+
+static void bad_sides_are_refused(void **state)
+{
+    (void)state;
+    static const uint8_t pixel[3];
+    static const struct {
+        uint32_t width, height;
+        enum kd_status status;
+        const char *word;
+    } cases[] = {
+        { 0, 2, KD_EINVAL, "0 x 2" },           { 2, 0, KD_EINVAL, "2 x 0" },
+        { 32769, 1, KD_EINVAL, "1 to 32768" },  { 1, 4294967295u, KD_EINVAL, "4294967295" },
+        { 32768, 32768, KD_ETOOBIG, "3.00 GiB" }, { 32768, 10923, KD_ETOOBIG, "at most 1" },
+    };
+    struct kd_png_live *live = encoder(kd_deflate_fastest());
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_buffer out = { 0 };
+        struct kd_error error = { 0 };
+        assert_int_equal(kd_png_live_encode(live, cases[i].width, cases[i].height, pixel, &out, &error), cases[i].status);
+        assert_non_null(strstr(error.message, cases[i].word));
+        assert_int_equal(out.size, 0);
+        kd_buffer_finish(&out);
+    }
+    kd_png_live_destroy(live);
+    kd_png_live_destroy(NULL);
+}
+
+static void an_engine_that_is_not_there_is_refused(void **state)
+{
+    (void)state;
+    struct kd_error error = { 0 };
+    struct kd_png_live *live;
+    assert_int_equal(kd_png_live_create(KD_DEFLATE_COUNT, &live, &error), KD_EINVAL);
+    assert_null(live);
+    assert_true(error.message[0]);
+    assert_true(kd_deflate_has(kd_deflate_fastest()));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_survive),
+        cmocka_unit_test(streams_of_every_length),
+        cmocka_unit_test(appends_the_same_bytes),
+        cmocka_unit_test(bad_sides_are_refused),
+        cmocka_unit_test(an_engine_that_is_not_there_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
