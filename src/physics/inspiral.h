@@ -38,7 +38,7 @@ double kd_inspiral_frequency(double eta, double tau);
 double kd_inspiral_frequency_isco(void);
 
 /* Strain amplitude of either polarisation, seen along the orbit's axis at distance d, at wave frequency f of a
- * circular orbit [Maggiore 4.3, 4.29]. Seen from the side h+ is half of it, hx nothing. */
+ * circular orbit [Maggiore 4.3]. Seen from the side h+ is half of it, hx nothing. */
 double kd_inspiral_strain(double eta, double f, double d);
 
 #endif

@@ -68,7 +68,8 @@ static double complex radial_fraction(const struct problem *problem, const struc
     double a = problem->a, b = sqrt((1 - a) * (1 + a));
     double complex p = -csqrt(-4 * I * b * omega);
     double complex c0 = r->alpha[0], c2 = r->gamma[1] + 3, q = 0.5 * (p * p + c2 - c0 - 3.5);
-    double root = fmin(-0.75 * log(problem->tolerance) / (-4 * creal(p)), 316); /* p and q do the rest; at most 1e5 terms */
+    /* p and q do the rest; at most 1e5 terms */
+    double root = fmin(-0.75 * log(fmin(problem->tolerance, 1e-9)) / (-4 * creal(p)), 316);
     int terms = 50 + (int)(root * root);
     double k = problem->n + terms;
     return fraction(r, problem->n, terms, -(1 + p / sqrt(k) + q / k));
@@ -86,7 +87,7 @@ typedef double complex (*function)(struct problem *p, double complex x);
 
 /* The secant method from x and x + step. The last step is all that is known of the error; a step below `settled` is
  * squeezed until it stops to shrink, which near a = 1 it does early. */
-static const double settled = 1e-11;
+static const double settled = 1e-9;
 
 static bool solve(function f, struct problem *p, double complex *x, double complex step)
 {
@@ -126,7 +127,7 @@ static bool improve(const struct kd_qnm_branch *branch, double a, double toleran
     return true;
 }
 
-/* Dolan & Ottewill 2009, eq. 18 (spin 2 in Schwarzschild): omega in inverse powers of L = l + 1/2, N = n + 1/2. Within
+/* Dolan & Ottewill 2009 (spin 2 in Schwarzschild): omega in inverse powers of L = l + 1/2, N = n + 1/2. Within
  * a tenth of the distance to the next overtone for n <= 3, l >= 2. */
 static double complex schwarzschild(int l, int n)
 {
@@ -188,15 +189,16 @@ bool kd_qnm_move(struct kd_qnm_branch *branch, double a)
 {
     if (!(a >= 0 && a <= KD_QNM_SPIN_MAX))
         return false;
-    /* Overtones are never nearer than Im(omega)/(n + 1/2), which they come to as a -> 1. What is found within a tenth of that
-     * from where it was expected is the mode, and not a neighbour. */
-    const double near = 0.1 / (branch->n + 0.5), target = stretched(a);
+    /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and turn sharply where the undamped modes part from the damped
+     * (l = 2, m = 1, n = 1 at a = 0.995). What is found within a hundredth of that from where it was expected is the mode, and
+     * not a neighbour; a tenth is not enough. Near a = 0 there is no parabola yet, but no neighbour either. */
+    const double apart = 1 / (branch->n + 0.5), target = stretched(a);
     while (branch->a != a) {
         double y = stretched(branch->a), left = target - y;
         double next = fabs(left) <= branch->step ? a : -expm1(-(y + copysign(branch->step, left)));
         struct kd_qnm guess = extrapolated(branch, stretched(next)), mode = guess;
         if (improve(branch, next, next == a ? precise : rough, &mode) &&
-            cabs(mode.omega - guess.omega) < near * -cimag(mode.omega)) {
+            cabs(mode.omega - guess.omega) < (branch->points < 3 ? 0.1 : 0.01) * apart * -cimag(mode.omega)) {
             branch->a = next, branch->at = mode;
             remember(branch);
             branch->step *= next == a ? 1 : 2;

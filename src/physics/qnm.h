@@ -15,8 +15,8 @@
  * Domain: 2 <= l <= 4, |m| <= l, 0 <= n <= 3, |a| <= 0.9999: there fewer than 1e5 terms do. Beyond it the damped and the
  * undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013, Phys. Rev. D 87, 041502) and l and n stop being
  * names for them.
- * Relative error of both, as complex numbers: below 1e-12, measured against another method (tests/oracle/qnm_reference.py):
- * 1e-13 up to a = 0.99. */
+ * Relative error of both, as complex numbers, measured against another method (tests/oracle/qnm_reference.py): below 1e-13 up to
+ * a = 0.99, 1e-12 up to 0.999; beyond, rounding leaves 1e-10 of the overtones of l = 4. */
 #ifndef KD_PHYSICS_QNM_H
 #define KD_PHYSICS_QNM_H
 

@@ -14,18 +14,18 @@ struct kd_tidal {
     double hole, mass, radius; /* of the hole, of the star, of the star */
 };
 
-/* r_t = R (M/m)^(1/3) [Hills 1975; Rees 1988 eq. 1]: inside it the hole's tide beats the star's gravity. */
+/* r_t = R (M/m)^(1/3) [Hills 1975; Rees 1988]: inside it the hole's tide beats the star's gravity. */
 double kd_tidal_radius(struct kd_tidal t);
 
 /* beta = r_t/r_p for a pericentre r_p: above 1 the star is disrupted. */
 double kd_tidal_penetration(struct kd_tidal t, double pericentre);
 
 /* Half the range of specific orbital energy in the debris, M R/r_t^2: frozen in where the star passes r_t, whatever its
- * pericentre [S eq. 6]. (Rees took r_p for r_t, which is beta^2 times more.) */
+ * pericentre [S]. (Rees took r_p for r_t, which is beta^2 times more.) */
 double kd_tidal_energy_spread(struct kd_tidal t);
 
 /* When the first debris comes back: the Kepler period at binding energy kd_tidal_energy_spread, 2 pi M/(2 energy)^(3/2)
- * [S eq. 7]. 41 days for the sun and 1e6 solar masses. */
+ * [S]. 41 days for the sun and 1e6 solar masses. */
 double kd_tidal_fallback_time(struct kd_tidal t);
 
 /* Mass per time that comes back at t after the disruption, for debris spread evenly in energy [Phinney 1989]:

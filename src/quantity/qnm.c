@@ -38,7 +38,8 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
     "S. A. Teukolsky 1973, ApJ 185, 635; E. W. Leaver 1985, Proc. R. Soc. Lond. A 402, 285 (continued fractions)",
-    "H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (their remainder); S. R. Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (start at spin 0)",
+    "H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (their remainder)",
+    "S. R. Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (start at spin 0)",
     "fit: E. Berti, V. Cardoso & C. M. Will 2006, Phys. Rev. D 73, 064030, table VIII",
     "quality_cubic: no source found; for comparison alone",
     NULL,

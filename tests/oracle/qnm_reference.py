@@ -7,8 +7,8 @@ No continued fraction. Radial: Teukolsky's equation in r itself. The wave into t
 outgoing wave an asymptotic series in 1/r far out along the ray arg r = pi/2 - arg omega, where it decays. That one is
 continued by Taylor series through the upper half plane to r = 10 and on to r+ + (r+ - r-)/4, where the two have to agree.
 Angular: the eigenvalue in the basis of spin-weighted spherical harmonics (Cook & Zalutskiy 2014, Phys. Rev. D 90, 124021,
-section II.C). Modes are followed from a = 0 in small steps, from Schwarzschild values in print (Leaver 1985, table 1; l = 3, 4:
-the WKB values of Iyer 1987, Phys. Rev. D 35, 3632, improved).
+section II.C). Modes are followed from a = 0 in small steps, from Schwarzschild values in print to four digits (Leaver 1985, table 1;
+l = 4: Iyer 1987, Phys. Rev. D 35, 3632).
 """
 import cmath
 

@@ -76,7 +76,7 @@ static void smooth_and_monotone(void **state)
     }
 }
 
-/* What the weak field leaves out is of the next order, with the coefficients of Iyer & Hioki 2009, eq. 32:
+/* What the weak field leaves out is of the next order, with the coefficients of Iyer & Hioki 2009:
  * (128/3 - 10 pi a + 4 a^2)/b^3. */
 static void weak_field(void **state)
 {

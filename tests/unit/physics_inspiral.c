@@ -75,7 +75,7 @@ static void rates(void **state)
         }
         close_to("dP/dt", a, e, kd_inspiral_period_rate(eta, a, e), 3 * M_PI * sqrt(a) * da, 1e-12);
     }
-    close_to("enhancement", 1, 0.617131, kd_inspiral_enhancement(0.617131), 11.857, 1e-4); /* Peters & Mathews's pulsar */
+    close_to("enhancement", 1, 0.617131, kd_inspiral_enhancement(0.617131), 11.857, 1e-4); /* Hulse and Taylor's pulsar: 11.86 */
 }
 
 static void time_by_quadrature(void **state)
