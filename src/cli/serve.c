@@ -10,7 +10,7 @@
 
 struct arguments {
     const char *device, *listen;
-    unsigned port, queue;
+    unsigned port, queue, sessions;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
 };
@@ -19,6 +19,7 @@ static const struct argp_option table[] = {
     { "listen", 'a', "ADDRESS", 0, "numeric address to listen on (default 127.0.0.1)", 0 },
     { "port", 'p', "PORT", 0, "TCP port, 0 for any free one (default 8080)", 0 },
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
+    { "sessions", 's', "N", 0, "live sessions at once (default 16)", 0 },
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
     { 0 },
 };
@@ -41,6 +42,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'a': arguments->listen = text; return 0;
     case 'p': arguments->port = kd_cli_number(state, "--port", text, 0, 65535); return 0;
     case 'q': arguments->queue = kd_cli_number(state, "--queue", text, 1, 100000); return 0;
+    case 's': arguments->sessions = kd_cli_number(state, "--sessions", text, 1, 10000); return 0;
     case 'H': add_host(arguments, text, state); return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
     }
@@ -76,6 +78,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .port = (uint16_t)arguments->port,
         .hosts = arguments->hosts,
         .queue = arguments->queue,
+        .sessions = arguments->sessions,
         .renderer = { .device = arguments->device },
     };
     enum kd_status status = kd_server_create(&params, &running, error);
@@ -105,7 +108,7 @@ int kd_cli_serve(int argc, char **argv)
             "is 0. It is 1 when the device was lost: start it again.",
         .children = children,
     };
-    struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16 };
+    struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16, .sessions = 16 };
     struct kd_error error = { 0 };
 
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);

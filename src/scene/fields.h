@@ -87,6 +87,10 @@
     ENUM(style, tone_map, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")                \
     BOOL(style, dither, true, "half a step of ordered noise before rounding, against banding")
 
+#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                         \
+    REAL(motion, azimuth_rate_deg, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
+    REAL(motion, time_rate, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")
+
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                       \
     ENUM(accuracy, profile, KD_PROFILE_BALANCED,                                                              \
          "how closely rays are followed, coarse to fine; reference is double precision",                      \
@@ -114,6 +118,7 @@
     SECTION(sky, KD_SKY_FIELDS, "what lies at infinity")                                                      \
     SECTION(image, KD_IMAGE_FIELDS, "the size of the picture")                                                \
     SECTION(style, KD_STYLE_FIELDS, "from brightness to the colours of the file")                             \
+    SECTION(motion, KD_MOTION_FIELDS, "what goes on by itself in a live session; a still picture knows none of it") \
     SECTION(accuracy, KD_ACCURACY_FIELDS, "how closely the rays are followed")                                \
     SECTION(top, KD_TOP_FIELDS, "members of the document itself")
 

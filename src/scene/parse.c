@@ -9,6 +9,7 @@
 struct reader {
     struct kd_scene scene; /* a copy, handed over when the whole document is right */
     bool seen_field[KD_FIELD_COUNT], seen_section[KD_SECTION_COUNT], seen_version;
+    bool patch; /* null takes a field, or a section, back to its default */
     struct kd_error *error;
 };
 
@@ -34,6 +35,10 @@ static enum kd_status read_field(struct reader *reader, const char *section, con
         return kd_hint_unknown(reader->error, section, item->string);
     struct kd_value value = kd_tree_value(item);
     enum kd_status status = once(reader, &reader->seen_field[field - kd_fields], section, item->string);
+    if (!status && reader->patch && cJSON_IsNull(item)) {
+        kd_field_put(&reader->scene, field, field->initial);
+        return KD_OK;
+    }
     return status ? status : kd_value_store(&reader->scene, field, &value, reader->error);
 }
 
@@ -41,6 +46,11 @@ static enum kd_status read_section(struct reader *reader, const struct kd_sectio
                                    const cJSON *object)
 {
     enum kd_status status = once(reader, &reader->seen_section[section - kd_sections], "", section->name);
+    if (!status && reader->patch && cJSON_IsNull(object)) {
+        for (size_t i = 0; i < section->count; i++)
+            kd_field_put(&reader->scene, &kd_fields[section->first + i], kd_fields[section->first + i].initial);
+        return KD_OK;
+    }
     if (!status && !cJSON_IsObject(object)) {
         char pointer[KD_PATH_SIZE] = "", given[KD_VALUE_SIZE];
         struct kd_value value = kd_tree_value(object);
@@ -79,11 +89,10 @@ static enum kd_status read_document(struct reader *reader, const cJSON *root)
     return status;
 }
 
-enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
-                                  struct kd_error *error)
+static enum kd_status merge(struct kd_scene *scene, const char *text, size_t length, bool patch, struct kd_error *error)
 {
     cJSON *root = NULL;
-    struct reader reader = { .scene = *scene, .error = error };
+    struct reader reader = { .scene = *scene, .patch = patch, .error = error };
     enum kd_status status = kd_tree_parse(text, length, KD_SCENE_JSON_MAX, KD_SCAN_FEW, &root, error);
     if (!status)
         status = read_document(&reader, root);
@@ -91,4 +100,14 @@ enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size
         *scene = reader.scene;
     cJSON_Delete(root);
     return status;
+}
+
+enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error)
+{
+    return merge(scene, text, length, false, error);
+}
+
+enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error)
+{
+    return merge(scene, text, length, true, error);
 }

@@ -27,6 +27,7 @@ struct kd_scene {
     struct kd_sky { KD_M(KD_SKY_FIELDS) } sky;
     struct kd_image { KD_M(KD_IMAGE_FIELDS) } image;
     struct kd_style { KD_M(KD_STYLE_FIELDS) } style;
+    struct kd_motion { KD_M(KD_MOTION_FIELDS) } motion;
     struct kd_accuracy { KD_M(KD_ACCURACY_FIELDS) } accuracy;
     struct { KD_M(KD_TOP_FIELDS) } top; /* members of the document itself, without a section */
 };
@@ -48,6 +49,9 @@ const char *kd_scene_preset_title(size_t index);
 #define KD_SCENE_JSON_MAX (1u << 20)
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
                                   struct kd_error *error);
+
+/* The same for a merge patch (RFC 7396): null takes a field, or all fields of a section, back to the default. */
+enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
 /* Set one scalar field by its dotted path ("camera.inclination_deg") from text. */
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value,

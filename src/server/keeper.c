@@ -54,6 +54,7 @@ static bool step_down(struct kd_server *server, double *since)
             enter(server, KD_REFUSING, since);
         return false;
     case KD_REFUSING:
+        kd_sessions_close(server->sessions);
         if (atomic_load(&server->abandon)) {
             kd_render_queue_cancel(server->renders);
             kd_rays_queue_cancel(server->rays);
@@ -79,6 +80,7 @@ void *kd_keeper_main(void *user)
         sleep_a_tick(server);
         kd_connections_sweep(server->connections);
         kd_render_queue_sweep(server->renders);
+        kd_sessions_sweep(server->sessions);
     } while (!step_down(server, &since));
     MHD_stop_daemon(server->daemon); /* nothing is suspended: the queues have finished, and take no more */
     server->daemon = NULL;

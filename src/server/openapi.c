@@ -60,11 +60,14 @@ static void add_fields(cJSON *list, const cJSON *schema, const char *prefix)
 static void add_parameters(cJSON *operation, const struct kd_route *route, bool post, const cJSON *schema)
 {
     cJSON *list = cJSON_CreateArray();
-    size_t n = strlen(route->path);
+    const char *brace = strchr(route->path, '{');
 
-    if (n > 1 && route->path[n - 1] == '/')
-        add_parameter(list, "path", "name", true, string_type());
-    if (route->takes == KD_TAKES_SCENE) {
+    if (brace) {
+        char name[20];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(brace + 1, "}"), brace + 1);
+        add_parameter(list, "path", name, true, string_type());
+    }
+    if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
         add_parameter(list, "query", "preset", false, string_type());
         if (!post)
             add_fields(list, schema, "");
@@ -138,18 +141,19 @@ static cJSON *document(cJSON *schema)
     cJSON *paths = cJSON_AddObjectToObject(root, "paths");
     for (size_t i = 0; i < kd_n_routes; i++) {
         const struct kd_route *route = &kd_routes[i];
-        size_t n = strlen(route->path);
-        char path[80];
         if (route->takes == KD_TAKES_QUANTITY) {
             kd_openapi_physics_paths(paths);
             continue;
         }
-        snprintf(path, sizeof path, "%s%s", route->path, n > 1 && route->path[n - 1] == '/' ? "{name}" : "");
-        cJSON *item = cJSON_AddObjectToObject(paths, path);
+        cJSON *item = cJSON_AddObjectToObject(paths, route->path);
         if (route->methods & KD_GET)
             cJSON_AddItemToObject(item, "get", operation(route, false, schema));
         if (route->methods & KD_POST)
             cJSON_AddItemToObject(item, "post", operation(route, true, schema));
+        if (route->methods & KD_PATCH)
+            cJSON_AddItemToObject(item, "patch", operation(route, true, schema));
+        if (route->methods & KD_DELETE)
+            cJSON_AddItemToObject(item, "delete", operation(route, false, schema));
     }
     add_components(root, schema);
     return root;

@@ -12,6 +12,7 @@
 #define KD_PROBLEMS(X)                                                                                       \
     X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP")                                      \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object")                     \
+    X(FORBIDDEN, 403, "forbidden", "This takes a token")                                                     \
     X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                                    \
     X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
     X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \

@@ -10,7 +10,6 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-#define ENCODERS 2
 #define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it */
 
 struct list {
@@ -35,8 +34,8 @@ struct kd_render_queue {
     struct kd_error lost_error;
     _Atomic bool cancel;
 
-    pthread_t render_thread, encoders[ENCODERS];
-    unsigned n_encoders;
+    pthread_t render_thread, encoders[KD_ENCODERS];
+    unsigned n_encoders, encoders_begun;
     bool render_thread_runs;
 };
 
@@ -45,6 +44,20 @@ static void append(struct list *list, struct kd_render_job *job)
     job->next = NULL;
     *list->end = job;
     list->end = &job->next;
+}
+
+/* Behind the other live ones, before the rest. */
+static void append_live(struct list *list, struct kd_render_job *job)
+{
+    struct kd_render_job **link = &list->first;
+    while (job->live && *link && (*link)->live)
+        link = &(*link)->next;
+    if (!job->live || !*link) {
+        append(list, job);
+        return;
+    }
+    job->next = *link;
+    *link = job;
 }
 
 static struct kd_render_job *take_first(struct list *list)
@@ -59,6 +72,8 @@ static struct kd_render_job *take_first(struct list *list)
 /* The job, no longer in the list, stops counting as waiting. */
 static void leave(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
+    if (job->live)
+        return;
     queue->n_waiting--;
     queue->waiting_ms = queue->n_waiting ? queue->waiting_ms - job->plan.estimate_ms : 0;
 }
@@ -164,12 +179,14 @@ static void render_one(struct kd_render_queue *queue) /* locked; unlocks while i
     bool encode = render(queue, job);
     if (!encode)
         finish(queue, job);
+    else if (job->rendered)
+        job->rendered(job);
 
     pthread_mutex_lock(&queue->lock);
     queue->running = false;
     queue->running_ms = 0;
     if (encode) {
-        append(&queue->encoding, job);
+        append_live(&queue->encoding, job);
         queue->frame_bytes += bytes;
         pthread_cond_broadcast(&queue->changed);
     }
@@ -200,6 +217,7 @@ static void *encode_main(void *user)
     struct kd_render_queue *queue = user;
 
     pthread_mutex_lock(&queue->lock);
+    unsigned encoder = queue->encoders_begun++;
     while (!queue->closing || queue->unfinished) {
         if (!queue->encoding.first) {
             pthread_cond_wait(&queue->changed, &queue->lock);
@@ -210,9 +228,9 @@ static void *encode_main(void *user)
         pthread_mutex_unlock(&queue->lock);
 
         double start = kd_clock_ms();
-        job->status =
-            kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
-                              job->compression, &job->png, &job->error);
+        job->status = job->encode ? job->encode(job, encoder)
+                                  : kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
+                                                      job->compression, &job->png, &job->error);
         job->encode_ms = kd_clock_ms() - start;
         free(job->frame.pixels);
         job->frame.pixels = NULL;
@@ -241,7 +259,7 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
             *error = queue->open_error;
         return queue->open_status;
     }
-    for (; queue->n_encoders < ENCODERS; queue->n_encoders++)
+    for (; queue->n_encoders < KD_ENCODERS; queue->n_encoders++)
         if (pthread_create(&queue->encoders[queue->n_encoders], NULL, encode_main, queue))
             return kd_error_set(error, KD_ENOMEM, "an encoder could not be started");
     return KD_OK;
@@ -355,10 +373,12 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     job->queue = queue;
     job->submitted_ms = kd_clock_ms();
     pthread_mutex_lock(&queue->lock);
-    append(&queue->waiting, job);
-    queue->n_waiting++;
+    append_live(&queue->waiting, job);
     queue->unfinished++;
-    queue->waiting_ms += job->plan.estimate_ms;
+    if (!job->live) {
+        queue->n_waiting++;
+        queue->waiting_ms += job->plan.estimate_ms;
+    }
     pthread_cond_broadcast(&queue->changed);
     pthread_mutex_unlock(&queue->lock);
 }

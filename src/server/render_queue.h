@@ -14,6 +14,8 @@
 
 struct kd_render_queue;
 
+#define KD_ENCODERS 2
+
 struct kd_render_job {
     /* filled in by the submitter */
     struct kd_scene scene;
@@ -22,8 +24,12 @@ struct kd_render_job {
     /* NULL: a picture is rendered and encoded. Else this is called instead, on the render thread. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
-    int socket;                              /* of the client; once it hangs up the job is dropped */
-    void (*done)(struct kd_render_job *job); /* on a thread of the queue; may free the job */
+    bool live; /* before all that is not, and not counted among what may wait */
+    /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
+    enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
+    int socket;                                  /* of the client; once it hangs up the job is dropped; -1: none */
+    void (*rendered)(struct kd_render_job *job); /* may be NULL; on the render thread, before the frame is encoded */
+    void (*done)(struct kd_render_job *job);     /* on a thread of the queue; may free the job */
     void *user;
     /* the outcome: KD_ECANCELLED when dropped */
     enum kd_status status;

@@ -86,6 +86,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     }
     kd_rays_job_destroy(request->rays);
     kd_orbits_job_abandon(request->orbits);
+    kd_live_abandon(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
@@ -114,14 +115,15 @@ static const char *too_large(const struct kd_request *request)
 
 static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
 {
-    if (strcmp(request->method, "POST")) {
+    bool patch = !strcmp(request->method, "PATCH");
+    if (!patch && strcmp(request->method, "POST")) {
         *problem =
             (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;
     }
     bool rays = request->route->takes == KD_TAKES_RAYS;
     if (!kd_media_type_is(request->header.content_type, "application/json") &&
-        !(rays && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {
+        !(patch && kd_media_type_is(request->header.content_type, "application/merge-patch+json")) && !(rays && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {
         *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE,
                                          .offered = rays ? "application/json, " KD_NPY_TYPE : "application/json",
                                          .detail = rays ? "a body must say Content-Type: application/json or " KD_NPY_TYPE

@@ -23,6 +23,7 @@ struct kd_request {
     struct kd_render_job *job; /* of a render under way; owned */
     struct kd_rays_job *rays;  /* of a request for rays under way; owned */
     struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
+    struct kd_viewer *viewer;  /* of a request that waits for a session's next frame; owned */
     char etag[96];
     size_t reply_bytes; /* of a large reply, for its deadline */
     double start_ms;
@@ -30,6 +31,10 @@ struct kd_request {
 };
 
 void kd_rays_job_destroy(struct kd_rays_job *job); /* rays.c; accepts NULL */
+
+void kd_live_abandon(struct kd_request *request);  /* live.c: nobody waits for a frame any more */
+/* session_routes.c: a reference to the session that the path names, or NULL after a refusal. */
+struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused);
 
 /* The four callbacks libmicrohttpd is started with; cls is the struct kd_server. */
 void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd);

@@ -17,53 +17,77 @@ const struct kd_route kd_routes[] = {
     { "/v1/accuracy", KD_GET, kd_handle_accuracy, JSON,
       "Measured speed and error of the engines on this device; made by `kerrd bench accuracy`" },
     { "/v1/presets", KD_GET, kd_handle_presets, JSON, "Names and titles of the presets" },
-    { "/v1/presets/", KD_GET, kd_handle_preset, JSON, "The scene of a preset" },
+    { "/v1/presets/{name}", KD_GET, kd_handle_preset, JSON, "The scene of a preset" },
     { "/v1/schema", KD_GET, kd_handle_schema, "application/schema+json", "JSON Schema of a scene" },
     { "/v1/plan", KD_POST, kd_handle_plan, JSON,
       "What a scene requires: passes, rays, bytes, estimated time, approximations", KD_TAKES_SCENE },
     { "/v1/rays", KD_POST, kd_handle_rays, JSON,
       "End points of listed rays: equatorial crossings, redshift, delay, direction of escape, error", KD_TAKES_RAYS },
     { "/v1/physics", KD_GET, kd_handle_quantities, JSON, "The quantities that /v1/physics/NAME gives" },
-    { "/v1/physics/", KD_GET, kd_handle_quantity, JSON, "A quantity at a point, or along ranges of its parameters",
+    { "/v1/physics/{name}", KD_GET, kd_handle_quantity, JSON, "A quantity at a point, or along ranges of its parameters",
       KD_TAKES_QUANTITY },
     { "/v1/orbits", KD_POST, kd_handle_orbits, JSON,
       "Timelike orbits: path, turning points, constants of motion and their drift, frequencies, periastron advance", KD_TAKES_ORBITS },
+    { "/v1/sessions", KD_POST, kd_handle_sessions, JSON, "A live session of a scene: its id, and the token that changes it",
+      KD_TAKES_SCENE },
+    { "/v1/sessions/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_session, JSON,
+      "A session's scene; a merge patch of it (RFC 7396); its end", KD_TAKES_SCENE },
+    { "/v1/sessions/{id}/frame.png", KD_GET, kd_handle_session_frame, "image/png",
+      "The newest frame, as soon as it is newer than the one whose number is given as after" },
+    { "/v1/sessions/{id}/frames", KD_GET, kd_handle_session_frames, "multipart/x-mixed-replace",
+      "Frames as they come, the newest only; with Accept: application/x-kerrd-frames length, number, revision and 0 before each" },
+    { "/v1/sessions/{id}/events", KD_GET, kd_handle_session_events, "text/event-stream",
+      "Numbers of each frame: quality in force, times, accuracy" },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;
 
-static bool matches(const struct kd_route *route, const char *path, const char **rest)
+/* *rest is cut out of the path, which is ours to change once it matches. */
+static bool matches(const struct kd_route *route, char *path, const char **rest)
 {
-    size_t n = strlen(route->path);
-    if (!strcmp(route->path, path)) {
+    const char *brace = strchr(route->path, '{');
+    if (!brace) {
         *rest = "";
-        return n == 1 || route->path[n - 1] != '/';
+        return !strcmp(route->path, path);
     }
-    if (n == 1 || route->path[n - 1] != '/' || strncmp(route->path, path, n))
+    size_t before = (size_t)(brace - route->path);
+    const char *after = strchr(brace, '}') + 1;
+    if (strncmp(route->path, path, before))
         return false;
-    *rest = path + n;
-    return !strchr(*rest, '/');
+    size_t n = strcspn(path + before, "/");
+    if (strcmp(path + before + n, after))
+        return false;
+    path[before + n] = 0;
+    *rest = path + before;
+    return true;
 }
 
 static bool permits(const struct kd_route *route, const char *method)
 {
-    if (!strcmp(method, "GET") || !strcmp(method, "HEAD"))
-        return route->methods & KD_GET;
-    return !strcmp(method, "POST") && (route->methods & KD_POST);
+    static const struct { const char *name; unsigned bit; } methods[] = {
+        { "GET", KD_GET }, { "HEAD", KD_GET }, { "POST", KD_POST }, { "PATCH", KD_PATCH }, { "DELETE", KD_DELETE },
+    };
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
+        if (!strcmp(methods[i].name, method))
+            return route->methods & methods[i].bit;
+    return false;
 }
 
 static const char *allow(unsigned methods)
 {
-    if (methods == KD_POST)
-        return "POST";
-    return methods == KD_GET ? "GET, HEAD" : "GET, HEAD, POST";
+    switch (methods) {
+    case KD_GET: return "GET, HEAD";
+    case KD_POST: return "POST";
+    case KD_GET | KD_POST: return "GET, HEAD, POST";
+    default: return "GET, HEAD, PATCH, DELETE";
+    }
 }
 
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
 {
     for (size_t i = 0; i < kd_n_routes; i++) {
         const struct kd_route *route = &kd_routes[i];
-        if (!matches(route, request->target.path, &request->rest))
+        if (!matches(route, request->target.text, &request->rest))
             continue;
         request->route = route;
         if (permits(route, request->method))

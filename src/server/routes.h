@@ -10,7 +10,7 @@
 
 struct kd_request;
 
-enum { KD_GET = 1, KD_POST = 2 }; /* HEAD goes with GET */
+enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8 }; /* HEAD goes with GET */
 
 enum kd_takes {
     KD_TAKES_NOTHING,
@@ -21,7 +21,7 @@ enum kd_takes {
 };
 
 struct kd_route {
-    const char *path; /* one that ends in "/" and is longer takes any one further segment */
+    const char *path; /* a segment in braces, at most one, stands for any: request->rest */
     unsigned methods;
     /* Called when the whole body is there, and again when the render it has asked for is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
@@ -32,7 +32,7 @@ struct kd_route {
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Sets request->route and ->rest; false with *problem filled (404, 405). */
+/* Sets request->route and ->rest, which point into the target's path; false with *problem filled (404, 405). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 /* Whether a raw target is one that is answered whatever else is the matter. */
 bool kd_route_is_health(const char *raw);
@@ -51,6 +51,11 @@ enum MHD_Result kd_handle_render(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request); /* orbits.c */
 enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* accuracy.c */
+enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session_routes.c */
+enum MHD_Result kd_handle_session(struct kd_request *request);
+enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* live.c */
+enum MHD_Result kd_handle_session_frames(struct kd_request *request);
+enum MHD_Result kd_handle_session_events(struct kd_request *request);
 enum MHD_Result kd_handle_quantities(struct kd_request *request); /* physics.c */
 enum MHD_Result kd_handle_quantity(struct kd_request *request);
 

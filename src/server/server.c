@@ -126,6 +126,13 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         close(fd);
         return status;
     }
+    const struct kd_sessions_params sessions = { server->renders, or_default(params->sessions, 16),
+                                                 or_default(params->session_ms, KD_SESSION_IDLE_MS) };
+    status = kd_sessions_create(&sessions, &server->sessions, error);
+    if (status) {
+        close(fd);
+        return status;
+    }
     status = start_daemon(server, fd, connections, error);
     return status ? status : start_keeper(server, error);
 }
@@ -183,9 +190,12 @@ void kd_server_destroy(struct kd_server *server)
     } else if (server->daemon) {
         MHD_stop_daemon(server->daemon);
     }
+    if (server->sessions)
+        kd_sessions_close(server->sessions);
     kd_turns_destroy(server->turns);
     kd_rays_queue_destroy(server->rays);
     kd_render_queue_destroy(server->renders);
+    kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_connections_destroy(server->connections);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);

@@ -14,6 +14,8 @@ struct kd_server_params {
     uint16_t port;            /* 0: any free port */
     const char *const *hosts; /* Host names to accept besides loopback's, without port; NULL-terminated */
     unsigned queue;           /* renders that may wait, default 16 */
+    unsigned sessions;        /* live ones at once, default 16 */
+    unsigned session_ms;      /* that one lives on unwatched, default 60 000 */
     unsigned drain_ms;        /* of serving on after a stop request, with /readyz failing; default 1000 */
     unsigned connections;     /* at once; one more is answered 503, all but the health routes; default 512 */
     unsigned header_ms;       /* a request's header must be complete by then; default 10 000 */

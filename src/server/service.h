@@ -10,6 +10,7 @@
 #include "server/render_queue.h"
 #include "server/server.h"
 #include "server/turns.h"
+#include "server/sessions.h"
 
 #include <microhttpd.h>
 #include <pthread.h>
@@ -21,6 +22,7 @@
 #define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures and rays not yet taken by their clients; one may exceed it */
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
+#define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
 #define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
 
 /* The way down, in order. */
@@ -41,6 +43,7 @@ struct kd_server {
     struct kd_render_queue *renders;
     struct kd_rays_queue *rays;
     struct kd_turns *turns; /* orbits */
+    struct kd_sessions *sessions;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;

@@ -107,8 +107,11 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                                .pixels = malloc(size) };
     if (!out->pixels)
         return kd_error_set(error, KD_ENOMEM, "no memory for the picture");
-    for (size_t i = 0; i < size; i++)
-        ((unsigned char *)out->pixels)[i] = (unsigned char)(i * 7);
+    uint32_t noise = 1;
+    for (size_t i = 0; i < size; i++) {
+        noise = noise * 1664525 + 1013904223;
+        ((unsigned char *)out->pixels)[i] = (unsigned char)(scene->image.samples > 1 ? noise >> 24 : i * 7);
+    }
     out->lens_reused = !strcmp(renderer->lens_key, plan->lens_key);
     memcpy(renderer->lens_key, plan->lens_key, sizeof renderer->lens_key);
     if (!out->lens_reused)

@@ -24,6 +24,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         unsigned *number;
     } numbers[] = {
         { "--queue", &params->queue },
+        { "--sessions", &params->sessions },
+        { "--session-ms", &params->session_ms },
         { "--drain-ms", &params->drain_ms },
         { "--header-ms", &params->header_ms },
         { "--body-ms", &params->body_ms },

@@ -64,6 +64,31 @@ static void documents_merge(void **state)
     assert_true(isinf(scene.camera.r));
 }
 
+/* RFC 7396: null is the default, of a field or of a section; what is not named stays; nothing half done. */
+static void patches(void **state)
+{
+    (void)state;
+    struct kd_scene scene, before;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    scene.camera.inclination_deg = 10;
+    scene.camera.r = 40;
+    scene.disk.outer = 99;
+    scene.top.time = 7;
+    const char *text = "{\"camera\":{\"r\":null},\"disk\":null,\"time\":null,\"spacetime\":{\"spin\":0.25}}";
+    assert_int_equal(kd_scene_patch(&scene, text, strlen(text), &error), KD_OK);
+    assert_true(isinf(scene.camera.r) && scene.camera.inclination_deg == 10 && scene.disk.outer == 22 && scene.top.time == 0);
+    assert_true(scene.spacetime.spin == 0.25);
+    before = scene;
+    static const char *const wrong[] = { "{\"camera\":{\"x\":null}}", "{\"nothing\":null}", "{\"disk\":null,\"disk\":null}",
+                                         "{\"time\":1,\"camera\":{\"r\":\"far\"}}", "null" };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(kd_scene_patch(&scene, wrong[i], strlen(wrong[i]), &error), KD_EINVAL);
+        assert_memory_equal(&scene, &before, sizeof scene);
+    }
+    assert_int_equal(support_parse(&scene, "{\"time\":null}", NULL), KD_EINVAL); /* a document has no null */
+}
+
 /* A file from an earlier version must go on meaning the same. */
 static void canonical_form_is_stable(void **state)
 {
@@ -210,7 +235,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_scenes_round_trip), cmocka_unit_test(empty_document_is_the_default),
-        cmocka_unit_test(documents_merge),          cmocka_unit_test(canonical_form_is_stable),
+        cmocka_unit_test(documents_merge), cmocka_unit_test(patches),          cmocka_unit_test(canonical_form_is_stable),
         cmocka_unit_test(numbers_are_short),        cmocka_unit_test(invalid_scenes_have_no_text),
         cmocka_unit_test(hash_feels_each_field),    cmocka_unit_test(hash_is_sha256),
         cmocka_unit_test(locale_does_not_matter),

@@ -1,0 +1,77 @@
+/* Live sessions: a scene that its owner changes, the newest frame of it, and those who watch.
+ *
+ * A session is rendered only while somebody waits for a newer frame, and only if a newer one would differ: the scene has
+ * changed, goes on by itself, or a finer picture of it is still to come. One frame is traced while the one before is
+ * encoded; all who watch share it. Any thread; the functions on viewers belong to the HTTP thread. */
+#ifndef KD_SERVER_SESSIONS_H
+#define KD_SERVER_SESSIONS_H
+
+#include "server/live_frame.h"
+#include "server/render_queue.h"
+
+#include <microhttpd.h>
+
+struct kd_sessions;
+struct kd_session;
+
+#define KD_SESSION_ID 17    /* hexadecimal digits and NUL: who knows it may watch */
+#define KD_SESSION_TOKEN 33 /* who knows it may change and end the session */
+
+struct kd_sessions_params {
+    struct kd_render_queue *renders;
+    unsigned limit;   /* sessions at once */
+    unsigned idle_ms; /* without anybody watching or asking, after which a session ends */
+};
+enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error);
+/* Nothing may be under way: after kd_sessions_close, and when the render queue has finished. Accepts NULL. */
+void kd_sessions_destroy(struct kd_sessions *all);
+
+/* A valid scene whose plan can be made, to a new session, of which the caller holds a reference. KD_EBUSY: as many as may. */
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, struct kd_session **out,
+                                struct kd_error *error);
+/* A reference to the session of this id, or NULL. Counts as being asked. */
+struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
+void kd_session_release(struct kd_session *session);
+
+const char *kd_session_id(const struct kd_session *session);
+const char *kd_session_token(const struct kd_session *session);
+bool kd_session_owned(const struct kd_session *session, const char *token); /* in constant time; token may be NULL */
+
+/* The scene as it is now, what goes on by itself included. */
+struct kd_session_state {
+    struct kd_scene scene;
+    unsigned revision, viewers;
+    uint64_t frame; /* the newest one's number, 0: none yet */
+};
+void kd_session_state(struct kd_session *session, struct kd_session_state *out);
+/* Merge a patch (RFC 7396). Without change on failure. */
+enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, struct kd_session_state *out,
+                                struct kd_error *error);
+/* Those who watch are told that it is over. */
+void kd_session_end(struct kd_session *session);
+
+/* Somebody who watches: a suspended request or a stream. */
+struct kd_viewer {
+    struct kd_session *session; /* a reference */
+    struct MHD_Connection *mhd;
+    int socket;
+    uint64_t seen;       /* number of the newest frame taken */
+    double deadline_ms;  /* on kd_clock_ms, of waiting; INFINITY: none */
+    bool waiting;        /* suspended */
+    bool late, gone;     /* woken because the deadline has passed; because the client has hung up */
+    struct kd_viewer *previous, *next;
+};
+/* Takes over the reference in viewer->session. */
+void kd_viewer_attach(struct kd_viewer *viewer);
+void kd_viewer_detach(struct kd_viewer *viewer);
+/* The newest frame, a reference, if it is newer than viewer->seen. Else NULL: *over says that none will come, because the session has
+ * ended or *error says why; otherwise the connection has been suspended and is resumed when there is one, or it is late or gone. */
+struct kd_live_frame *kd_viewer_next(struct kd_viewer *viewer, bool *over, struct kd_error *error);
+
+/* Deadlines, clients that have gone, idle sessions, refinement that is due. One thread, ten times a second. */
+void kd_sessions_sweep(struct kd_sessions *all);
+/* No new sessions, all viewers told that it is over; what is being rendered finishes. */
+void kd_sessions_close(struct kd_sessions *all);
+unsigned kd_sessions_count(struct kd_sessions *all);
+
+#endif

@@ -1,0 +1,344 @@
+"""Live sessions: the pull of frames, streams with readers of every kind, patches, tokens, limits and ends. In the fake renderer's
+scenes `time` is how many milliseconds a frame takes."""
+import json
+import re
+import socket
+import struct
+import threading
+import time
+import unittest
+
+import daemon
+
+SCENE = {'image': {'width': 64, 'height': 36}, 'time': 5}
+NOISE = {'image': {'width': 800, 'height': 600, 'samples': 2}, 'time': 5}  # 1.4 MB that nothing compresses
+MOVING = {'image': {'width': 64, 'height': 36}, 'time': 5, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}}
+
+
+class Sessions(daemon.Case):
+    options = ('--sessions', 6, '--session-ms', 60000)
+
+    def setUp(self):
+        self.opened = []
+
+    def tearDown(self):
+        for session in self.opened:
+            self.daemon.request('DELETE', self.at(session), headers=self.owner(session))
+        super().tearDown()
+
+    def open(self, scene=None):
+        answer = self.daemon.post('/v1/sessions', scene or SCENE)
+        self.assertEqual(answer.status, 201, answer.body)
+        session = answer.json()
+        self.assertEqual(answer.header('Location'), '/v1/sessions/' + session['id'])
+        self.opened.append(session)
+        return session
+
+    @staticmethod
+    def at(session, rest=''):
+        return '/v1/sessions/' + session['id'] + rest
+
+    @staticmethod
+    def owner(session):
+        return {'Authorization': 'Bearer ' + session['token']}
+
+    def patch(self, session, body, **headers):
+        body = body if isinstance(body, (str, bytes)) else json.dumps(body)
+        return self.daemon.request('PATCH', self.at(session), body, {**self.owner(session), **headers})
+
+    def frame(self, session, after=0, wait_ms=20000):
+        return self.daemon.get(self.at(session, f'/frame.png?after={after}&wait_ms={wait_ms}'))
+
+    def stream(self, session, rest, accept='*/*', timeout=20):
+        s = self.daemon.connect(timeout)
+        s.sendall(f'GET {self.at(session, rest)} HTTP/1.1\r\nHost: localhost\r\nAccept: {accept}\r\n\r\n'.encode())
+        return s
+
+    def test_life(self):
+        session = self.open()
+        self.assertRegex(session['id'], '^[0-9a-f]{16}$')
+        self.assertRegex(session['token'], '^[0-9a-f]{32}$')
+        self.assertEqual((session['revision'], session['scene']['image']['width']), (1, 64))
+        first = self.frame(session)
+        self.assertEqual((first.status, first.header('Content-Type'), first.header('Cache-Control')), (200, 'image/png', 'no-store'))
+        self.assertEqual(struct.unpack('>II', first.body[16:24]), (64, 36))
+        self.assertEqual((first.header('Kerrd-Frame'), first.header('Kerrd-Revision')), ('1', '1'))
+        self.assertRegex(first.header('Kerrd-Quality'), r'^width=64 height=36 samples=1 orders=3 engine=closed precision=f32 steps=0 final=1$')
+        self.assertRegex(first.header('Kerrd-Accuracy'), '^rays=2304 ')
+        self.assertIn('encode;dur=', first.header('Server-Timing'))
+        found = self.daemon.get(self.at(session)).json()
+        self.assertNotIn('token', found)
+        self.assertEqual((found['id'], found['frame'], found['scene']), (session['id'], 1, session['scene']))
+        self.assertEqual(self.daemon.request('DELETE', self.at(session), headers=self.owner(session)).status, 204)
+        for rest in ('', '/frame.png', '/frames', '/events'):
+            self.assertProblem(self.daemon.get(self.at(session, rest)), 404, 'not-found')
+        self.assertProblem(self.patch(session, {}), 404, 'not-found')
+
+    def test_ids_differ(self):
+        sessions = [self.open() for _ in range(3)]
+        self.assertEqual(len({s['id'] for s in sessions} | {s['token'] for s in sessions}), 6)
+
+    def test_patch(self):
+        session = self.open()
+        changed = self.patch(session, {'camera': {'inclination_deg': 30}, 'time': None}, **{'Content-Type': 'application/merge-patch+json'})
+        self.assertEqual(changed.status, 200)
+        scene = changed.json()['scene']
+        self.assertEqual((scene['camera']['inclination_deg'], scene['time'], scene['image']['width']), (30, 0, 64))
+        self.assertEqual(changed.json()['revision'], 2)
+        scene = self.patch(session, {'camera': None}).json()['scene']
+        self.assertEqual(scene['camera']['inclination_deg'], 82)
+        self.assertEqual(scene['image']['width'], 64)
+        for body, status, pointer in (('{"camera":{"inclination_deg":181}}', 422, '/camera/inclination_deg'), ('{"camera":3}', 422, '/camera'),
+                                      ('{"nothing":null}', 422, '/nothing'), ('{"camera":{"x":null}}', 422, '/camera/x'),
+                                      ('{"disk":{"outer":1}}', 422, '/disk/outer'), ('{"accuracy":{"tolerance":1e-15}}', 422, '/accuracy/tolerance'),
+                                      ('{', 400, None), ('', 400, None), ('[]', 400, None)):
+            with self.subTest(body):
+                problem = self.assertProblem(self.patch(session, body), status)
+                if pointer:
+                    self.assertEqual(problem['pointer'], pointer)
+        self.assertEqual(self.daemon.get(self.at(session)).json()['revision'], 3)
+        self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
+
+    def test_tokens(self):
+        session, other = self.open(), self.open()
+        for headers in ({}, {'Authorization': session['token']}, self.owner(other), {'Authorization': 'Bearer ' + session['token'][:-1]},
+                        {'Authorization': 'Bearer ' + session['token'] + '0'}, {'Authorization': 'Bearer '}):
+            for method, body in (('PATCH', '{}'), ('DELETE', None)):
+                self.assertProblem(self.daemon.request(method, self.at(session), body, headers), 403, 'forbidden')
+        answer = self.daemon.request('PATCH', self.at(session, '?token=' + session['token']), '{}')
+        self.assertEqual(answer.status, 200)
+
+    def test_methods_and_numbers(self):
+        session = self.open()
+        refused = self.assertProblem(self.daemon.post(self.at(session), {}), 405)
+        self.assertTrue(refused)
+        self.assertEqual(self.daemon.get('/v1/sessions').header('Allow'), 'POST')
+        for query in ('after=x', 'after=-1', 'after=', 'after=1.5', 'wait_ms=60001', 'wait_ms=1e3', 'after=1111111111111111111'):
+            self.assertProblem(self.daemon.get(self.at(session, '/frame.png?' + query)), 422, 'invalid-parameters')
+        self.assertProblem(self.daemon.post('/v1/sessions', {'camera': {'r': 0}}), 422, 'invalid-scene')
+
+    def test_pull_waits_for_what_is_newer(self):
+        session = self.open()
+        self.assertEqual(self.frame(session).header('Kerrd-Frame'), '1')
+        begun = time.monotonic()
+        self.assertEqual(self.frame(session, 1, 300).status, 204)
+        self.assertTrue(0.25 < time.monotonic() - begun < 2)
+        self.assertEqual(self.frame(session, 1, 0).status, 204)
+        self.assertEqual(self.frame(session, 0, 0).status, 200)
+        answers = []
+        thread = threading.Thread(target=lambda: answers.append(self.frame(session, 1)))
+        thread.start()
+        time.sleep(0.2)
+        self.assertFalse(answers)
+        self.patch(session, {'camera': {'inclination_deg': 10}})
+        thread.join()
+        self.assertEqual((answers[0].status, answers[0].header('Kerrd-Revision')), (200, '2'))
+
+    def test_the_latest_scene_wins(self):
+        session = self.open({**SCENE, 'time': 150})
+        number = int(self.frame(session).header('Kerrd-Frame'))
+        for i in range(40):
+            self.patch(session, {'camera': {'inclination_deg': 20 + i}})
+        revisions = []
+        while not revisions or revisions[-1] < 41:
+            answer = self.frame(session, number)
+            number = int(answer.header('Kerrd-Frame'))
+            revisions.append(int(answer.header('Kerrd-Revision')))
+        self.assertLess(len(revisions), 5)
+        self.assertEqual(self.frame(session, number, 100).status, 204)
+
+    def test_many_viewers_cost_one_render(self):
+        session = self.open({**SCENE, 'time': 100})
+        number = int(self.frame(session).header('Kerrd-Frame'))
+        answers, threads = [], []
+        for _ in range(50):
+            threads.append(threading.Thread(target=lambda: answers.append(self.frame(session, number))))
+            threads[-1].start()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session)).json()['viewers'] == 50))
+        self.patch(session, {'camera': {'inclination_deg': 10}})
+        for thread in threads:
+            thread.join()
+        self.assertEqual({(a.status, a.header('Kerrd-Frame')) for a in answers}, {(200, str(number + 1))})
+        self.assertEqual(len({a.body for a in answers}), 1)
+        self.assertEqual(self.daemon.get(self.at(session)).json()['viewers'], 0)
+
+    def test_what_goes_on_by_itself(self):
+        session = self.open(MOVING)
+        seen, number = [], 0
+        for _ in range(5):
+            answer = self.frame(session, number)
+            self.assertEqual(answer.header('Kerrd-Revision'), '1')
+            number = int(answer.header('Kerrd-Frame'))
+            seen.append(number)
+        self.assertEqual(seen, sorted(set(seen)))
+        one = self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg']
+        time.sleep(0.3)
+        two = self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg']
+        self.assertTrue(1 < two - one < 20)
+        self.patch(session, {'motion': None})
+        three = self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg']
+        self.assertTrue(two < three < two + 20)  # it stops where it is
+        self.assertEqual(self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg'], three)
+
+    def test_nobody_watches_nothing_is_drawn(self):
+        session = self.open(MOVING)
+        number = int(self.frame(session).header('Kerrd-Frame'))
+        time.sleep(0.4)
+        self.assertLessEqual(self.daemon.get(self.at(session)).json()['frame'], number + 1)
+
+    def test_multipart(self):
+        session = self.open(MOVING)
+        with self.stream(session, '/frames') as s:
+            text = b''
+            while text.count(b'IEND') < 4:
+                text += s.recv(65536)
+        head, body = text.split(b'\r\n\r\n', 1)
+        self.assertIn(b'multipart/x-mixed-replace; boundary=kerrd', head)
+        body = self.chunks(body)
+        parts = body.split(b'--kerrd\r\nContent-Type: image/png\r\n\r\n')
+        self.assertEqual(parts[0].strip(), b'')
+        for part in parts[1:4]:
+            self.assertTrue(part.startswith(b'\x89PNG') and part.endswith(b'IEND\xaeB`\x82\r\n'), part[:20])
+        # the head of the next part comes with the frame, not with the next frame
+        self.assertTrue(re.search(rb'IEND\xaeB`\x82\r\n--kerrd\r\nContent-Type: image/png\r\n\r\n', body))
+
+    @staticmethod
+    def chunks(data):
+        """What complete chunks hold."""
+        out = b''
+        while True:
+            line, found, rest = data.partition(b'\r\n')
+            if not found or not line:
+                return out
+            n = int(line, 16)
+            out += rest[:n]
+            data = rest[n + 2:]
+
+    def test_binary(self):
+        session = self.open(MOVING)
+        with self.stream(session, '/frames', 'application/x-kerrd-frames') as s:
+            text = b''
+            while text.count(b'IEND') < 4:
+                text += s.recv(65536)
+        body, numbers = self.chunks(text.split(b'\r\n\r\n', 1)[1]), []
+        while len(body) >= 16:
+            size, number, revision, zero = struct.unpack('<4I', body[:16])
+            if len(body) < 16 + size:
+                break
+            self.assertEqual((body[16:20], body[8 + size:12 + size]), (b'\x89PNG', b'IEND'))
+            self.assertEqual((revision, zero), (1, 0))
+            numbers.append(number)
+            body = body[16 + size:]
+        self.assertTrue(len(numbers) >= 3 and numbers == sorted(set(numbers)))
+
+    def test_events(self):
+        session = self.open()
+        with self.stream(session, '/events', 'text/event-stream') as s:
+            text = b''
+            for inclination in (10, 20, 30):
+                while text.count(b'\n\n') * 1 < (inclination - 10) // 10 + 1:
+                    text += s.recv(65536)
+                self.patch(session, {'camera': {'inclination_deg': inclination}})
+        events = re.findall(rb'event: frame\nid: (\d+)\ndata: (\{.*?\})\n\n', self.chunks(text.split(b'\r\n\r\n', 1)[1]))
+        self.assertEqual([int(i) for i, _ in events], [1, 2, 3])
+        data = json.loads(events[2][1])
+        self.assertEqual((data['frame'], data['revision'], data['quality']['width']), (3, 3, 64))
+        self.assertLessEqual({'passes', 'accuracy', 'fps', 'time', 'bytes'}, set(data))
+
+    def test_slow_reader_gets_the_newest(self):
+        session = self.open({**NOISE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}})
+        with self.stream(session, '/frames', 'application/x-kerrd-frames') as s:
+            s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 16384)
+            time.sleep(1.5)
+            other = int(self.frame(session).header('Kerrd-Frame'))
+            text, numbers = b'', []
+            deadline = time.monotonic() + 15
+            while len(numbers) < 4 and time.monotonic() < deadline:
+                text += s.recv(65536)
+                body, numbers = self.chunks(text.split(b'\r\n\r\n', 1)[1] if b'\r\n\r\n' in text else b''), []
+                while len(body) >= 16:
+                    size, number = struct.unpack('<2I', body[:8])
+                    if len(body) < 16 + size:
+                        break
+                    numbers.append(number)
+                    body = body[16 + size:]
+        self.assertEqual(len(numbers), 4)
+        self.assertGreater(numbers[-1], other)  # what lay in the kernel's buffers, and then the present: no queue of old frames
+        self.assertLess(numbers[0], other)
+
+    def test_viewers_that_vanish(self):
+        session = self.open(MOVING)
+        files = self.daemon.open_files()
+        for rest in ('/frames', '/events', '/frame.png?after=999999'):
+            for _ in range(8):
+                s = self.stream(session, rest)
+                time.sleep(0.02)
+                s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack('ii', 1, 0))
+                s.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session)).json()['viewers'] == 0))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files + 1))
+
+    def test_as_many_as_may(self):
+        for _ in range(6):
+            self.open()
+        refused = self.daemon.post('/v1/sessions', SCENE)
+        self.assertProblem(refused, 503, 'queue-full')
+        self.assertTrue(refused.header('Retry-After'))
+        self.daemon.request('DELETE', self.at(self.opened[0]), headers=self.owner(self.opened[0]))
+        self.open()
+
+    def test_a_frame_that_fails(self):
+        session = self.open({**SCENE, 'time': -3})
+        self.assertProblem(self.frame(session), 500, 'internal')
+        with self.stream(session, '/frames') as s:
+            text = b''
+            while not text.endswith(b'\r\n0\r\n\r\n'):  # the stream ends
+                text += s.recv(65536)
+        self.patch(session, {'time': 5})
+        self.assertEqual(self.frame(session).status, 200)
+
+    def test_end_wakes_those_who_wait(self):
+        session = self.open()
+        number = self.frame(session).header('Kerrd-Frame')
+        answers = []
+        thread = threading.Thread(target=lambda: answers.append(self.frame(session, number)))
+        thread.start()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session)).json()['viewers'] == 1))
+        self.daemon.request('DELETE', self.at(session), headers=self.owner(session))
+        thread.join(5)
+        self.assertProblem(answers[0], 404, 'not-found')
+
+
+class Idle(daemon.Case):
+    options = ('--session-ms', 600)
+
+    def test_ends_unwatched(self):
+        def count():
+            return sum(self.daemon.get('/v1/sessions/' + s['id']).status == 200 for s in sessions)
+        sessions = [self.daemon.post('/v1/sessions', SCENE).json() for _ in range(2)]
+        with self.daemon.connect() as s:
+            s.sendall(f'GET /v1/sessions/{sessions[0]["id"]}/events HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+            time.sleep(1.2)
+            self.assertEqual(self.daemon.get('/v1/sessions/' + sessions[1]['id']).status, 404)
+            self.assertEqual(count(), 1)
+        self.assertTrue(daemon.eventually(lambda: time.sleep(0.9) or count() == 0))
+
+    def test_on_the_way_down(self):
+        server = daemon.Daemon('--drain-ms', 50)
+        session = server.post('/v1/sessions', MOVING).json()
+        waiting = []
+        with server.connect() as s:
+            s.sendall(f'GET /v1/sessions/{session["id"]}/frames HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+            thread = threading.Thread(target=lambda: waiting.append(server.get(f'/v1/sessions/{session["id"]}/frame.png?after=99999')))
+            thread.start()
+            time.sleep(0.3)
+            begun = time.monotonic()
+            server.terminate()
+            self.assertEqual(server.wait(10), 0)
+            self.assertLess(time.monotonic() - begun, 3)
+            thread.join(5)
+        self.assertEqual(waiting[0].status, 404)
+
+
+if __name__ == '__main__':
+    daemon.main()
