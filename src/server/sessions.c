@@ -1,6 +1,7 @@
 #include "server/sessions.h"
 
 #include "base/log.h"
+#include "image/png_live.h"
 #include "server/clock.h"
 
 #include <math.h>
@@ -39,6 +40,7 @@ struct kd_sessions {
     unsigned count;
     bool closed;
     double looked_ms;
+    struct kd_png_live *encoders[KD_ENCODERS];
 };
 
 struct live_job {
@@ -56,6 +58,11 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     all->params = *params;
     pthread_mutex_init(&all->lock, NULL);
+    for (unsigned i = 0; i < KD_ENCODERS; i++)
+        if (kd_png_live_create(kd_deflate_fastest(), &all->encoders[i], error)) {
+            kd_sessions_destroy(all);
+            return KD_ENOMEM;
+        }
     *out = all;
     return KD_OK;
 }
@@ -122,6 +129,7 @@ static bool wanted(const struct kd_session *s)
     return !s->begun; /* the first one is made before anybody asks */
 }
 
+static enum kd_status encode(struct kd_render_job *job, unsigned encoder);
 static void rendered(struct kd_render_job *job);
 static void done(struct kd_render_job *job);
 
@@ -146,8 +154,9 @@ static void pump(struct kd_session *s)
         return;
     }
     live->session = s;
-    live->job = (struct kd_render_job) { .scene = scene_at(s, kd_clock_ms()), .live = true, .compression = 1, .socket = -1,
-                                         .rendered = rendered, .done = done };
+    live->job = (struct kd_render_job) { .scene = scene_at(s, kd_clock_ms()), .live = true, .socket = -1,
+                                         .encode = encode, .rendered = rendered, .done = done };
+    live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
     enum kd_status status = kd_plan_make(&live->job.scene, &capacity, &live->job.plan, &error);
     if (status) {
@@ -160,6 +169,14 @@ static void pump(struct kd_session *s)
     s->rendering = true;
     s->references++;
     kd_render_queue_push(s->all->params.renders, &live->job);
+}
+
+/* On an encoder's thread, unlocked. */
+static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
+{
+    const struct live_job *live = (const struct live_job *)job;
+    return kd_png_live_encode(live->session->all->encoders[encoder], job->frame.width, job->frame.height, job->frame.pixels, &job->png,
+                              &job->error);
 }
 
 /* On the render thread, unlocked: the next frame may be traced while this one is encoded. */
@@ -476,6 +493,8 @@ void kd_sessions_destroy(struct kd_sessions *all)
     if (!all)
         return;
     kd_sessions_close(all);
+    for (unsigned i = 0; i < KD_ENCODERS; i++)
+        kd_png_live_destroy(all->encoders[i]);
     pthread_mutex_destroy(&all->lock);
     free(all);
 }
