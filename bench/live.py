@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""Live sessions as a viewer has them: frames a second, from input to picture, what limits it, what watching costs.
+
+    bench/live.py            about two minutes, on a machine that does nothing else
+
+A server of its own, on all cores; this script is its client and takes some of the machine too. Writes
+bench/results/DATE-DEVICE-live.{json,md}.
+"""
+import concurrent.futures
+import http.client
+import json
+import os
+import re
+import socket
+import statistics
+import subprocess
+import time
+
+import measure
+
+SIZE = {'width': 640, 'height': 360}
+TICKS = os.sysconf('SC_CLK_TCK')
+
+
+class Server:
+    def __init__(self, path):
+        self.process = subprocess.Popen([path, 'serve', '--port', '0', '--sessions', '64'], stdout=subprocess.PIPE, text=True)
+        self.port = int(re.search(r':(\d+)/', self.process.stdout.readline())[1])
+
+    def cpu(self):
+        with open(f'/proc/{self.process.pid}/stat') as f:
+            fields = f.read().rsplit(')', 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / TICKS
+
+    def memory(self):
+        with open(f'/proc/{self.process.pid}/status') as f:
+            return int(re.search(r'VmRSS:\s+(\d+)', f.read())[1]) / 1024
+
+
+class Session:
+    def __init__(self, server, scene):
+        self.connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+        self.begun = time.monotonic()
+        made = json.loads(self.ask('POST', '/v1/sessions', scene)[1])
+        self.at, self.token, self.frame = '/v1/sessions/' + made['id'], made['token'], 0
+        self.first, _ = self.next()
+        self.first_ms = 1e3 * (time.monotonic() - self.begun)
+
+    def ask(self, method, target, body=None):
+        headers = {'Content-Type': 'application/json'}
+        if method != 'POST' and body is not None:
+            headers['Authorization'] = 'Bearer ' + self.token
+        self.connection.request(method, target, None if body is None else json.dumps(body), headers)
+        answer = self.connection.getresponse()
+        return answer, answer.read()
+
+    def patch(self, body):
+        return json.loads(self.ask('PATCH', self.at, body)[1])['revision']
+
+    def next(self):
+        answer, data = self.ask('GET', f'{self.at}/frame.png?after={self.frame}')
+        assert answer.status == 200, answer.status
+        self.frame = int(answer.headers['Kerrd-Frame'])
+        return answer, data
+
+    def end(self):
+        self.connection.request('DELETE', self.at, None, {'Authorization': 'Bearer ' + self.token})
+        self.connection.getresponse().read()
+
+
+def timings(answer):
+    return {name: float(ms) for name, ms in re.findall(r'(\w+)(?:;desc="\w+")?;dur=([0-9.]+)', answer.headers['Server-Timing'])}
+
+
+def summary(answers, seconds, waits):
+    passes = {}
+    for answer in answers:
+        for name, ms in timings(answer).items():
+            passes.setdefault(name, []).append(ms)
+    medians = {name: round(statistics.median(values), 2) for name, values in passes.items()}
+    quality = re.match(r'width=(\d+) height=(\d+)', answers[-1].headers['Kerrd-Quality']).groups()
+    widths = [int(re.match(r'width=(\d+)', a.headers['Kerrd-Quality'])[1]) for a in answers]
+    return {'frames': len(answers), 'fps': round(len(answers) / seconds, 1), 'latency_ms': round(statistics.median(waits), 1),
+            'latency_p95_ms': round(sorted(waits)[int(0.95 * len(waits))], 1), 'passes_ms': medians, 'last': 'x'.join(quality),
+            'full_size': round(sum(w == SIZE['width'] for w in widths) / len(widths), 2)}
+
+
+def steer(session, patches):
+    """A patch, then pull until the picture shows it."""
+    answers, waits, begun = [], [], time.monotonic()
+    for patch in patches:
+        sent = time.monotonic()
+        revision = session.patch(patch)
+        while True:
+            answer, _ = session.next()
+            answers.append(answer)
+            if int(answer.headers['Kerrd-Revision']) >= revision:
+                break
+        waits.append(1e3 * (time.monotonic() - sent))
+    return summary(answers, time.monotonic() - begun, waits)
+
+
+def watch(session, seconds):
+    answers, waits, begun = [], [], time.monotonic()
+    while time.monotonic() - begun < seconds:
+        sent = time.monotonic()
+        answers.append(session.next()[0])
+        waits.append(1e3 * (time.monotonic() - sent))
+    return summary(answers, time.monotonic() - begun, waits)
+
+
+def many_viewers(server, session, n):
+    """Frames drawn, and processor time, for n viewers of the same twenty frames."""
+    def viewer(_):
+        connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+        frame, seen = after, 0
+        while seen < 20:
+            connection.request('GET', f'{session.at}/frame.png?after={frame}')
+            answer = connection.getresponse()
+            answer.read()
+            frame, seen = int(answer.headers['Kerrd-Frame']), seen + 1
+        return frame
+    session.connection.request('GET', session.at)
+    after = json.loads(session.connection.getresponse().read())['frame']
+    cpu = server.cpu()
+    with concurrent.futures.ThreadPoolExecutor(n) as pool:
+        last = max(pool.map(viewer, range(n)))
+    return {'viewers': n, 'frames_taken': 20 * n, 'frames_drawn': last - after, 'cpu_s': round(server.cpu() - cpu, 2)}
+
+
+def idle(server, n, seconds):
+    before = server.cpu()
+    time.sleep(seconds)
+    alone = (server.cpu() - before) / seconds
+    session = Session(server, {'image': SIZE})
+    sockets = []
+    for i in range(n):
+        s = socket.create_connection(('127.0.0.1', server.port))
+        if i % 2:
+            s.sendall(f'GET {session.at}/events HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+        else:
+            s.sendall(f'GET {session.at}/frame.png?after=99&wait_ms=60000 HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+        sockets.append(s)
+    time.sleep(1)
+    before = server.cpu()
+    time.sleep(seconds)
+    share = (server.cpu() - before) / seconds
+    for s in sockets:
+        s.close()
+    session.end()
+    return {'connections': n, 'cpu_percent': round(100 * share, 2), 'cpu_percent_without': round(100 * alone, 2)}
+
+
+def flat(server, frames):
+    session = Session(server, {'image': {'width': 160, 'height': 90}, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 20}})
+    for _ in range(500):
+        session.next()
+    before = server.memory()
+    begun = time.monotonic()
+    for _ in range(frames):
+        session.next()
+    out = {'frames': frames, 'seconds': round(time.monotonic() - begun, 1), 'memory_mib_before': round(before, 1),
+           'memory_mib_after': round(server.memory(), 1)}
+    session.end()
+    return out
+
+
+def main():
+    arguments, load = measure.parser(__doc__.splitlines()[0]).parse_args(), os.getloadavg()[0]
+    server = Server(measure.binary(arguments.build, 'src/kerrd'))
+    try:
+        about = http.client.HTTPConnection('127.0.0.1', server.port)
+        about.request('GET', '/v1/device')
+        device = json.loads(about.getresponse().read())
+        device = f"{device['name']}, {device['driver']} {device['driver_info']}"
+        Session(server, {'image': SIZE}).end()  # kernels are made
+        Session(server, {'image': SIZE, 'sky': {'model': 'grid'}}).end()
+        rows = {}
+        session = Session(server, {'image': SIZE, 'camera': {'inclination_deg': 61.37}})
+        first = session.first_ms
+        rows['inclination dragged'] = steer(session, [{'camera': {'inclination_deg': 62 + 0.1 * k}} for k in range(150)])
+        rows['exposure changed'] = steer(session, [{'style': {'exposure': 0.01 * k}} for k in range(150)])
+        session.end()
+        session = Session(server, {'image': SIZE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 20}})
+        rows['azimuth turning, with a sky'] = watch(session, 6)
+        viewers = many_viewers(server, session, 50)
+        rows['inclination dragged, with a sky'] = steer(session, [{'camera': {'inclination_deg': 62 + 0.1 * k}} for k in range(150)])
+        session.end()
+        result = {'first_picture_ms': round(first, 1), 'size': SIZE, 'rows': rows, 'viewers': viewers,
+                  'idle': idle(server, 500, 10), 'memory': flat(server, 10000)}
+    finally:
+        server.process.terminate()
+        server.process.wait()
+    write(arguments, device, load, result)
+
+
+def write(arguments, device, load, result):
+    h = measure.head(device, load)
+    rows = [[name, str(row['fps']), f"{row['latency_ms']} / {row['latency_p95_ms']}", f"{100 * row['full_size']:.0f} %",
+             ', '.join(f'{k} {v:g}' for k, v in row['passes_ms'].items() if v >= 0.05)] for name, row in result['rows'].items()]
+    v, i, m = result['viewers'], result['idle'], result['memory']
+    text = measure.head_markdown('Live sessions, %d × %d' % tuple(SIZE.values()), h)
+    text += measure.table(['what changes', 'frames/s', 'input to picture, ms: median / 95 %', 'at full size', 'passes, ms (median)'], rows)
+    text += f"""
+- First picture of a session on a warm server: {result['first_picture_ms']} ms.
+- {v['viewers']} viewers of one session took {v['frames_taken']} frames, of which {v['frames_drawn']} were drawn.
+- {i['connections']} connections that wait: {i['cpu_percent']} % of a core ({i['cpu_percent_without']} % without them).
+- {m['frames']} frames in {m['seconds']} s: {m['memory_mib_before']} MiB resident before, {m['memory_mib_after']} after.
+"""
+    measure.save(arguments.out, 'live', h, result, text)
+
+
+if __name__ == '__main__':
+    main()
