@@ -190,8 +190,10 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
 /* --inclination-deg for inclination_deg. */
 static void set_options(struct argp_option *options, char names[N_FIELDS][32])
 {
-    options[0] = (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats", 0 };
-    options[1] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, ndjson, csv or npy, whatever the name of the output", 0 };
+    options[0] =
+        (struct argp_option) { "output", 'o', "FILE", 0, "where to write; .npy, .csv and .ndjson choose those formats", 0 };
+    options[1] =
+        (struct argp_option) { "format", 'f', "FORMAT", 0, "json, ndjson, csv or npy, whatever the name of the output", 0 };
     for (size_t i = 0; i < N_FIELDS; i++) {
         strncpy(names[i], fields[i].name, 31);
         for (char *c = names[i]; (c = strchr(c, '_'));)
@@ -209,10 +211,11 @@ int kd_cli_orbit(int argc, char **argv)
         .options = options,
         .parser = parse,
         .args_doc = "[FILE.json|-]",
-        .doc = "Follow a body round a Kerr hole: its path, turning points, constants of motion and their drift, frequencies, and the "
-               "advance of its periastron.\v"
-               "FILE is what POST /v1/orbits takes, one orbit or a list of them; options change what it says, or say it all: kerrd "
-               "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
+        .doc =
+            "Follow a body round a Kerr hole: its path, turning points, constants of motion and their drift, frequencies, and the "
+            "advance of its periastron.\v"
+            "FILE is what POST /v1/orbits takes, one orbit or a list of them; options change what it says, or say it all: kerrd "
+            "orbit --spin 0.9 --p 6 --e 0.5 --inclination-deg 30. No device is needed.",
         .children = children,
     };
     struct arguments arguments = { 0 };

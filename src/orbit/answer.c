@@ -16,8 +16,8 @@ static const char *const columns[COLUMNS] = { "mino", "tau_proper", "t", "r", "t
 
 static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
 {
-    const double all[COLUMNS] = { s->place.mino, s->place.proper, s->place.t, s->place.r, s->place.theta, s->place.phi,
-                                  s->x, s->y, s->z, s->energy_error };
+    const double all[COLUMNS] = { s->place.mino, s->place.proper, s->place.t, s->place.r, s->place.theta, s->place.phi, s->x, s->y,
+                                  s->z,          s->energy_error };
     memcpy(to, all, sizeof all);
 }
 
@@ -67,7 +67,8 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
 {
     const char *const all[] = {
         "a test particle: it has no mass of its own, radiates nothing and is not torn",
-        run->orbit.fate == KD_ORBIT_PLUNGE ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends" : NULL,
+        run->orbit.fate == KD_ORBIT_PLUNGE ? "Boyer-Lindquist t and phi grow without bound towards the horizon, where a path ends"
+                                           : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)
@@ -344,9 +345,11 @@ enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit
     return t.status;
 }
 
-static const char *const summary_names[SUMMARY] = { "fate", "spin", "energy", "angular_momentum", "carter", "r_min", "r_max", "omega_r",
-                                                    "omega_theta", "omega_phi", "periastron_advance", "advance_measured", "energy_drift",
-                                                    "carter_drift", "error_estimate" };
+static const char *const summary_names[SUMMARY] = {
+    "fate",          "spin",        "energy",    "angular_momentum",   "carter",           "r_min",        "r_max",
+    "omega_r",       "omega_theta", "omega_phi", "periastron_advance", "advance_measured", "energy_drift", "carter_drift",
+    "error_estimate"
+};
 
 /* fate: 0 bound, 1 plunge, 2 escape. */
 static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
@@ -354,11 +357,21 @@ static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
     const struct kd_orbit *o = &run->orbit;
     const struct kd_orbit_frequencies *f = &run->frequencies;
     bool closed = run->params->way == KD_WAY_CLOSED;
-    const double all[SUMMARY] = { o->fate, o->a, o->energy, o->momentum, o->carter, o->turns_in ? 1 / o->w_high : NAN,
-                                  o->turns_out ? 1 / o->w_low : NAN, run->closed ? f->r : NAN, run->closed ? f->theta : NAN,
-                                  run->closed ? f->phi : NAN, run->closed ? kd_orbit_periastron_advance(&run->bound) : NAN,
-                                  kd_orbit_run_advance_measured(run), closed ? NAN : run->worst.energy,
-                                  closed ? NAN : run->worst.carter, run->error_estimate };
+    const double all[SUMMARY] = { o->fate,
+                                  o->a,
+                                  o->energy,
+                                  o->momentum,
+                                  o->carter,
+                                  o->turns_in ? 1 / o->w_high : NAN,
+                                  o->turns_out ? 1 / o->w_low : NAN,
+                                  run->closed ? f->r : NAN,
+                                  run->closed ? f->theta : NAN,
+                                  run->closed ? f->phi : NAN,
+                                  run->closed ? kd_orbit_periastron_advance(&run->bound) : NAN,
+                                  kd_orbit_run_advance_measured(run),
+                                  closed ? NAN : run->worst.energy,
+                                  closed ? NAN : run->worst.carter,
+                                  run->error_estimate };
     memcpy(to, all, sizeof all);
 }
 

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define FEW 16         /* some milliseconds at ten periods each */
+#define FEW 64         /* some 10 milliseconds at ten periods each */
 #define STEPS 1000000u /* between two looks at whether to go on */
 
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
@@ -36,16 +36,60 @@ void kd_orbit_batch_finish(struct kd_orbit_batch *batch)
     batch->samples = NULL;
 }
 
+static bool given_up(const struct kd_orbit_batch *batch)
+{
+    return batch->stop && batch->stop(batch->user);
+}
+
 static enum kd_status follow(struct kd_orbit_batch *batch, size_t i, struct kd_error *error)
 {
     struct kd_orbit_run *run = &batch->runs[i];
     struct kd_orbit_sample *samples = batch->samples ? batch->samples + i * run->samples : NULL;
-    enum kd_status status = kd_orbit_run_prepare(run, error);
-    while (!status && !kd_orbit_run_done(run)) {
-        if (batch->stop && batch->stop(batch->user))
+    while (!kd_orbit_run_done(run)) {
+        if (given_up(batch))
             return kd_error_set(error, KD_ECANCELLED, "stopped");
         kd_orbit_run_advance(run, STEPS, samples ? samples + run->sampled : NULL, run->samples - run->sampled);
     }
+    return KD_OK;
+}
+
+static enum kd_status follow_abreast(struct kd_orbit_batch *batch, struct kd_orbit_run *const *runs, int n, struct kd_error *error)
+{
+    bool done = false;
+    while (!done) {
+        if (given_up(batch))
+            return kd_error_set(error, KD_ECANCELLED, "stopped");
+        kd_orbit_run_advance_abreast(runs, n, STEPS);
+        done = true;
+        for (int i = 0; i < n; i++)
+            done &= kd_orbit_run_done(runs[i]);
+    }
+    return KD_OK;
+}
+
+static int by_steps(const void *a, const void *b)
+{
+    const struct kd_orbit_run *x = *(struct kd_orbit_run *const *)a, *y = *(struct kd_orbit_run *const *)b;
+    return (x->steps > y->steps) - (x->steps < y->steps);
+}
+
+/* Those that can go abreast do, with others that take about as long. */
+static enum kd_status follow_few(struct kd_orbit_batch *batch, size_t first, size_t last, struct kd_error *error)
+{
+    struct kd_orbit_run *all[FEW], *abreast[FEW];
+    size_t n = 0;
+    for (size_t i = first; i < last; i++)
+        all[i - first] = &batch->runs[i];
+    enum kd_status status = kd_orbit_run_prepare(all, last - first, error);
+    for (size_t i = first; i < last && !status; i++) {
+        if (kd_orbit_run_abreast(&batch->runs[i]))
+            abreast[n++] = &batch->runs[i];
+        else
+            status = follow(batch, i, error);
+    }
+    qsort(abreast, n, sizeof *abreast, by_steps);
+    for (size_t i = 0; i < n && !status; i += KD_ORBIT_LANES)
+        status = follow_abreast(batch, abreast + i, (int)(n - i < KD_ORBIT_LANES ? n - i : KD_ORBIT_LANES), error);
     return status;
 }
 
@@ -54,11 +98,9 @@ bool kd_orbit_batch_turn(struct kd_orbit_batch *batch)
     size_t first = atomic_fetch_add(&batch->next, FEW), last = first + FEW < batch->n ? first + FEW : batch->n;
     if (first >= batch->n)
         return false;
-    for (size_t i = first; i < last; i++) {
-        struct kd_error error = { 0 };
-        if (!atomic_load(&batch->failed) && follow(batch, i, &error) && !atomic_exchange(&batch->failed, true))
-            batch->error = error;
-    }
+    struct kd_error error = { 0 };
+    if (!atomic_load(&batch->failed) && follow_few(batch, first, last, &error) && !atomic_exchange(&batch->failed, true))
+        batch->error = error;
     atomic_fetch_add(&batch->finished, last - first);
     return last < batch->n;
 }

@@ -19,8 +19,8 @@ double kd_orbit_case_mass_msun(enum kd_orbit_case which)
 static struct kd_orbit_spec mercury(double spin)
 {
     const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
-    return (struct kd_orbit_spec) { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0 : spin, .e = e,
-                                    .p = axis_m * (1 - e * e) / gm_m };
+    return (
+        struct kd_orbit_spec) { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0 : spin, .e = e, .p = axis_m * (1 - e * e) / gm_m };
 }
 
 struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)

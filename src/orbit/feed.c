@@ -1,7 +1,7 @@
 #include "orbit/feed.h"
 
-#define STEPS 65536u           /* a piece: some 25 ms */
-#define STEPS_A_LINE 1000000u  /* between lines of progress: some 0.4 s */
+#define STEPS 65536u          /* a piece: some 25 ms */
+#define STEPS_A_LINE 1000000u /* between lines of progress: some 0.4 s */
 
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request, enum kd_orbit_format format,
                                   struct kd_error *error)
@@ -14,7 +14,8 @@ enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_or
     if (!request->many)
         return kd_orbit_run_init(&feed->run, request, 0, error);
     if (format == KD_ORBIT_NDJSON)
-        return kd_error_field(error, "/orbits", "application/x-ndjson streams one orbit; a list of orbits is answered as JSON, CSV or NPY");
+        return kd_error_field(error, "/orbits",
+                              "application/x-ndjson streams one orbit; a list of orbits is answered as JSON, CSV or NPY");
     return kd_orbit_batch_init(&feed->batch, request, error);
 }
 
@@ -33,7 +34,7 @@ static enum kd_status more_of_one(struct kd_orbit_feed *feed, struct kd_buffer *
     struct kd_orbit_run *run = &feed->run;
     enum kd_status status = KD_OK;
     if (feed->stage == KD_FEED_START) {
-        if ((status = kd_orbit_run_prepare(run, error)))
+        if ((status = kd_orbit_run_prepare(&run, 1, error)))
             return status;
         feed->stage = KD_FEED_SERIES;
         return out_of_memory(kd_orbit_answer_begin(run, feed->format, out), error);

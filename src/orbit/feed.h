@@ -18,12 +18,14 @@ struct kd_orbit_feed {
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
 
-/* The request, checked, must outlive the feed. Every orbit is solved here: KD_EINVAL as kd_orbit_run_init; NDJSON is for one orbit. */
+/* The request, checked, must outlive the feed. Every orbit is solved here: KD_EINVAL as kd_orbit_run_init; NDJSON is for one orbit.
+ */
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request, enum kd_orbit_format format,
                                   struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* The next piece, appended to `out`; of many nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before anything is written. */
+/* The next piece, appended to `out`; of many nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before anything is
+ * written. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);

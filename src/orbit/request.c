@@ -1,6 +1,7 @@
 #include "orbit/request.h"
 
 #include "orbit/cases.h"
+#include "orbit/fields.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
@@ -10,86 +11,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum kind { REAL, WHOLE, TRUTH, WORD };
-enum words { NO_WORDS, WAY_WORDS, FRAME_WORDS, CASE_WORDS };
-enum { OPTIONAL, NEEDED };
-#define ANY KD_ORBIT_FORMS
-
-struct field {
-    const char *section, *name;
-    enum kind kind;
-    size_t offset;
-    double least, most;      /* REAL, WHOLE */
-    enum words words;        /* WORD */
-    enum kd_orbit_form form; /* of an orbit: which it belongs to; ANY */
-    int needed;
-};
-
-static const struct field settings[] = {
-#define AT(member) offsetof(struct kd_orbit_params, member)
-    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0 },
-    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0 },
-    { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0 },
-    { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0 },
-    { "", "method", WORD, AT(way), 0, 0, WAY_WORDS, ANY, 0 },
-    { "", "r_max", REAL, AT(r_max), 2, 1e6, 0, ANY, 0 },
-    { "", "mass_msun", REAL, AT(mass_msun), 1e-20, 1e20, 0, ANY, 0 },
-    { "", "series", TRUTH, AT(series), 0, 1, 0, ANY, 0 },
-    { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0 },
-    { "duration", "time", REAL, AT(time), 0, 1e30, 0, ANY, 0 },
-#undef AT
-};
-#define N_SETTINGS (sizeof settings / sizeof *settings)
-
-static const struct field fields[] = {
-#define AT(member) offsetof(struct kd_orbit_spec, member)
-    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0 },
-    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED },
-    { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED },
-    { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL },
-    { "", "energy", REAL, AT(energy), -1e6, 1e6, 0, KD_ORBIT_CONSTANTS, NEEDED },
-    { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED },
-    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
-    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
-    { "", "outward", TRUTH, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
-    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED },
-    { "position", "theta_deg", REAL, AT(theta_deg), 0, 180, 0, KD_ORBIT_STATE, OPTIONAL },
-    { "position", "phi_deg", REAL, AT(phi_deg), -360, 360, 0, KD_ORBIT_STATE, OPTIONAL },
-    { "velocity", "frame", WORD, AT(frame), 0, 0, FRAME_WORDS, KD_ORBIT_STATE, OPTIONAL },
-    { "velocity", "v_r", REAL, AT(v), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL },
-    { "velocity", "v_theta", REAL, AT(v) + sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL },
-    { "velocity", "v_phi", REAL, AT(v) + 2 * sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL },
-    { "", "case", WORD, AT(named), 0, 0, CASE_WORDS, KD_ORBIT_CASE, NEEDED },
-#undef AT
-};
-#define N_FIELDS (sizeof fields / sizeof *fields)
-
 static const char *const form_texts[KD_ORBIT_FORMS] = {
-    "p, e and inclination_deg", "energy, angular_momentum and carter", "position and velocity", "case",
+    "p, e and inclination_deg",
+    "energy, angular_momentum and carter",
+    "position and velocity",
+    "case",
 };
-
-const char *kd_orbit_way_name(enum kd_orbit_way way)
-{
-    static const char *const names[KD_WAYS] = { "yoshida6", "rkn6", "closed" };
-    return names[way];
-}
-
-static const char *word(enum words words, int i)
-{
-    static const char *const frames[] = { [KD_ORBIT_STATIC] = "static", [KD_ORBIT_ZAMO] = "zamo" };
-    switch (words) {
-    case WAY_WORDS: return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL;
-    case FRAME_WORDS: return i < 2 ? frames[i] : NULL;
-    case CASE_WORDS: return i < KD_CASES ? kd_orbit_case_name((enum kd_orbit_case)i) : NULL;
-    case NO_WORDS: break;
-    }
-    return NULL;
-}
 
 void kd_orbit_request_init(struct kd_orbit_request *request)
 {
-    *request = (struct kd_orbit_request) { .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12,
-                                                       .mass_msun = NAN, .samples = 1000 } };
+    *request = (struct kd_orbit_request) {
+        .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN, .samples = 1000 }
+    };
 }
 
 void kd_orbit_request_finish(struct kd_orbit_request *request)
@@ -103,75 +36,16 @@ static struct kd_orbit_spec empty_spec(void)
     return (struct kd_orbit_spec) { .form = KD_ORBIT_FORMS, .spin = NAN, .r = NAN, .theta_deg = 90, .frame = KD_ORBIT_ZAMO };
 }
 
-static void describe_allowed(const struct field *field, char out[KD_ALLOWED_SIZE])
-{
-    char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
-    size_t used = 0;
-    *out = 0;
-    kd_number_format(low, field->least);
-    kd_number_format(high, field->most);
-    switch (field->kind) {
-    case TRUTH: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
-    case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s", low, high); return;
-    case REAL: snprintf(out, KD_ALLOWED_SIZE, "%s to %s", low, high); return;
-    case WORD:
-        for (int i = 0; word(field->words, i) && used < KD_ALLOWED_SIZE; i++)
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", word(field->words, i));
-        return;
-    }
-}
-
-static bool store(void *to, const struct field *field, const struct kd_value *value)
-{
-    void *at = (char *)to + field->offset;
-    bool inside = value->kind == KD_VALUE_NUMBER && value->number >= field->least && value->number <= field->most;
-    switch (field->kind) {
-    case REAL:
-        if (inside)
-            *(double *)at = value->number;
-        return inside;
-    case WHOLE:
-        if (!inside || value->number != floor(value->number))
-            return false;
-        *(uint32_t *)at = (uint32_t)value->number;
-        return true;
-    case TRUTH:
-        if (value->kind != KD_VALUE_BOOL)
-            return false;
-        *(bool *)at = value->number != 0;
-        return true;
-    case WORD:
-        for (int i = 0; value->kind == KD_VALUE_STRING && word(field->words, i); i++)
-            if (!strcmp(value->text, word(field->words, i))) {
-                memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
-                return true;
-            }
-        return false;
-    }
-    return false;
-}
-
-static enum kd_status put(void *to, const struct field *field, const struct kd_value *value, const char *pointer,
-                          struct kd_error *error)
-{
-    char given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
-    if (store(to, field, value))
-        return KD_OK;
-    kd_value_describe(value, given);
-    describe_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s, allowed are %s", field->name, given, allowed);
-}
-
 /* A table and what it fills. */
 struct target {
-    const struct field *fields;
+    const struct kd_orbit_field *fields;
     size_t n;
     void *to;
-    unsigned seen; /* a bit a field, the sections above them */
+    unsigned seen;     /* a bit a field, the sections above them */
     const char *extra; /* names besides */
 };
 
-static const struct field *find(const struct target *t, const char *section, const char *name)
+static const struct kd_orbit_field *find(const struct target *t, const char *section, const char *name)
 {
     for (size_t i = 0; i < t->n; i++)
         if (!strcmp(t->fields[i].section, section) && !strcmp(t->fields[i].name, name))
@@ -193,7 +67,7 @@ static enum kd_status unknown(const struct target *t, const char *section, const
     char shown[60], known[240] = "";
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < t->n; i++) {
-        const struct field *f = &t->fields[i];
+        const struct kd_orbit_field *f = &t->fields[i];
         bool own = !strcmp(f->section, section), inner = !*section && *f->section && (!i || strcmp(f[-1].section, f->section));
         size_t used = strlen(known);
         if (own || inner)
@@ -205,7 +79,7 @@ static enum kd_status unknown(const struct target *t, const char *section, const
 static enum kd_status read_field(struct target *t, const char *section, const cJSON *item, const char *pointer,
                                  struct kd_error *error)
 {
-    const struct field *field = find(t, section, item->string);
+    const struct kd_orbit_field *field = find(t, section, item->string);
     if (!field)
         return unknown(t, section, item->string, pointer, error);
     unsigned bit = 1u << (field - t->fields);
@@ -213,7 +87,7 @@ static enum kd_status read_field(struct target *t, const char *section, const cJ
         return kd_error_field(error, pointer, "%s is given twice", field->name);
     t->seen |= bit;
     struct kd_value value = kd_tree_value(item);
-    return put(t->to, field, &value, pointer, error);
+    return kd_orbit_field_put(t->to, field, &value, pointer, error);
 }
 
 static enum kd_status not_a(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error)
@@ -247,33 +121,33 @@ static enum kd_status read_item(struct target *t, const cJSON *item, const char 
 /* One form, and all of it. */
 static enum kd_status settle(struct kd_orbit_spec *spec, unsigned seen, const char *pointer, struct kd_error *error)
 {
-    for (size_t i = 0; i < N_FIELDS; i++) {
-        enum kd_orbit_form form = fields[i].form;
+    for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++) {
+        enum kd_orbit_form form = kd_orbit_fields[i].form;
         if (!(seen & 1u << i) || form == KD_ORBIT_FORMS)
             continue;
         if (spec->form != KD_ORBIT_FORMS && spec->form != form)
-            return kd_error_field(error, pointer, "%s goes with %s, not with %s", fields[i].name, form_texts[form],
+            return kd_error_field(error, pointer, "%s goes with %s, not with %s", kd_orbit_fields[i].name, form_texts[form],
                                   form_texts[spec->form]);
         spec->form = form;
     }
     if (spec->form == KD_ORBIT_FORMS)
         return kd_error_field(error, pointer, "an orbit is given by %s, by %s, by %s, or by %s", form_texts[0], form_texts[1],
                               form_texts[2], form_texts[3]);
-    for (size_t i = 0; i < N_FIELDS; i++)
-        if (fields[i].form == spec->form && fields[i].needed && !(seen & 1u << i)) {
+    for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++)
+        if (kd_orbit_fields[i].form == spec->form && kd_orbit_fields[i].needed && !(seen & 1u << i)) {
             char missing[sizeof error->pointer];
             snprintf(missing, sizeof missing, "%s", pointer);
-            if (*fields[i].section)
-                kd_text_pointer(missing, sizeof missing, fields[i].section);
-            kd_text_pointer(missing, sizeof missing, fields[i].name);
-            return kd_error_field(error, missing, "%s is missing", fields[i].name);
+            if (*kd_orbit_fields[i].section)
+                kd_text_pointer(missing, sizeof missing, kd_orbit_fields[i].section);
+            kd_text_pointer(missing, sizeof missing, kd_orbit_fields[i].name);
+            return kd_error_field(error, missing, "%s is missing", kd_orbit_fields[i].name);
         }
     return KD_OK;
 }
 
 static enum kd_status read_orbit(struct kd_orbit_spec *spec, const cJSON *object, const char *pointer, struct kd_error *error)
 {
-    struct target target = { fields, N_FIELDS, spec, 0, "" };
+    struct target target = { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" };
     enum kd_status status = KD_OK;
     *spec = empty_spec();
     if (!cJSON_IsObject(object))
@@ -312,7 +186,7 @@ static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON 
 
 static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *root, struct kd_error *error)
 {
-    struct target target = { settings, N_SETTINGS, &request->params, 0, ", orbit and orbits" };
+    struct target target = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, &request->params, 0, ", orbit and orbits" };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(root)) {
         not_a(root, "", "an object", error);
@@ -320,7 +194,7 @@ static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *r
     }
     for (const cJSON *item = root->child; item && !status; item = item->next)
         status = !strcmp(item->string, "orbit") || !strcmp(item->string, "orbits") ? read_orbits(request, item, error)
-                                                                                 : read_item(&target, item, "", error);
+                                                                                   : read_item(&target, item, "", error);
     return status;
 }
 
@@ -334,7 +208,7 @@ enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const cha
     return status ? status : kd_orbit_request_check(request, error);
 }
 
-static const struct field *by_name(const struct field *table, size_t n, const char *name)
+static const struct kd_orbit_field *by_name(const struct kd_orbit_field *table, size_t n, const char *name)
 {
     for (size_t i = 0; i < n; i++)
         if (!strcmp(table[i].name, name))
@@ -343,7 +217,7 @@ static const struct field *by_name(const struct field *table, size_t n, const ch
 }
 
 /* "r" of a position too: whichever the orbit is given by. */
-static enum kd_status set_field(struct kd_orbit_request *request, const struct field *field, const struct kd_value *value,
+static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_orbit_field *field, const struct kd_value *value,
                                 const char *pointer, struct kd_error *error)
 {
     if (!request->specs) {
@@ -356,8 +230,8 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct f
     if (request->many)
         return kd_error_field(error, pointer, "%s belongs to one orbit, and there is a list of %zu", field->name, request->n);
     if (!strcmp(field->name, "r") && spec->form == KD_ORBIT_STATE)
-        field = find(&(struct target) { fields, N_FIELDS, spec, 0, "" }, "position", "r");
-    enum kd_status status = put(spec, field, value, pointer, error);
+        field = find(&(struct target) { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" }, "position", "r");
+    enum kd_status status = kd_orbit_field_put(spec, field, value, pointer, error);
     bool other = spec->form != KD_ORBIT_FORMS && field->form != spec->form && field->form != KD_ORBIT_FORMS;
     if (!status && other)
         return kd_error_field(error, pointer, "%s goes with %s, not with %s", field->name, form_texts[field->form],
@@ -377,10 +251,10 @@ enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char
     else if (!strcmp(text, "true") || !strcmp(text, "false"))
         value = (struct kd_value) { .kind = KD_VALUE_BOOL, .number = *text == 't' };
     kd_text_pointer(pointer, sizeof pointer, name);
-    const struct field *field = by_name(settings, N_SETTINGS, name);
+    const struct kd_orbit_field *field = by_name(kd_orbit_settings, KD_ORBIT_N_SETTINGS, name);
     if (field)
-        return put(&request->params, field, &value, pointer, error);
-    if ((field = by_name(fields, N_FIELDS, name)))
+        return kd_orbit_field_put(&request->params, field, &value, pointer, error);
+    if ((field = by_name(kd_orbit_fields, KD_ORBIT_N_FIELDS, name)))
         return set_field(request, field, &value, pointer, error);
     kd_text_clip(shown, sizeof shown, name);
     return kd_error_field(error, pointer, "there is no parameter %s", shown);
@@ -394,7 +268,8 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     if (!isnan(p->periods) && !isnan(p->time))
         return kd_error_field(error, "/duration", "duration is given as periods and as time: allowed is one of them");
     if (p->samples == 1)
-        return kd_error_field(error, "/samples", "samples is 1, allowed are 0 for none and 2 or more: both ends of the path are samples");
+        return kd_error_field(error, "/samples",
+                              "samples is 1, allowed are 0 for none and 2 or more: both ends of the path are samples");
     if (request->many && p->series && (double)p->samples * (double)request->n > KD_ORBIT_SAMPLES_MAX)
         return kd_error_field(error, "/samples", "%u samples of %zu orbits are more than %u in all", p->samples, request->n,
                               KD_ORBIT_SAMPLES_MAX);
@@ -409,17 +284,15 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     double inclination = s->inclination_deg, x = inclination == 90 ? 0 : cos(inclination * M_PI / 180), r = s->r;
     enum kd_status status;
     switch (s->form) {
-    case KD_ORBIT_SHAPE:
-        status = kd_orbit_from_shape(s->spin, s->p, s->e, x, orbit, error);
-        break;
+    case KD_ORBIT_SHAPE: status = kd_orbit_from_shape(s->spin, s->p, s->e, x, orbit, error); break;
     case KD_ORBIT_CONSTANTS:
         if (isnan(r) && s->energy >= 1)
             r = params->r_max;
         status = kd_orbit_from_constants(s->spin, s->energy, s->momentum, s->carter, r, orbit, error);
         break;
     default:
-        return kd_orbit_from_state(s->spin, s->place_r, s->theta_deg == 90 ? M_PI_2 : s->theta_deg * M_PI / 180, s->frame, s->v, orbit,
-                                   start, error);
+        return kd_orbit_from_state(s->spin, s->place_r, s->theta_deg == 90 ? M_PI_2 : s->theta_deg * M_PI / 180, s->frame, s->v,
+                                   orbit, start, error);
     }
     if (!status)
         *start = kd_orbit_start(orbit, s->form == KD_ORBIT_SHAPE ? NAN : r, s->outward);

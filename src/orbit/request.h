@@ -23,9 +23,9 @@
 #include <stdint.h>
 
 #define KD_ORBITS_MAX 10000u
-#define KD_ORBIT_BODY_MAX ((size_t)4 << 20)      /* bytes of a document */
-#define KD_ORBIT_SAMPLES_MAX 200000u             /* of one orbit; of all together where there are many */
-#define KD_ORBIT_STEPS_MAX 1000000000.           /* of one orbit: five minutes */
+#define KD_ORBIT_BODY_MAX ((size_t)4 << 20) /* bytes of a document */
+#define KD_ORBIT_SAMPLES_MAX 200000u        /* of one orbit; of all together where there are many */
+#define KD_ORBIT_STEPS_MAX 1000000000.      /* of one orbit: five minutes */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
@@ -36,7 +36,7 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    double spin;                       /* NAN: that of the request, or the case's own */
+    double spin; /* NAN: that of the request, or the case's own */
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
     bool outward;
@@ -46,39 +46,38 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    double spin;               /* NAN if not given: 0, or the case's own */
-    double periods, time;      /* the duration: radial periods (turns, if r is constant), or t in M; NAN but for at most one */
-    double r_max;              /* where what escapes is let go, 100 */
-    double tolerance;          /* relative error of a radial period, 1e-12; chooses the step where `steps` is 0 */
-    double mass_msun;          /* for times in seconds; NAN: none */
-    uint32_t steps;            /* per radial period */
-    uint32_t samples;          /* 0: no series */
+    double spin;          /* NAN if not given: 0, or the case's own */
+    double periods, time; /* the duration: radial periods (turns, if r is constant), or t in M; NAN but for at most one */
+    double r_max;         /* where what escapes is let go, 100 */
+    double tolerance;     /* relative error of a radial period, 1e-12; chooses the step where `steps` is 0 */
+    double mass_msun;     /* for times in seconds; NAN: none */
+    uint32_t steps;       /* per radial period */
+    uint32_t samples;     /* 0: no series */
     enum kd_orbit_way way;
-    bool series;               /* of many orbits */
+    bool series; /* of many orbits */
 };
 
 struct kd_orbit_request {
     struct kd_orbit_params params;
     struct kd_orbit_spec *specs; /* malloc'd */
     size_t n;
-    bool many;                   /* "orbits" */
+    bool many; /* "orbits" */
 };
 
 void kd_orbit_request_init(struct kd_orbit_request *request);
 void kd_orbit_request_finish(struct kd_orbit_request *request);
 
-/* Merge a document into a request without orbits. Types and ranges are checked, not yet whether each orbit exists. KD_EINVAL without a
- * pointer: this is no JSON document. */
+/* Merge a document into a request without orbits. Types and ranges are checked, not yet whether each orbit exists. KD_EINVAL
+ * without a pointer: this is no JSON document. */
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length, struct kd_error *error);
 
 /* One parameter or one field of the orbit (request->specs[0], which appears with its first field) by the last part of its name. */
-enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
-                                    struct kd_error *error);
+enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text, struct kd_error *error);
 /* After the last kd_orbit_request_set: is there an orbit, and all of it? */
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
-/* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". Sets *spin to the one that
- * holds. The start is at phi_deg. */
+/* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". The azimuth of the
+ * start is not in it. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, struct kd_error *error);
 

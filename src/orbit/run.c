@@ -1,12 +1,12 @@
 #include "orbit/run.h"
 
 #include "orbit/cases.h"
+#include "orbit/step.h"
 #include "physics/kerr.h"
 
 #include <math.h>
 
 #define DEFAULT_PERIODS 10
-#define TRIAL_STEPS_MAX (1u << 20)
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
 {
@@ -17,7 +17,8 @@ const char *kd_orbit_end_name(enum kd_orbit_end end)
 enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit_request *request, size_t index,
                                  struct kd_error *error)
 {
-    *run = (struct kd_orbit_run) { .params = &request->params, .error_estimate = NAN, .mino_end = NAN, .aim = NAN, .first_phi = NAN };
+    *run =
+        (struct kd_orbit_run) { .params = &request->params, .error_estimate = NAN, .mino_end = NAN, .aim = NAN, .first_phi = NAN };
     enum kd_status status = kd_orbit_request_solve(request, index, &run->orbit, &run->start, error);
     if (status)
         return status;
@@ -36,15 +37,9 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
     return KD_OK;
 }
 
-/* The fastest phase of the motion per Mino time, roughly: to choose a first step by. */
-static double pace(const struct kd_orbit *o)
+enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run)
 {
-    double fastest = fmax(o->total + o->a * o->a * o->binding, o->total), w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
-    for (int i = 0; i < 3; i++) {
-        fastest = fmax(fastest, fabs(o->w[2] + w[i] * (3 * o->w[3] + w[i] * 6 * o->w[4])));
-        fastest = fmax(fastest, kd_orbit_radial(o, w[i]) / (o->w_high * o->w_high));
-    }
-    return sqrt(fastest);
+    return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
 }
 
 /* Where t is `time`: t grows steadily. */
@@ -63,21 +58,16 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-static enum kd_orbit_method method_of(const struct kd_orbit_run *run)
-{
-    return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
-}
-
 /* What is not bound ends at the horizon or far away, or when its time is over: found by following it once. */
 static void find_end(struct kd_orbit_run *run)
 {
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
-    double horizon = 1 / kd_kerr_horizon(o->a), h = 2 * M_PI / pace(o) / 128, far = 1 / run->params->r_max;
+    double horizon = 1 / kd_kerr_horizon(o->a), h = 2 * M_PI / kd_orbit_pace(o) / 128, far = 1 / run->params->r_max;
     double time = run->params->time, turns = isnan(run->params->periods) ? 1000 : run->params->periods;
     if (run->start.w <= far)
         far = run->start.w_rate > 0 ? run->start.w : 0.5 * run->start.w;
-    kd_orbit_path_init(&path, o, &run->start, method_of(run));
+    kd_orbit_path_init(&path, o, &run->start, kd_orbit_run_method(run));
     for (double steps = turns * 128; steps > 0; steps--) {
         before = path;
         kd_orbit_path_step(&path, h);
@@ -101,50 +91,6 @@ static void find_end(struct kd_orbit_run *run)
     run->mino_end = path.mino.value;
 }
 
-static struct kd_orbit_place after(const struct kd_orbit_run *run, double mino, uint32_t steps)
-{
-    struct kd_orbit_path path;
-    kd_orbit_path_init(&path, &run->orbit, &run->start, method_of(run));
-    for (uint32_t i = 0; i < steps; i++)
-        kd_orbit_path_step(&path, mino / steps);
-    return kd_orbit_path_place(&path);
-}
-
-static double distance(const struct kd_orbit_place *a, const struct kd_orbit_place *b)
-{
-    double d = fmax(fabs(a->r / b->r - 1), fmax(fabs(a->theta - b->theta), fabs(a->phi - b->phi) / (1 + fabs(b->phi))));
-    d = fmax(d, fmax(fabs(a->t / b->t - 1), fabs(a->proper / b->proper - 1)));
-    return isnan(a->t) || isnan(a->r) ? INFINITY : d;
-}
-
-/* Twice as many steps until halving them moves the end, at the order of the method, by no more than the tolerance. The error of a
- * method of order 6 is a 63rd of that move. Stops where rounding, or a whirl that magnifies it, leaves nothing to gain. */
-static double find_step(struct kd_orbit_run *run)
-{
-    /* not quite to the end, where t is infinite if it is the horizon */
-    double span = run->closed ? fmin(run->period, run->mino_end) : 0.999 * run->mino_end, tolerance = run->params->tolerance;
-    /* A fall is fast at its end, which little of the span shows, and a whirl magnifies what is not the step's. */
-    double longest = run->closed ? span : 2 * M_PI / pace(&run->orbit) / 256;
-    uint32_t n = (uint32_t)fmin(fmax(16, ceil(span * pace(&run->orbit) * 4)), TRIAL_STEPS_MAX / 4);
-    struct kd_orbit_place coarse = after(run, span, n);
-    double last = INFINITY;
-    for (; n < TRIAL_STEPS_MAX; n *= 2) {
-        struct kd_orbit_place fine = after(run, span, 2 * n);
-        double error = distance(&coarse, &fine) / 63;
-        if (error <= tolerance) {
-            double fewer = fmax(pow(error / tolerance, 1.0 / 6), 0.5);
-            run->error_estimate = fmax(error / pow(fewer, 6), 1e-16);
-            return fmin(span / ceil(2 * n * fewer), longest);
-        }
-        if (last < 1e-9 && error > 0.25 * last)
-            break;
-        last = error;
-        coarse = fine;
-    }
-    run->error_estimate = last;
-    return fmin(span / n, longest);
-}
-
 static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
 {
     const struct kd_orbit_params *p = run->params;
@@ -154,33 +100,38 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
         return KD_OK;
     }
     if (!isnan(p->periods) && !run->orbit.circular)
-        return kd_error_field(error, "/duration/periods", "periods belong to a bound orbit, and this one is to %s: leave the duration out to "
-                              "follow it to its end, or give a time", kd_orbit_fate_name(run->orbit.fate));
+        return kd_error_field(error, "/duration/periods",
+                              "periods belong to a bound orbit, and this one is to %s: leave the duration out to "
+                              "follow it to its end, or give a time",
+                              kd_orbit_fate_name(run->orbit.fate));
     find_end(run);
     return KD_OK;
 }
 
-enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *run, struct kd_error *error)
+/* All but the step. */
+static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 {
-    const struct kd_orbit_params *p = run->params;
-    if (p->way == KD_WAY_CLOSED && !run->closed)
+    if (run->params->way == KD_WAY_CLOSED && !run->closed)
         return kd_error_field(error, "/method", "method is \"closed\", which follows bound orbits only, and this one is to %s",
                               kd_orbit_fate_name(run->orbit.fate));
     enum kd_status status = set_end(run, error);
-    if (status)
-        return status;
-    if (p->way == KD_WAY_CLOSED) {
-        run->steps = run->samples ? run->samples - 1 : 1;
-    } else {
-        double whole = run->closed ? run->period : run->mino_end;
-        double step = p->steps ? whole / p->steps : find_step(run), pieces = run->samples ? run->samples - 1 : 1;
-        double each = fmax(ceil(run->mino_end / step / pieces * (1 - 1e-12)), 1);
-        if (!(each * pieces <= KD_ORBIT_STEPS_MAX))
-            return kd_error_field(error, "/duration", "the duration takes %.3g steps, allowed are %.0f", each * pieces, KD_ORBIT_STEPS_MAX);
-        run->steps = (uint64_t)(each * pieces);
-        run->h = run->mino_end / (double)run->steps;
-    }
-    kd_orbit_path_init(&run->path, &run->orbit, &run->start, method_of(run));
+    kd_orbit_path_init(&run->path, &run->orbit, &run->start, kd_orbit_run_method(run));
+    if (run->params->steps)
+        run->h = (run->closed ? run->period : run->mino_end) / run->params->steps;
+    return status;
+}
+
+/* run->h is what the step should be at most. */
+static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
+{
+    double pieces = run->samples ? run->samples - 1 : 1, each = fmax(ceil(run->mino_end / run->h / pieces * (1 - 1e-12)), 1);
+    if (run->params->way == KD_WAY_CLOSED)
+        each = 1;
+    if (!(each * pieces <= KD_ORBIT_STEPS_MAX))
+        return kd_error_field(error, "/duration", "the duration takes %.3g steps, allowed are %.0f", each * pieces,
+                              KD_ORBIT_STEPS_MAX);
+    run->steps = (uint64_t)(each * pieces);
+    run->h = run->mino_end / (double)run->steps;
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
@@ -188,12 +139,37 @@ enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *run, struct kd_error *e
     return KD_OK;
 }
 
+enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error)
+{
+    struct kd_orbit_run *abreast[KD_ORBIT_LANES];
+    int side = 0;
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < n && !status; i++) {
+        bool tries = runs[i]->params->way != KD_WAY_CLOSED && !runs[i]->params->steps;
+        status = begin(runs[i], error);
+        if (!status && tries && n > 1 && kd_orbit_lanes_take(&runs[i]->path))
+            abreast[side++] = runs[i];
+        else if (!status && tries)
+            kd_orbit_choose_steps(&runs[i], 1);
+        if (side == KD_ORBIT_LANES || (side && i + 1 == n)) {
+            kd_orbit_choose_steps(abreast, side);
+            side = 0;
+        }
+    }
+    for (size_t i = 0; i < n && !status; i++)
+        status = settle(runs[i], error);
+    return status;
+}
+
 static struct kd_orbit_sample sample_of(const struct kd_orbit_run *run, struct kd_orbit_place place, double energy_error)
 {
     double a = run->orbit.a, across = sqrt(place.r * place.r + a * a) * sin(place.theta);
     place.phi += run->phi;
-    return (struct kd_orbit_sample) { .place = place, .x = across * cos(place.phi), .y = across * sin(place.phi),
-                                      .z = place.r * cos(place.theta), .energy_error = energy_error };
+    return (struct kd_orbit_sample) { .place = place,
+                                      .x = across * cos(place.phi),
+                                      .y = across * sin(place.phi),
+                                      .z = place.r * cos(place.theta),
+                                      .energy_error = energy_error };
 }
 
 static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)
@@ -263,6 +239,38 @@ size_t kd_orbit_run_advance(struct kd_orbit_run *run, uint64_t steps, struct kd_
         }
     }
     return n;
+}
+
+bool kd_orbit_run_abreast(const struct kd_orbit_run *run)
+{
+    return run->params->way == KD_WAY_YOSHIDA6 && !run->samples && isnan(run->aim) && kd_orbit_lanes_take(&run->path);
+}
+
+static void note_periastron_of(void *user, int lane)
+{
+    struct kd_orbit_run *const *runs = user;
+    note_periastron(runs[lane]);
+}
+
+void kd_orbit_run_advance_abreast(struct kd_orbit_run *const *runs, int n, uint64_t steps)
+{
+    struct kd_orbit_path idle[KD_ORBIT_LANES];
+    struct kd_orbit_drift nothing = { 0 };
+    struct kd_orbit_run *of_lane[KD_ORBIT_LANES] = { NULL };
+    struct kd_orbit_lanes lanes = { .periastron = note_periastron_of, .user = of_lane };
+    for (int i = 0; i < KD_ORBIT_LANES; i++) {
+        if (i >= n) {
+            idle[i] = runs[0]->path;
+            lanes.path[i] = &idle[i], lanes.worst[i] = &nothing;
+            continue;
+        }
+        uint64_t left = runs[i]->steps - runs[i]->done;
+        of_lane[i] = runs[i];
+        lanes.path[i] = &runs[i]->path, lanes.worst[i] = &runs[i]->worst, lanes.h[i] = runs[i]->h;
+        lanes.steps[i] = left < steps ? left : steps;
+        runs[i]->done += lanes.steps[i];
+    }
+    kd_orbit_lanes_run(&lanes);
 }
 
 bool kd_orbit_run_done(const struct kd_orbit_run *run)

@@ -111,8 +111,8 @@ static bool to_the_future(const struct kd_orbit *o)
     return o->energy * (1 + o->a * o->a * w * w) - o->a * o->momentum * w * w > 0;
 }
 
-enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r,
-                                       struct kd_orbit *o, struct kd_error *error)
+enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r, struct kd_orbit *o,
+                                       struct kd_error *error)
 {
     enum kd_status status = kd_orbit_check_spin(a, error);
     if (status)
@@ -120,11 +120,13 @@ enum kd_status kd_orbit_from_constants(double a, double energy, double momentum,
     if (!(carter >= 0))
         return kd_error_field(error, "/carter",
                               "carter is %.17g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
-                              "given by position and velocity", carter);
+                              "given by position and velocity",
+                              carter);
     if (!isnan(r) && !(r > kd_kerr_horizon(a)))
         return kd_error_field(error, "/r", "r is %.17g, allowed is above the horizon at %.17g", r, kd_kerr_horizon(a));
-    *o = (struct kd_orbit) { .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy),
-                             .momentum = momentum, .carter = carter };
+    *o = (struct kd_orbit) {
+        .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
+    };
     kd_orbit_set_constants(o);
     if (!find_range(o, 1 / r) && !isnan(r))
         return kd_error_field(error, "/r", "r is %.17g, where a particle of these constants cannot be", r);
@@ -187,8 +189,8 @@ static enum kd_status check_state(double a, double r, double theta, enum kd_orbi
         return kd_error_field(error, "/position/theta_deg", "theta_deg is %.17g, allowed is 0 to 180", theta * 180 / M_PI);
     if (frame == KD_ORBIT_STATIC && !(r > kd_kerr_ergosphere(a, cos(theta))))
         return kd_error_field(error, "/velocity/frame",
-                              "nothing is at rest at r = %.17g, inside the ergosphere, which ends at %.17g here: use \"zamo\"",
-                              r, kd_kerr_ergosphere(a, cos(theta)));
+                              "nothing is at rest at r = %.17g, inside the ergosphere, which ends at %.17g here: use \"zamo\"", r,
+                              kd_kerr_ergosphere(a, cos(theta)));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.17g, allowed is below 1, that of light", speed);
     return KD_OK;
@@ -210,8 +212,10 @@ enum kd_status kd_orbit_from_state(double a, double r, double theta, enum kd_orb
     o->carter = p_theta * p_theta + u * u * (a * a * o->binding + across * across);
     kd_orbit_set_constants(o);
     *start = (struct kd_orbit_state) {
-        .w = 1 / r, .w_rate = -sqrt(sigma * delta) * gamma * v[0] / (r * r),
-        .u = u, .u_rate = -p_theta * s,
+        .w = 1 / r,
+        .w_rate = -sqrt(sigma * delta) * gamma * v[0] / (r * r),
+        .u = u,
+        .u_rate = -p_theta * s,
     };
     if (!find_range(o, start->w)) { /* at rest at a turning point, and rounding puts it beyond */
         double near = v[0] == 0 ? start->w * (kd_orbit_radial_slope(o, start->w) > 0 ? 1 + 1e-12 : 1 - 1e-12) : start->w;

@@ -23,7 +23,7 @@ struct kd_orbit {
     double k, total;           /* K, and L^2 + Q */
     double w[5];               /* coefficients of W, of w^0 first */
     /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u swings between -sqrt(z) and sqrt(z), for Q < 0 on one side of the equator. */
-    double z, n, axis_gap;     /* the last is 1 - z */
+    double z, n, axis_gap; /* the last is 1 - z */
     enum kd_orbit_fate fate;
     /* The range of 1/r that the motion is confined to, between turning points, or to 0 (infinity) and 1/r+ where it has none. */
     double w_low, w_high;
@@ -46,8 +46,8 @@ double kd_orbit_separatrix(double a, double e, double x);
 
 /* Q >= 0. r: a place on the orbit, or NAN for the outermost range that the constants leave. KD_EINVAL, with pointer
  * "/energy", "/carter" or "/r", if there is no such motion outside the horizon. */
-enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r,
-                                       struct kd_orbit *orbit, struct kd_error *error);
+enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r, struct kd_orbit *orbit,
+                                       struct kd_error *error);
 
 /* A place outside the horizon and the velocity (r, theta, phi components, |v| < 1) that an observer there sees: at rest
  * (outside the ergosphere), or with zero angular momentum. KD_EINVAL with pointer "/position/r", "/velocity" ... */

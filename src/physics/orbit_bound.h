@@ -16,9 +16,9 @@ struct kd_orbit_sums {
 
 struct kd_orbit_bound {
     struct kd_orbit orbit;
-    double r[4];           /* roots of R, r[0] >= r[1] > r[2] >= r[3]; r[0], r[1] the turning points */
+    double r[4];                         /* roots of R, r[0] >= r[1] > r[2] >= r[3]; r[0], r[1] the turning points */
     double pace_r, k_r, k1_r, quarter_r; /* r is a function of sn^2(pace lambda | k), quarter = K(k); k1 = 1 - k */
-    double unit_r;         /* the pace; 1 in a circle, where quarter_r is 1 and half_r holds the rates */
+    double unit_r;                       /* the pace; 1 in a circle, where quarter_r is 1 and half_r holds the rates */
     double h, h_plus, h_minus;
     double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
     struct kd_orbit_sums half_r, half_z; /* from periastron to apastron; from the equator to a turning point of theta */
@@ -30,8 +30,9 @@ struct kd_orbit_bound {
 struct kd_orbit_bound kd_orbit_bound_of(const struct kd_orbit *orbit, const struct kd_orbit_state *start);
 
 struct kd_orbit_frequencies {
-    double mino_r, mino_theta, mino_phi, mino_t, mino_proper; /* per Mino time: Upsilon_r, ..., Gamma and its like for proper time */
-    double r, theta, phi;                                     /* per coordinate time */
+    double mino_r, mino_theta, mino_phi, mino_t,
+        mino_proper;      /* per Mino time: Upsilon_r, ..., Gamma and its like for proper time */
+    double r, theta, phi; /* per coordinate time */
 };
 struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound *bound);
 

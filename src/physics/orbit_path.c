@@ -41,7 +41,7 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
     f[KD_PATH_W] = radial_force(p, w, rest) + pull_of_spring(&p->spring[KD_PATH_W], w, rest);
     f[KD_PATH_Y] = y * (2 * flat * o->z * y2 + p->stiff);
     f[KD_PATH_PROPER] = far + up;
-    double turn = p->twist * (1 - y2) / (1 - p->nu * y2);
+    double turn = p->twist != 0 ? p->twist * (1 - y2) / (1 - p->nu * y2) : 0;
     if (p->ingoing) { /* (P - sqrt R)/Delta = (r^2 + K)/(P + sqrt R) with P = E(r^2 + a^2) - aL */
         double speed = sqrt(fmax(kd_orbit_radial(o, w), 0)), past = o->energy * (1 + a2w2) - a * o->momentum * w2;
         double slow = (1 + o->k * w2) / (past + speed);
@@ -49,16 +49,16 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
         f[KD_PATH_CHI] = turn + a * slow - a * o->energy;
         return;
     }
-    double delta = 1 - 2 * w + a2w2; /* of r, times w^2 */
-    f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - a * o->momentum * w2) / delta; /* a (2Er - aL)/Delta */
+    double hole = 1 / (1 - 2 * w + a2w2);                                          /* r^2/Delta */
+    f[KD_PATH_CHI] = turn + a * (2 * o->energy * w - a * o->momentum * w2) * hole; /* a (2Er - aL)/Delta */
     /* E r^2 + 2 E r + 4 E + [(8E - 2aL) r - 4 a^2 E]/Delta + a^2 E u^2 */
-    double hole = ((8 * o->energy - 2 * a * o->momentum) * w - 4 * a * a * o->energy * w2) / delta;
-    f[KD_PATH_T] = o->energy * (far + 2 / w + 4 + up) + hole;
+    f[KD_PATH_T] =
+        o->energy * (far + 2 * w * far + 4 + up) + ((8 * o->energy - 2 * a * o->momentum) * w - 4 * a2w2 * o->energy) * hole;
 }
 
 /* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits: his three equations once more by Newton's method. */
-static const double kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932, -1.177679984178871006946416,
-                                 1.31518632068391121888425 };
+const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932, -1.177679984178871006946416,
+                                   1.31518632068391121888425 };
 
 static int kick_of(int stage)
 {
@@ -69,13 +69,13 @@ static int kick_of(int stage)
 static double drift_of(int stage)
 {
     if (stage == 0 || stage == 7)
-        return 0.5 * kicks[0];
-    return 0.5 * (kicks[kick_of(stage)] + kicks[kick_of(stage - 1)]);
+        return 0.5 * kd_orbit_kicks[0];
+    return 0.5 * (kd_orbit_kicks[kick_of(stage)] + kd_orbit_kicks[kick_of(stage - 1)]);
 }
 
 /* An oscillator's turn in the time of each drift, as three shears: whatever rounding makes of their coefficients, the area stays,
  * and errors do not add up. */
-static void set_turns(struct kd_spring *s, double h)
+void kd_orbit_set_turns(struct kd_spring *s, double h)
 {
     double omega = sqrt(s->strength);
     for (int i = 0; i < 4; i++) {
@@ -101,7 +101,7 @@ static void yoshida(struct kd_orbit_path *p, double h)
 {
     if (h != p->turn_h)
         for (int i = 0; i < KD_PATH_PLACES; i++)
-            set_turns(&p->spring[i], h);
+            kd_orbit_set_turns(&p->spring[i], h);
     p->turn_h = h;
     for (int stage = 0; stage < 7; stage++) {
         double q[KD_PATH_PLACES], f[KD_PATH_RATES];
@@ -110,7 +110,7 @@ static void yoshida(struct kd_orbit_path *p, double h)
             q[i] = p->place[i].value;
         pull(p, q, p->place[KD_PATH_W].rest, f);
         for (int i = 0; i < KD_PATH_RATES; i++)
-            add(&p->rate[i], kicks[kick_of(stage)] * h * f[i]);
+            add(&p->rate[i], kd_orbit_kicks[kick_of(stage)] * h * f[i]);
     }
     drift(p, 7);
 }

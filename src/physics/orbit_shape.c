@@ -26,8 +26,7 @@ static struct column values(double a2, double z, double r)
 static struct column differences(double a2, double z, double r1, double r2)
 {
     double one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
-    return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2,
-                             three - 2 * two + a2 * one + a2 * z * (one - 2) };
+    return (struct column) { three + a2 * (one + 2 + z * (one - 2)), 2, one - 2, three - 2 * two + a2 * one + a2 * z * (one - 2) };
 }
 
 /* The positive root of the quadratic at r, for E and b = 1 - E^2 known: q = f - d = 2r (r^2 + a^2) and b stand for d and E^2. */
@@ -83,8 +82,9 @@ void kd_orbit_factor(const struct kd_orbit *o, double g[3])
 static struct kd_orbit of_shape(double a, double p, double e, double x)
 {
     double l, z = (1 - x) * (1 + x);
-    struct kd_orbit o = { .a = a, .w_low = (1 - e) / p, .w_high = (1 + e) / p, .turns_out = true, .turns_in = true,
-                          .circular = e == 0 };
+    struct kd_orbit o = {
+        .a = a, .w_low = (1 - e) / p, .w_high = (1 + e) / p, .turns_out = true, .turns_in = true, .circular = e == 0
+    };
     energy_and_momentum(&o, x, p / (1 - e), p / (1 + e), &l);
     o.momentum = x * l;
     o.carter = z * (a * a * o.binding + l * l);
@@ -134,8 +134,10 @@ enum kd_status kd_orbit_from_shape(double a, double p, double e, double x, struc
     double least = p < 12.5 ? kd_orbit_separatrix(a, e, x) : 0;
     bool exists = o->energy > 0 && isfinite(o->energy) && isfinite(o->momentum);
     if (p < least && (e > 0 || !exists))
-        return kd_error_field(error, "/p", "p is %.17g; with this spin, e and inclination_deg an orbit has its turning points "
-                              "there only above %.17g, the separatrix", p, least);
+        return kd_error_field(error, "/p",
+                              "p is %.17g; with this spin, e and inclination_deg an orbit has its turning points "
+                              "there only above %.17g, the separatrix",
+                              p, least);
     o->fate = p < least ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND;
     return KD_OK;
 }

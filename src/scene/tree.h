@@ -8,10 +8,9 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-/* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most` bytes or `values` values. Free *out with
- * cJSON_Delete. */
-enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
-                             struct kd_error *error);
+/* text need not end in a NUL. KD_EINVAL without a pointer: this is no JSON document, or one of more than `most` bytes or `values`
+ * values. Free *out with cJSON_Delete. */
+enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out, struct kd_error *error);
 
 /* Valid as long as the item. */
 struct kd_value kd_tree_value(const cJSON *item);

@@ -12,8 +12,8 @@
 #include <string.h>
 
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
-#define FULL (1u << 20)        /* bytes of a stream that wait for their client; no more are made until a quarter is left */
-#define BYTES_PER_SAMPLE 220   /* of text, to reckon with */
+#define FULL (1u << 20)      /* bytes of a stream that wait for their client; no more are made until a quarter is left */
+#define BYTES_PER_SAMPLE 220 /* of text, to reckon with */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
@@ -34,7 +34,7 @@ struct kd_orbits_job {
     size_t held;
     enum { READING, RUNNING } state;
 
-    pthread_mutex_t lock; /* for what follows */
+    pthread_mutex_t lock;       /* for what follows */
     struct MHD_Connection *mhd; /* NULL once the request is closed */
     int socket;
     bool suspended, full, finished;

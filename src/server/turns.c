@@ -14,7 +14,7 @@ struct kd_turns {
     pthread_cond_t changed;
     bool closing;
     struct kd_turns_job *first, **end, *parked; /* in the order of their turns; waiting to be woken */
-    unsigned accepted, unfinished; /* the former no longer counts what is being handed back */
+    unsigned accepted, unfinished;              /* the former no longer counts what is being handed back */
     pthread_t workers[WORKERS_MAX];
     unsigned n_workers;
 };

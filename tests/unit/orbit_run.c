@@ -75,7 +75,8 @@ static void refusals(void **state)
         { "{\"orbit\":{\"position\":{\"r\":1.5}}}", "/orbit/position/r", "horizon" },
         { "{\"orbit\":{\"position\":{\"r\":5},\"velocity\":{\"v_r\":0.9,\"v_phi\":0.9}}}", "/orbit/velocity", "light" },
         { "{\"orbit\":{\"position\":{\"r\":5},\"velocity\":{\"frame\":\"free\"}}}", "/orbit/velocity/frame", "static" },
-        { "{\"spin\":0.9,\"orbit\":{\"position\":{\"r\":1.8},\"velocity\":{\"frame\":\"static\"}}}", "/orbit/velocity/frame", "ergosphere" },
+        { "{\"spin\":0.9,\"orbit\":{\"position\":{\"r\":1.8},\"velocity\":{\"frame\":\"static\"}}}", "/orbit/velocity/frame",
+          "ergosphere" },
         { "{\"orbit\":{\"position\":{\"theta\":5}}}", "/orbit/position/theta", "known are r, theta_deg, phi_deg" },
         { "{\"orbit\":{\"case\":\"venus\"}}", "/orbit/case", "mercury" },
         { "{\"orbit\":{\"case\":\"isco\"},\"samples\":1}", "/samples", "2 or more" },
@@ -101,7 +102,8 @@ static void refusals(void **state)
 static void every_cut(void **state)
 {
     (void)state;
-    static const char text[] = "{\"spin\":0.5,\"orbit\":{\"position\":{\"r\":9,\"phi_deg\":5},\"velocity\":{\"v_phi\":0.4}},\"samples\":3}";
+    static const char text[] =
+        "{\"spin\":0.5,\"orbit\":{\"position\":{\"r\":9,\"phi_deg\":5},\"velocity\":{\"v_phi\":0.4}},\"samples\":3}";
     struct kd_orbit_request request;
     struct kd_error error;
     for (size_t i = 0; i < sizeof text; i++) {
@@ -116,7 +118,7 @@ static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct k
 {
     struct kd_error error = { 0 };
     if (read_exact(text, strlen(text), request, &error) || kd_orbit_run_init(run, request, 0, &error) ||
-        kd_orbit_run_prepare(run, &error))
+        kd_orbit_run_prepare(&run, 1, &error))
         fail_msg("%s: %s at %s", text, error.message, error.pointer);
     struct kd_orbit_sample *samples = calloc(run->samples, sizeof *samples);
     size_t n = 0;
@@ -135,8 +137,10 @@ static void pieces_change_nothing(void **state)
         struct kd_orbit_request request[2];
         struct kd_orbit_run run[2];
         char text[200];
-        snprintf(text, sizeof text, "{\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30},\"samples\":50,\"method\":\"%s\"}", ways[i]);
-        struct kd_orbit_sample *whole = follow(text, UINT64_MAX, &request[0], &run[0]), *cut = follow(text, 7, &request[1], &run[1]);
+        snprintf(text, sizeof text,
+                 "{\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30},\"samples\":50,\"method\":\"%s\"}", ways[i]);
+        struct kd_orbit_sample *whole = follow(text, UINT64_MAX, &request[0], &run[0]),
+                               *cut = follow(text, 7, &request[1], &run[1]);
         assert_memory_equal(whole, cut, 50 * sizeof *whole);
         for (int k = 0; k < 2; k++)
             kd_orbit_request_finish(&request[k]);
@@ -150,9 +154,13 @@ static void methods_agree(void **state)
 {
     (void)state;
     static const char *const orbits[] = {
-        "\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30}", "\"orbit\":{\"p\":8,\"e\":0.5}", "\"orbit\":{\"case\":\"spherical\"}",
-        "\"orbit\":{\"p\":50,\"e\":0.9,\"inclination_deg\":120}", "\"orbit\":{\"case\":\"mercury\"}",
-        "\"spin\":-0.5,\"orbit\":{\"position\":{\"r\":12,\"theta_deg\":70,\"phi_deg\":40},\"velocity\":{\"v_r\":0.1,\"v_theta\":0.1,\"v_phi\":0.35}}",
+        "\"spin\":0.9,\"orbit\":{\"p\":6,\"e\":0.5,\"inclination_deg\":30}",
+        "\"orbit\":{\"p\":8,\"e\":0.5}",
+        "\"orbit\":{\"case\":\"spherical\"}",
+        "\"orbit\":{\"p\":50,\"e\":0.9,\"inclination_deg\":120}",
+        "\"orbit\":{\"case\":\"mercury\"}",
+        "\"spin\":-0.5,\"orbit\":{\"position\":{\"r\":12,\"theta_deg\":70,\"phi_deg\":40},\"velocity\":{\"v_r\":0.1,\"v_theta\":0."
+        "1,\"v_phi\":0.35}}",
     };
     for (size_t i = 0; i < COUNT(orbits); i++) {
         struct kd_orbit_request request[3];
@@ -160,7 +168,8 @@ static void methods_agree(void **state)
         struct kd_orbit_sample *samples[3];
         for (int k = 0; k < 3; k++) {
             char text[300];
-            snprintf(text, sizeof text, "{%s,\"samples\":101,\"method\":\"%s\"}", orbits[i], kd_orbit_way_name((enum kd_orbit_way)k));
+            snprintf(text, sizeof text, "{%s,\"samples\":101,\"method\":\"%s\"}", orbits[i],
+                     kd_orbit_way_name((enum kd_orbit_way)k));
             samples[k] = follow(text, 100000, &request[k], &run[k]);
         }
         for (int k = 0; k < 2; k++)
@@ -203,7 +212,8 @@ static void ends(void **state)
         { "{\"orbit\":{\"position\":{\"r\":10}}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"position\":{\"r\":10,\"theta_deg\":0}},\"spin\":0.9}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9,\"e\":0}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
-        { "{\"orbit\":{\"p\":5.9999999999999991,\"e\":0}}", KD_ORBIT_PLUNGE, KD_END_DURATION }, /* sets out, but takes millions of turns */
+        { "{\"orbit\":{\"p\":5.9999999999999991,\"e\":0}}", KD_ORBIT_PLUNGE,
+          KD_END_DURATION }, /* sets out, but takes millions of turns */
         { "{\"orbit\":{\"p\":6,\"e\":0}}", KD_ORBIT_BOUND, KD_END_DURATION },
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
@@ -233,7 +243,8 @@ static void a_stone_falls(void **state)
     (void)state;
     struct kd_orbit_request request;
     struct kd_orbit_run run;
-    struct kd_orbit_sample *samples = follow("{\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"frame\":\"static\"}}}", 1000, &request, &run);
+    struct kd_orbit_sample *samples =
+        follow("{\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"frame\":\"static\"}}}", 1000, &request, &run);
     for (uint32_t i = 0; i < run.samples; i++) {
         double eta = acos(fmax(fmin(2 * samples[i].place.r / 10 - 1, 1), -1));
         assert_true(fabs(samples[i].place.proper - sqrt(125) * (eta + sin(eta))) < (i < 20 ? 1e-6 : 1e-10));

@@ -1,6 +1,7 @@
-/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is known of them. */
+/* Timelike geodesics against quadrature (tests/oracle/orbit_reference.py), against each other, and against what is known of them.
+ */
 #include "physics/kerr.h"
-#include "physics/orbit_path.h"
+#include "physics/orbit_lanes.h"
 
 #include "orbit_reference.h"
 
@@ -175,7 +176,8 @@ static void yoshida_does_not_drift(void **state)
     (void)state;
     struct line yoshida = energy_drift(KD_ORBIT_YOSHIDA6, 320, 1000), nystroem = energy_drift(KD_ORBIT_RKN6, 160, 1000);
     print_message("E over 1000 orbits of p = 8, e = 0.5: Yoshida, 320 steps an orbit: %.2e at most, slope %.2e an orbit; RKN, 160 "
-                  "steps: %.2e, slope %.2e\n", yoshida.worst, yoshida.slope, nystroem.worst, nystroem.slope);
+                  "steps: %.2e, slope %.2e\n",
+                  yoshida.worst, yoshida.slope, nystroem.worst, nystroem.slope);
     assert_true(yoshida.worst <= 1e-13);
     assert_true(fabs(yoshida.slope) * 1000 <= 1e-15);
     assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst); /* the fit sees growth where there is some */
@@ -297,7 +299,9 @@ static void constants_and_back(void **state)
 static void states_are_what_is_seen(void **state)
 {
     (void)state;
-    static const double velocities[][3] = { { 0.1, 0.2, 0.3 }, { -0.5, 0, 0.4 }, { 0, -0.3, -0.6 }, { 0, 0, 0 }, { 0.9, 0.1, -0.1 } };
+    static const double velocities[][3] = {
+        { 0.1, 0.2, 0.3 }, { -0.5, 0, 0.4 }, { 0, -0.3, -0.6 }, { 0, 0, 0 }, { 0.9, 0.1, -0.1 }
+    };
     static const double places[][2] = { { 3, 1.2 }, { 8, 0.3 }, { 50, 2.5 }, { 2.5, 1.5 } };
     for (size_t i = 0; i < COUNT(velocities) * COUNT(places) * 2; i++) {
         const double *v = velocities[i / 2 % COUNT(velocities)], *at = places[i / 2 / COUNT(velocities)], a = 0.8;
@@ -354,14 +358,15 @@ static void from_any_phase(void **state)
     }
 }
 
-/* The azimuth without its pole, against the sum of L/(1 - u^2) itself: E > 1 too, and motions that stay on one side of the equator. */
+/* The azimuth without its pole, against the sum of L/(1 - u^2) itself: E > 1 too, and motions that stay on one side of the equator.
+ */
 static void azimuth_has_no_pole(void **state)
 {
     (void)state;
     static const struct {
         double theta, v[3];
         bool vortical;
-    } rows[] = { { 1.2, { 0.2, 0.3, 0.4 }, false }, { 0.8, { 0.1, -0.2, -0.3 }, false }, { 0.9, { 0.6, 0.01, 0.02 }, true },
+    } rows[] = { { 1.2, { 0.2, 0.3, 0.4 }, false },      { 0.8, { 0.1, -0.2, -0.3 }, false }, { 0.9, { 0.6, 0.01, 0.02 }, true },
                  { 0.6, { -0.75, -0.03, -0.02 }, true }, { 1.5, { 0.7, 0.1, 0.001 }, false }, { 0.5, { 0.1, 0.3, 1e-3 }, false } };
     for (size_t i = 0; i < COUNT(rows); i++)
         for (int method = 0; method < 2; method++) {
@@ -391,6 +396,70 @@ static void azimuth_has_no_pole(void **state)
             assert_true(fabs(kd_orbit_path_drift(&path).carter) < 1e-12);
             assert_true(fabs(sum) > 1e-3);
         }
+}
+
+struct seen {
+    struct kd_orbit_lanes *lanes;
+    int periastra[KD_ORBIT_LANES];
+    double w[KD_ORBIT_LANES];
+};
+
+static void see(void *user, int lane)
+{
+    struct seen *seen = user;
+    seen->periastra[lane]++;
+    seen->w[lane] = seen->lanes->path[lane]->place[KD_PATH_W].value;
+}
+
+/* To the last bit, each by its own number of steps of its own length, and told of every periastron. */
+static void lanes_are_paths(void **state)
+{
+    (void)state;
+    static const double shapes[KD_ORBIT_LANES][4] = { { 0, 8, 0.5, 1 },     { 0.9, 6, 0.5, 0.75 }, { -0.5, 30, 0.75, -0.25 },
+                                                      { 0.998, 5, 0, 0.5 }, { 0.3, 12, 0.1, -1 },  { 0, 1e7, 0.2, 0.3 },
+                                                      { 0.9, 2.9, 0.5, 1 }, { 0.7, 9, 0.3, 0.01 } };
+    struct kd_orbit_path path[KD_ORBIT_LANES];
+    struct kd_orbit_drift worst[KD_ORBIT_LANES] = { { 0 } };
+    struct kd_orbit_lanes lanes = { .periastron = see };
+    struct seen seen = { .lanes = &lanes };
+    lanes.user = &seen;
+    for (int i = 0; i < KD_ORBIT_LANES; i++) {
+        struct kd_orbit o = shape(shapes[i][0], shapes[i][1], shapes[i][2], shapes[i][3]);
+        struct kd_orbit_state start = kd_orbit_start(&o, NAN, true);
+        struct kd_orbit_bound b = kd_orbit_bound_of(&o, &start);
+        kd_orbit_path_init(&path[i], &o, &start, KD_ORBIT_YOSHIDA6);
+        assert_true(kd_orbit_lanes_take(&path[i]));
+        lanes.path[i] = &path[i], lanes.worst[i] = &worst[i];
+        lanes.h[i] = 2 * M_PI / kd_orbit_frequencies_of(&b).mino_r / (200 + 20 * i);
+        lanes.steps[i] = i == 5 ? 0 : 1000 + 300 * (uint64_t)i;
+    }
+    struct kd_orbit_path alone[KD_ORBIT_LANES];
+    memcpy(alone, path, sizeof path);
+    kd_orbit_lanes_run(&lanes);
+    for (int i = 0; i < KD_ORBIT_LANES; i++) {
+        struct kd_orbit_drift d = { 0 };
+        int periastra = 0;
+        double w = 0;
+        for (uint64_t k = 0; k < lanes.steps[i]; k++) {
+            double rate = alone[i].rate[KD_PATH_W].value;
+            kd_orbit_path_step(&alone[i], lanes.h[i]);
+            if (rate > 0 && alone[i].rate[KD_PATH_W].value <= 0)
+                periastra++, w = alone[i].place[KD_PATH_W].value;
+            struct kd_orbit_drift now = kd_orbit_path_drift(&alone[i]);
+            d.energy = fmax(d.energy, fabs(now.energy));
+            d.carter = fmax(d.carter, fabs(now.carter));
+            d.mass = fmax(d.mass, fabs(now.mass));
+        }
+        assert_memory_equal(alone[i].place, path[i].place, sizeof path[i].place);
+        assert_memory_equal(alone[i].rate, path[i].rate, sizeof path[i].rate);
+        assert_memory_equal(&alone[i].mino, &path[i].mino, sizeof path[i].mino);
+        assert_int_equal(alone[i].half_turns, path[i].half_turns);
+        assert_int_equal(seen.periastra[i], periastra);
+        assert_true(seen.w[i] == w);
+        close_to((size_t)i, "drift of E", worst[i].energy, d.energy, 0);
+        close_to((size_t)i, "drift of Q", worst[i].carter, d.carter, 0);
+        close_to((size_t)i, "drift of the mass", worst[i].mass, d.mass, 1e-9 * d.mass);
+    }
 }
 
 /* p = 6 + 2e about Schwarzschild's hole (C. Cutler, D. Kennefick & E. Poisson 1994, Phys. Rev. D 50, 3816), r_isco for circles,
@@ -452,6 +521,7 @@ int main(void)
         cmocka_unit_test(states_are_what_is_seen),
         cmocka_unit_test(from_any_phase),
         cmocka_unit_test(azimuth_has_no_pole),
+        cmocka_unit_test(lanes_are_paths),
         cmocka_unit_test(separatrix),
         cmocka_unit_test(bad_input),
     };

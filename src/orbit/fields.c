@@ -1,0 +1,131 @@
+#include "orbit/fields.h"
+
+#include "orbit/cases.h"
+#include "scene/number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { OPTIONAL, NEEDED };
+#define ANY KD_ORBIT_FORMS
+#define REAL KD_FIELD_IS_REAL
+#define WHOLE KD_FIELD_IS_WHOLE
+#define TRUTH KD_FIELD_IS_TRUTH
+#define WORD KD_FIELD_IS_WORD
+
+const struct kd_orbit_field kd_orbit_settings[] = {
+#define AT(member) offsetof(struct kd_orbit_params, member)
+    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0 },
+    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0 },
+    { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0 },
+    { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0 },
+    { "", "method", WORD, AT(way), 0, 0, WAY_WORDS, ANY, 0 },
+    { "", "r_max", REAL, AT(r_max), 2, 1e6, 0, ANY, 0 },
+    { "", "mass_msun", REAL, AT(mass_msun), 1e-20, 1e20, 0, ANY, 0 },
+    { "", "series", TRUTH, AT(series), 0, 1, 0, ANY, 0 },
+    { "duration", "periods", REAL, AT(periods), 0, 1e9, 0, ANY, 0 },
+    { "duration", "time", REAL, AT(time), 0, 1e30, 0, ANY, 0 },
+#undef AT
+};
+_Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_N_SETTINGS, "as many as the header says");
+
+const struct kd_orbit_field kd_orbit_fields[] = {
+#define AT(member) offsetof(struct kd_orbit_spec, member)
+    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0 },
+    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED },
+    { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED },
+    { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL },
+    { "", "energy", REAL, AT(energy), -1e6, 1e6, 0, KD_ORBIT_CONSTANTS, NEEDED },
+    { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED },
+    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
+    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
+    { "", "outward", TRUTH, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
+    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED },
+    { "position", "theta_deg", REAL, AT(theta_deg), 0, 180, 0, KD_ORBIT_STATE, OPTIONAL },
+    { "position", "phi_deg", REAL, AT(phi_deg), -360, 360, 0, KD_ORBIT_STATE, OPTIONAL },
+    { "velocity", "frame", WORD, AT(frame), 0, 0, FRAME_WORDS, KD_ORBIT_STATE, OPTIONAL },
+    { "velocity", "v_r", REAL, AT(v), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL },
+    { "velocity", "v_theta", REAL, AT(v) + sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL },
+    { "velocity", "v_phi", REAL, AT(v) + 2 * sizeof(double), -1, 1, 0, KD_ORBIT_STATE, OPTIONAL },
+    { "", "case", WORD, AT(named), 0, 0, CASE_WORDS, KD_ORBIT_CASE, NEEDED },
+#undef AT
+};
+_Static_assert(sizeof kd_orbit_fields / sizeof *kd_orbit_fields == KD_ORBIT_N_FIELDS, "as many as the header says");
+
+const char *kd_orbit_way_name(enum kd_orbit_way way)
+{
+    static const char *const names[KD_WAYS] = { "yoshida6", "rkn6", "closed" };
+    return names[way];
+}
+
+static const char *word(enum kd_orbit_words words, int i)
+{
+    static const char *const frames[] = { [KD_ORBIT_STATIC] = "static", [KD_ORBIT_ZAMO] = "zamo" };
+    switch (words) {
+    case WAY_WORDS: return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL;
+    case FRAME_WORDS: return i < 2 ? frames[i] : NULL;
+    case CASE_WORDS: return i < KD_CASES ? kd_orbit_case_name((enum kd_orbit_case)i) : NULL;
+    case NO_WORDS: break;
+    }
+    return NULL;
+}
+
+static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALLOWED_SIZE])
+{
+    char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
+    size_t used = 0;
+    *out = 0;
+    kd_number_format(low, field->least);
+    kd_number_format(high, field->most);
+    switch (field->kind) {
+    case TRUTH: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
+    case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s", low, high); return;
+    case REAL: snprintf(out, KD_ALLOWED_SIZE, "%s to %s", low, high); return;
+    case WORD:
+        for (int i = 0; word(field->words, i) && used < KD_ALLOWED_SIZE; i++)
+            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", word(field->words, i));
+        return;
+    }
+}
+
+static bool store(void *to, const struct kd_orbit_field *field, const struct kd_value *value)
+{
+    void *at = (char *)to + field->offset;
+    bool inside = value->kind == KD_VALUE_NUMBER && value->number >= field->least && value->number <= field->most;
+    switch (field->kind) {
+    case REAL:
+        if (inside)
+            *(double *)at = value->number;
+        return inside;
+    case WHOLE:
+        if (!inside || value->number != floor(value->number))
+            return false;
+        *(uint32_t *)at = (uint32_t)value->number;
+        return true;
+    case TRUTH:
+        if (value->kind != KD_VALUE_BOOL)
+            return false;
+        *(bool *)at = value->number != 0;
+        return true;
+    case WORD:
+        for (int i = 0; value->kind == KD_VALUE_STRING && word(field->words, i); i++)
+            if (!strcmp(value->text, word(field->words, i))) {
+                memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
+                return true;
+            }
+        return false;
+    }
+    return false;
+}
+
+enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value, const char *pointer,
+                                  struct kd_error *error)
+{
+    char given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
+    if (store(to, field, value))
+        return KD_OK;
+    kd_value_describe(value, given);
+    describe_allowed(field, allowed);
+    return kd_error_field(error, pointer, "%s is %s, allowed are %s", field->name, given, allowed);
+}

@@ -1,0 +1,29 @@
+/* The fields of a request for orbits, a row each. Private to src/orbit. */
+#ifndef KD_ORBIT_FIELDS_H
+#define KD_ORBIT_FIELDS_H
+
+#include "orbit/request.h"
+#include "scene/value.h"
+
+enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_WHOLE, KD_FIELD_IS_TRUTH, KD_FIELD_IS_WORD };
+enum kd_orbit_words { NO_WORDS, WAY_WORDS, FRAME_WORDS, CASE_WORDS };
+
+struct kd_orbit_field {
+    const char *section, *name;
+    enum kd_orbit_kind kind;
+    size_t offset;
+    double least, most; /* of numbers */
+    enum kd_orbit_words words;
+    enum kd_orbit_form form; /* of an orbit: which it belongs to; KD_ORBIT_FORMS: any */
+    int needed;
+};
+
+enum { KD_ORBIT_N_SETTINGS = 10, KD_ORBIT_N_FIELDS = 17 };
+extern const struct kd_orbit_field kd_orbit_settings[KD_ORBIT_N_SETTINGS]; /* of struct kd_orbit_params */
+extern const struct kd_orbit_field kd_orbit_fields[KD_ORBIT_N_FIELDS];     /* of struct kd_orbit_spec */
+
+/* Store a value in its struct, or KD_EINVAL with the pointer, the value and what is allowed. */
+enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, const struct kd_value *value, const char *pointer,
+                                  struct kd_error *error);
+
+#endif
