@@ -119,8 +119,9 @@ static enum kd_status read_item(struct target *t, const cJSON *item, const char 
 }
 
 /* One form, and all of it. */
-static enum kd_status settle(struct kd_orbit_spec *spec, unsigned seen, const char *pointer, struct kd_error *error)
+static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
+    unsigned seen = spec->seen;
     for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++) {
         enum kd_orbit_form form = kd_orbit_fields[i].form;
         if (!(seen & 1u << i) || form == KD_ORBIT_FORMS)
@@ -154,7 +155,8 @@ static enum kd_status read_orbit(struct kd_orbit_spec *spec, const cJSON *object
         return not_a(object, pointer, "an object with fields", error);
     for (const cJSON *item = object->child; item && !status; item = item->next)
         status = read_item(&target, item, pointer, error);
-    return status ? status : settle(spec, target.seen, pointer, error);
+    spec->seen = target.seen;
+    return status ? status : settle(spec, pointer, error);
 }
 
 static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON *item, struct kd_error *error)
@@ -229,7 +231,7 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
     struct kd_orbit_spec *spec = request->specs;
     if (request->many)
         return kd_error_field(error, pointer, "%s belongs to one orbit, and there is a list of %zu", field->name, request->n);
-    if (!strcmp(field->name, "r") && spec->form == KD_ORBIT_STATE)
+    if (!strcmp(field->name, "r") && spec->form != KD_ORBIT_CONSTANTS)
         field = find(&(struct target) { kd_orbit_fields, KD_ORBIT_N_FIELDS, spec, 0, "" }, "position", "r");
     enum kd_status status = kd_orbit_field_put(spec, field, value, pointer, error);
     bool other = spec->form != KD_ORBIT_FORMS && field->form != spec->form && field->form != KD_ORBIT_FORMS;
@@ -238,6 +240,7 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
                               form_texts[spec->form]);
     if (!status && field->form != KD_ORBIT_FORMS)
         spec->form = field->form;
+    spec->seen |= 1u << (field - kd_orbit_fields);
     return status;
 }
 
@@ -265,6 +268,12 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     const struct kd_orbit_params *p = &request->params;
     if (!request->n)
         return kd_error_field(error, "/orbit", "orbit is missing: one orbit, or orbits with a list");
+    if (!request->many) { /* by name a field at a time: all of them? */
+        struct kd_orbit_spec spec = *request->specs;
+        enum kd_status status = settle(&spec, "/orbit", error);
+        if (status)
+            return status;
+    }
     if (!isnan(p->periods) && !isnan(p->time))
         return kd_error_field(error, "/duration", "duration is given as periods and as time: allowed is one of them");
     if (p->samples == 1)

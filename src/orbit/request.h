@@ -43,6 +43,7 @@ struct kd_orbit_spec {
     double place_r, theta_deg, phi_deg, v[3];
     enum kd_orbit_frame frame;
     enum kd_orbit_case named;
+    unsigned seen; /* which fields were given, a bit each */
 };
 
 struct kd_orbit_params {

@@ -44,6 +44,9 @@ class Orbit(Case):
             self.bad(2, words, "orbit", "--p", "8", f"--e={e}")
         self.bad(2, "separatrix", "orbit", "--p", "6.9", "--e", "0.5")
         self.bad(2, "goes with", "orbit", "--p", "8", "--energy", "0.9")
+        self.bad(2, "(at /orbit/e)", "orbit", "--p", "8")
+        self.bad(2, "(at /orbit/angular_momentum)", "orbit", "--energy", "0.95")
+        self.bad(2, "(at /orbit/position/r)", "orbit", "--v-phi", "0.3")
         self.bad(2, "application/x-ndjson streams one orbit", "orbit", "-", "-f", "ndjson",
                  stdin=b'{"orbits":[{"case":"isco"},{"case":"isco"}]}')
         self.assertFalse(os.listdir(self.folder))
@@ -70,6 +73,15 @@ class Orbit(Case):
         self.assertEqual(lines[1]["columns"], NAMES)
         self.assertEqual([row for line in lines for row in line.get("rows", [])], rows)
         self.assertEqual(lines[-1]["result"], whole["result"])
+
+    def test_by_state_and_by_constants(self):
+        state = json.loads(self.good("orbit", "--r", "10", "--v-phi", "0.4", "--v-theta", "0.1", "--spin", "0.5", "--samples", "0"))
+        self.assertEqual(state["fate"], "bound")
+        constants = [f"--{name.replace('_', '-')}={state['constants'][name]!r}" for name in ("energy", "angular_momentum", "carter")]
+        again = json.loads(self.good("orbit", *constants, "--spin", "0.5", "--r", "10", "--samples", "0"))
+        for name in "r_min", "r_max", "theta_min_deg":
+            self.assertAlmostEqual(again["turning_points"][name], state["turning_points"][name], delta=1e-9)
+        self.assertEqual(json.loads(self.good("orbit", "--r", "10", "--samples", "0"))["fate"], "plunge")
 
     def test_the_same_from_a_file(self):
         document = {"spin": 0.9, "orbit": {"p": 6, "e": 0.5, "inclination_deg": 30}, "samples": 7, "duration": {"periods": 3}}

@@ -213,7 +213,7 @@ static void ends(void **state)
         { "{\"orbit\":{\"position\":{\"r\":10,\"theta_deg\":0}},\"spin\":0.9}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9,\"e\":0}}", KD_ORBIT_PLUNGE, KD_END_HORIZON },
         { "{\"orbit\":{\"p\":5.9999999999999991,\"e\":0}}", KD_ORBIT_PLUNGE,
-          KD_END_DURATION }, /* sets out, but takes millions of turns */
+          KD_END_DURATION }, /* sets out, but its instability grows by e in some 1e7 turns */
         { "{\"orbit\":{\"p\":6,\"e\":0}}", KD_ORBIT_BOUND, KD_END_DURATION },
     };
     for (size_t i = 0; i < COUNT(rows); i++) {
