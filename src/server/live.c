@@ -266,7 +266,7 @@ static enum MHD_Result open_stream(struct kd_request *request, int form, const c
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
     if (form == MULTIPART)
-        set_part(s, 0, NEXT_PART + 2, sizeof NEXT_PART - 3);
+        set_part(s, 0, &NEXT_PART[2], sizeof NEXT_PART - 3);
     kd_viewer_attach(&s->viewer);
     return start_stream(request, s, type);
 }
