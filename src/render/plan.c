@@ -172,8 +172,9 @@ static enum kd_status may_list(const struct kd_scene *scene, struct kd_error *er
                           "profile or tolerance that come to it, or move the camera out of %.9g M", scene->camera.r, ergosphere(scene));
 }
 
-/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless something is said, the
- * closed form: it needs no device and no steps. */
+/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless an engine or steps are named,
+ * the closed form: it needs no device, and holds each tolerance that a picture may ask for. The table's rows are judged by other
+ * rays. */
 static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
 {
     if (wish->precision == KD_PRECISION_F32)
@@ -181,8 +182,10 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
                               "accuracy.precision is \"f32\", allowed in the ring projection are \"f64\" and \"auto\"");
     wish->precision = KD_PRECISION_F64;
     wish->profile = KD_PROFILE_REFERENCE;
-    if (wish->engine < 0 && isinf(wish->tolerance) && !wish->steps)
+    if (wish->engine < 0 && !wish->steps) {
         wish->engine = KD_ENGINE_CLOSED;
+        wish->tolerance = INFINITY;
+    }
     return KD_OK;
 }
 
@@ -201,6 +204,8 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         status = kd_setting_of(&wish, c->accuracy, c->float64, by, error);
     if (status)
         return status;
+    if (isfinite(scene->accuracy.tolerance) && isinf(wish.tolerance))
+        by->holds = KEPT;
     if (plan->ring && by->precision == KD_PRECISION_F32)
         return kd_error_field(error, "/accuracy/tolerance",
                               "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "

@@ -230,11 +230,15 @@ static void needs_double_precision(void **state)
     struct kd_plan plan;
     struct kd_error refused = { 0 };
     kd_renderer_capacity(renderer, &capacity);
-    scene.accuracy.tolerance = 1e-4;
+    scene.accuracy.tolerance = 1e-4; /* the table's rays are not those of a ring, nor what its rows hold: */
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.holds < 1e-7);
+    scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;
     if (capacity.float64) {
         OK(kd_plan_make(&scene, &capacity, &plan, &error));
-        assert_int_equal(plan.setting.precision, KD_PRECISION_F64);
+        assert_true(plan.setting.engine == KD_ENGINE_MINO_RKN6 && plan.setting.precision == KD_PRECISION_F64);
     }
+    scene.accuracy.engine = 0;
     scene.accuracy.tolerance = INFINITY;
     scene.accuracy.precision = KD_PRECISION_F32 + 1;
     assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
@@ -244,10 +248,10 @@ static void needs_double_precision(void **state)
     capacity.float64 = false;
     assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
     assert_string_equal(refused.pointer, "/accuracy/precision");
-    scene.accuracy.engine = 0;
     scene.accuracy.tolerance = 1e-4;
     assert_int_equal(kd_plan_make(&scene, &capacity, &plan, &refused), KD_EINVAL);
     assert_string_equal(refused.pointer, "/accuracy/tolerance");
+    scene.accuracy.engine = 0;
     scene.accuracy.tolerance = INFINITY; /* the closed form needs nothing of the device */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_true(plan.setting.engine == KD_ENGINE_CLOSED && plan.setting.precision == KD_PRECISION_F64);
