@@ -5,10 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-void kd_accuracy_text(const struct kd_accuracy_report *report, uint64_t rays, char out[KD_ACCURACY_TEXT])
+void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
 {
-    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu undecided=%llu sampled=%u", (unsigned long long)rays,
-                     (unsigned long long)report->undecided, report->sampled);
+    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u undecided=%llu sampled=%u",
+                     (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
+                     kd_precision_name(plan->setting.precision), plan->setting.steps, (unsigned long long)report->undecided,
+                     report->sampled);
     if (report->sampled)
         snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
                  report->differ, report->median, report->worst);
@@ -29,7 +31,7 @@ enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_s
 {
     struct kd_buffer document = { 0 }, approximations = { 0 };
     char hash[65], accuracy[KD_ACCURACY_TEXT];
-    kd_accuracy_text(&frame->accuracy, plan->rays, accuracy);
+    kd_accuracy_text(&frame->accuracy, plan, accuracy);
     enum kd_status status = kd_scene_to_json(scene, &document);
     if (!status)
         status = kd_scene_hash(scene, hash);

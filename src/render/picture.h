@@ -8,9 +8,10 @@
 #include "base/buffer.h"
 #include "render/render.h"
 
-/* One line: "rays=921600 sampled=768 crossings=927 differ=0 median=1.6e-07 worst=2.0e-05". */
-#define KD_ACCURACY_TEXT 160
-void kd_accuracy_text(const struct kd_accuracy_report *report, uint64_t rays, char out[KD_ACCURACY_TEXT]);
+/* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
+ * worst=2.0e-05"; without the last four where nothing was sampled. */
+#define KD_ACCURACY_TEXT 200
+void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
 
 /* compression: as kd_png_params. */
 enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_scene *scene,

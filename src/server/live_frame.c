@@ -91,7 +91,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->revision = note->revision;
     frame->png = job->png;
     job->png = (struct kd_buffer) { 0 };
-    kd_accuracy_text(&job->frame.accuracy, job->plan.rays, frame->accuracy);
+    kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
     describe_quality(frame, job, note);
     describe_timing(frame, job);
     enum kd_status status = describe_event(frame, job, note);

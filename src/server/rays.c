@@ -76,9 +76,9 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
              job->trace_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
     MHD_add_response_header(response, "Vary", "Accept");
-    int n = snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s undecided=%zu", answer->n,
+    int n = snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s steps=%u undecided=%zu", answer->n,
                      kd_engine_name(answer->params.engine), kd_precision_name(answer->params.precision),
-                     answer->undecided);
+                     answer->params.steps, answer->undecided);
     if (!isnan(answer->worst_error))
         snprintf(accuracy + n, sizeof accuracy - (size_t)n, " median=%.1e worst=%.1e", answer->median_error,
                  answer->worst_error);

@@ -84,7 +84,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
 static void add_accuracy(struct MHD_Response *response, const struct kd_render_job *job)
 {
     char text[KD_ACCURACY_TEXT];
-    kd_accuracy_text(&job->frame.accuracy, job->plan.rays, text);
+    kd_accuracy_text(&job->frame.accuracy, &job->plan, text);
     MHD_add_response_header(response, "Kerrd-Accuracy", text);
 }
 

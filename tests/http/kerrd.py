@@ -54,6 +54,7 @@ class Kerrd(unittest.TestCase):
         header = self.daemon.get(TARGET + '&spacetime.spin=0.6').header('Kerrd-Accuracy')
         figure = dict(pair.split('=') for pair in header.split())
         self.assertEqual(int(figure['rays']), 320 * 180)
+        self.assertEqual((figure['engine'], figure['precision'], figure['steps']), ('closed', 'f32', '0'))
         if int(figure['sampled']):
             self.assertGreater(int(figure['crossings']), 100)
             self.assertTrue(0 < float(figure['median']) < 1e-6, header)

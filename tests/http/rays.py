@@ -354,7 +354,7 @@ class Closed(daemon.Case):
         self.assertLess(errors[-1], 1e-6)
         self.assertEqual((found['observer'], found['orders']), ({'r': 'infinity', 'inclination_deg': 82}, 3))
         self.assertTrue(found['approximations'])
-        self.assertRegex(answer.header('Kerrd-Accuracy'), r'^rays=101 engine=closed precision=f64 undecided=0 ')
+        self.assertRegex(answer.header('Kerrd-Accuracy'), r'^rays=101 engine=closed precision=f64 steps=0 undecided=0 ')
         self.assertRegex(answer.header('Server-Timing'), r'^queue;dur=[0-9.]+, read;dur=[0-9.]+, trace;dur=[0-9.]+$')
         self.assertTrue(answer.header('Kerrd-Approximations').startswith('"rays are null geodesics'))
 

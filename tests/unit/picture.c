@@ -40,7 +40,9 @@ static void the_scene_comes_back(void **state)
 static void the_file_says_how_it_was_made(void **state)
 {
     (void)state;
-    const struct kd_plan plan = { .approximations = { "first", "second" }, .n_approximations = 2 };
+    const struct kd_plan plan = {
+        .rays = 12, .setting = { KD_ENGINE_KS_RK4, KD_PRECISION_F64, 64, NAN }, .approximations = { "first", "second" }, .n_approximations = 2,
+    };
     struct kd_scene scene;
     struct kd_buffer file = { 0 };
     struct kd_png png;
@@ -55,7 +57,7 @@ static void the_file_says_how_it_was_made(void **state)
     assert_string_equal(kd_png_text_find(&png, "kerrd:version"), KD_VERSION);
     assert_string_equal(kd_png_text_find(&png, "kerrd:approximations"), "first\nsecond");
     assert_string_equal(kd_png_text_find(&png, "kerrd:device"), "llvmpipe, 256 bits");
-    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"), "rays=0 undecided=0 sampled=0");
+    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"), "rays=12 engine=ks-rk4 precision=f64 steps=64 undecided=0 sampled=0");
     assert_string_equal(kd_png_text_find(&png, "Software"), "kerrd " KD_VERSION);
     kd_png_finish(&png);
     kd_buffer_finish(&file);
