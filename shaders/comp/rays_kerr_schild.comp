@@ -140,12 +140,20 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
+/* What a step from x to y adds to the turns about the axis that atan2 forgets: where the way between crosses the half plane x < 0. */
+float turned(vec3 x, vec3 y)
+{
+    if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
+        return 0.0;
+    return y.y < 0.0 ? 1.0 : -1.0;
+}
+
 /* Boyer-Lindquist azimuth, source minus observer. */
-float azimuth(vec3 x)
+float azimuth(vec3 x, float turns)
 {
     float a = rays.spin, r = radius(x), root = rays.horizon_r - 1.0;
     float twist = root > 1e-4 ? a / (2.0 * root) * kd_log(1.0 + 2.0 * root / (r - 1.0 - root)) : a / (r - 1.0);
-    return -(kd_atan2(x.y, x.x) - kd_atan2(a, r) + twist);
+    return -(kd_atan2(x.y, x.x) + 2.0 * KD_PI * turns - kd_atan2(a, r) + twist);
 }
 
 void main()
@@ -165,7 +173,7 @@ void main()
      * (Tao's method) or 60; a ray that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
-    float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED;
+    float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
     uint n = 0;
     if (rays.list[in_ + 6] > 0.0) {
         ends[o] = rays.list[in_ + 6];
@@ -200,9 +208,10 @@ void main()
                 break;
             }
             ends[o + 3 * n] = 1.0 / hit_r;
-            ends[o + 3 * n + 1] = azimuth(hit);
+            ends[o + 3 * n + 1] = azimuth(hit, about + turned(before.x, hit));
             n++;
         }
+        about += turned(before.x, y.a.x);
         if (!(r > rays.horizon_r * 1.0001)) {
             fate = KD_FATE_CAPTURED;
             break;
@@ -212,7 +221,7 @@ void main()
             if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the rest is straight, and meets the plane once more */
                 vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
                 ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);
-                ends[o + 3 * n + 1] = azimuth(vec3(hit.x, hit.y, 0.0));
+                ends[o + 3 * n + 1] = azimuth(vec3(hit.x, hit.y, 0.0), about + turned(y.a.x, hit));
             }
             break;
         }

@@ -70,8 +70,12 @@ enum kd_status kd_trace_text(const struct kd_rays_steps *steps, struct kd_buffer
 {
     const struct kd_rays_params *p = &steps->params;
     bool wide = p->precision == KD_PRECISION_F64;
-    enum kd_status status = kd_buffer_printf(out, "alpha %.17g, beta %.17g; spin %.17g, inclination %.17g, r %g; ", steps->alpha,
-                                             steps->beta, p->spin, p->inclination_deg, p->r);
+    const double numbers[] = { steps->alpha, steps->beta, p->spin, p->inclination_deg, p->r };
+    char given[sizeof numbers / sizeof *numbers][KD_DECIMAL_SIZE];
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        kd_decimal_print(given[i], numbers[i]);
+    enum kd_status status = kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1],
+                                             given[2], given[3], isinf(p->r) ? "infinity" : given[4]);
     if (!status)
         status = kd_buffer_printf(out, "%s %s, %u steps a half period\n%6s %-8s %5s", kd_engine_name(p->engine),
                                   kd_precision_name(p->precision), p->steps, "number", "stage", "order");

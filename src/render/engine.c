@@ -103,7 +103,7 @@ enum kd_status kd_setting_of(const struct kd_wish *wish, const struct kd_accurac
         return kd_error_field(error, "/accuracy/precision", "precision is f64, which this device has not: allowed are f32, and "
                               "the engine \"closed\"");
     if (!status && out->engine == KD_ENGINE_CLOSED && wish->steps)
-        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0");
+        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0, or another engine");
     if (!status && (wish->steps % 4 || wish->steps > kd_engine_most_steps(out->engine)))
         return kd_engine_steps_error(out->engine, wish->steps, error);
     return status;

@@ -15,7 +15,7 @@ enum kd_engine {
     KD_ENGINE_MINO_RKN6, /* Albrecht's of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler, */
     KD_ENGINE_KS_RK4,    /* classical Runge-Kutta, */
-    KD_ENGINE_KS_TAO6,   /* Tao's extended phase space with Yoshida's order 6; no delay, and error is NaN for these three */
+    KD_ENGINE_KS_TAO6,   /* Tao's extended phase space with Yoshida's order 6; no delay for these three */
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };

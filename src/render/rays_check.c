@@ -33,9 +33,9 @@ static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_e
         return kd_error_field(error, "/accuracy", "there is no such engine or precision");
     if (closed && p->precision != KD_PRECISION_F64)
         return kd_error_field(error, "/accuracy/precision",
-                              "the closed engine works in double precision: allowed is \"f64\"");
+                              "the closed engine works in double precision: allowed is \"f64\", or another engine");
     if (closed && p->steps)
-        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0");
+        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0, or another engine");
     if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
         return kd_engine_steps_error(p->engine, p->steps, error);
     return KD_OK;

@@ -4,7 +4,7 @@
 
 #include "render/rays.h"
 
-/* kd_rays_trace for any engine but KD_ENGINE_CLOSED, params checked; g is left NaN. */
+/* kd_rays_trace for any engine but KD_ENGINE_CLOSED, params checked; g is left NaN, and the Kerr-Schild engines' errors. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);

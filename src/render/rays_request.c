@@ -21,9 +21,9 @@ static const struct field {
     size_t offset; /* in struct kd_rays_request */
 } fields[] = {
 #define AT(member) offsetof(struct kd_rays_request, member)
-    { "", "spin", "/spin", "a number", REAL, AT(params.spin) },
-    { "observer", "r", "/observer/r", "a number and \"infinity\"", RADIUS, AT(params.r) },
-    { "observer", "inclination_deg", "/observer/inclination_deg", "a number", REAL, AT(params.inclination_deg) },
+    { "", "spin", "/spin", "numbers above -1 and below 1", REAL, AT(params.spin) },
+    { "observer", "r", "/observer/r", "numbers and \"infinity\"", RADIUS, AT(params.r) },
+    { "observer", "inclination_deg", "/observer/inclination_deg", "0 to 180 degrees", REAL, AT(params.inclination_deg) },
     { "", "orders", "/orders", "whole numbers from 1 to 16", WHOLE, AT(params.orders) },
     { "accuracy", "profile", "/accuracy/profile", NULL, PROFILE, AT(wish.profile) },
     { "accuracy", "tolerance", "/accuracy/tolerance", "numbers above 0 and below 1, and \"profile\"", TOLERANCE, AT(wish.tolerance) },
