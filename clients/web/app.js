@@ -1,174 +1,116 @@
-// Shows pictures of /v1/render. One request at a time and the latest scene wins: whatever was chosen while a
-// picture was on its way is asked for when it has come, so a slow device never falls behind.
-'use strict';
+// The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes no
+// physics.
+import { byId, el } from './dom.js';
+import { caption, showAccuracy } from './accuracy.js';
+import { buildControls } from './controls.js';
+import { lang, preset, said, t, translatePage } from './i18n.js';
+import * as link from './link.js';
+import { openOrbits } from './orbits.js';
+import { buildOverlays } from './overlay.js';
+import { openPhysics } from './physics.js';
+import { openScale } from './scale.js';
+import { Scene } from './scene.js';
+import { getJson } from './server.js';
+import { share } from './share.js';
+import { openSource } from './source.js';
+import { handle } from './view.js';
 
-const shown = ['camera.inclination_deg', 'spacetime.spin'];
-const element = id => document.getElementById(id);
-const chosen = new URLSearchParams();
-let busy = false, stale = false, pictureUrl = '';
+const views = { lensing: null, orbits: openOrbits, physics: openPhysics, scale: openScale };
+const opened = new Set();
+const say = text => { byId('status').textContent = text; };
 
-function field(schema, path) {
-  return path.split('.').reduce((at, name) => at.properties[name], schema);
+function goTo(name) {
+  const view = name in views ? name : 'lensing';
+  for (const other of Object.keys(views)) {
+    byId(other).hidden = other !== view;
+    const button = document.querySelector(`nav [data-view=${other}]`);
+    other === view ? button.setAttribute('aria-current', 'page') : button.removeAttribute('aria-current');
+  }
+  document.body.dataset.view = view;
+  link.set('view', view === 'lensing' ? null : view);
+  if (!opened.has(view)) opened.add(view), views[view]?.().catch(error => say(error.message));
 }
 
-function labelled(path, text, control, help) {
-  const box = document.createElement('div'), label = document.createElement('label');
-  const value = document.createElement('output'), hint = document.createElement('p');
-  control.id = path;
-  label.htmlFor = value.htmlFor = path;
-  label.textContent = text;
-  value.className = 'value';
-  hint.className = 'help';
-  hint.id = path + '-help';
-  hint.textContent = help;
-  control.setAttribute('aria-describedby', hint.id);
-  label.append(value);
-  box.append(label, control, hint);
-  element('controls').append(box);
-  return value;
+function buildLanguages() {
+  for (const button of document.querySelectorAll('[data-lang]')) {
+    if (button.dataset.lang === lang) button.setAttribute('aria-pressed', 'true');
+    button.addEventListener('click', () => {
+      link.set('lang', button.dataset.lang);
+      link.flush();
+      location.reload();
+    });
+  }
 }
 
-function addSlider(path, spec) {
-  const control = document.createElement('input');
-  const name = path.split('.').pop().replace(/_deg$/, '').replaceAll('_', ' ');
-  control.type = 'range';
-  control.min = spec.minimum;
-  control.max = spec.maximum;
-  control.step = 'any';
-  control.value = spec.default;
-  const span = spec.maximum - spec.minimum, digits = span > 10 ? 1 : 3;
-  const value = labelled(path, name[0].toUpperCase() + name.slice(1), control, spec.description);
-  control.show = () => { value.textContent = `${Number(control.value).toFixed(digits)} ${spec['x-unit'] ?? ''}`; };
-  control.addEventListener('input', () => {
-    control.show();
-    chosen.set(path, control.value);
+async function buildPresets(scene) {
+  const { presets } = await getJson('v1/presets'), select = byId('preset'), help = byId('preset-help');
+  select.append(el('option', { value: '' }, t('default', 'predefinita')), ...presets.map(({ name }) => el('option', { value: name }, name)));
+  select.addEventListener('change', async () => {
+    const chosen = presets.find(p => p.name === select.value);
+    help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
+    scene.replace(chosen ? await getJson('v1/presets/' + encodeURIComponent(chosen.name)) : {});
+  });
+}
+
+// Device pixels of the window, no more than what small machines draw in a moment.
+function windowSize(stage) {
+  const ratio = Math.min(devicePixelRatio || 1, 1600 / stage.clientWidth, 2);
+  const even = x => Math.max(2, 2 * Math.round(x * ratio / 2));
+  return { width: even(stage.clientWidth), height: even(stage.clientHeight) };
+}
+
+function watch(scene) {
+  const stage = byId('stage'), picture = byId('picture'), complain = buildControls(byId('fields'), scene);
+  const drawOverlays = buildOverlays(byId('overlays'), stage, scene), size = () => windowSize(stage);
+  const showShare = share(scene, size);
+  let old = '';
+
+  const refresh = openSource(scene, size, async frame => {
+    const url = URL.createObjectURL(frame.picture);
+    picture.src = url;
+    await picture.decode();
+    URL.revokeObjectURL(old);
+    old = url;
+    say(caption(frame));
+    stage.dataset.final = frame.final;
+    stage.dataset.samples = frame.samples;
+    complain('', '');
+    showAccuracy(frame, scene);
+    if (frame.final) drawOverlays();
+  }, error => {
+    const text = said(error.message).text;
+    say(complain(error.pointer, text) ? t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.') : text);
+  });
+
+  scene.addEventListener('change', event => {
+    stage.dataset.final = false;
+    refresh(event.detail.moving);
+  });
+  const { zoom } = handle(stage, scene);
+  byId('nearer').addEventListener('click', () => zoom(1 / 1.25));
+  byId('farther').addEventListener('click', () => zoom(1.25));
+  byId('reset').addEventListener('click', () => {
+    byId('preset').value = byId('preset-help').textContent = '';
+    scene.replace({});
+  });
+  let asked = '';
+  new ResizeObserver(() => {
+    const { width, height } = size(), now = `${width}x${height}`;
+    if (byId('lensing').hidden || now === asked) return;
+    asked = now;
+    showShare();
     refresh();
-  });
-  control.show();
-}
-
-function addPresets(presets) {
-  const control = document.createElement('select');
-  control.append(new Option('default', ''));
-  for (const preset of presets) control.append(new Option(preset.name, preset.name));
-  const hint = () => presets.find(p => p.name === control.value)?.title ?? 'The picture of an empty scene';
-  labelled('preset', 'Preset', control, hint());
-  control.addEventListener('change', () => {
-    element('preset-help').textContent = hint();
-    choosePreset(control.value).catch(report);
-  });
-}
-
-async function getJson(url) {
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`${url}: ${answer.status}`);
-  return answer.json();
-}
-
-async function choosePreset(name) {
-  const scene = name ? await getJson('v1/presets/' + encodeURIComponent(name)) : null;
-  for (const path of shown) {
-    const control = element(path), [section, key] = path.split('.');
-    control.value = scene ? scene[section][key] : control.defaultValue;
-    control.show();
-    chosen.delete(path);
-  }
-  if (name) chosen.set('preset', name); else chosen.delete('preset');
-  refresh();
-}
-
-function listApproximations(header) {
-  const items = [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
-  element('approximations').replaceChildren(...items.map(text => {
-    const item = document.createElement('li');
-    item.textContent = text;
-    return item;
-  }));
-}
-
-function listTimings(header) {
-  const rows = (header ?? '').split(',').filter(Boolean).map(entry => {
-    const name = entry.trim().split(';')[0], ms = /dur=([\d.]+)/.exec(entry)?.[1] ?? '';
-    const reused = /desc="?reused/.test(entry);
-    const row = document.createElement('tr');
-    for (const text of [name, reused ? 'reused' : Number(ms).toFixed(1)])
-      row.append(Object.assign(document.createElement('td'), { textContent: text }));
-    return row;
-  });
-  element('timings').replaceChildren(...rows);
-}
-
-// "rays=921600 sampled=768 crossings=927 differ=0 median=1.6e-07 worst=2.0e-05" in words.
-function accuracy(header) {
-  const figure = Object.fromEntries((header ?? '').split(' ').map(pair => pair.split('=')));
-  if (!(figure.sampled > 0)) return '';
-  const short = text => Number(text).toExponential(1);
-  return `; relative error of radii ${short(figure.median)} in the median, ${short(figure.worst)} at worst: ` +
-    `${figure.sampled} of ${figure.rays} rays were traced again in double precision`;
-}
-
-function report(error) {
-  element('status').textContent = error.message;
-}
-
-async function show(query) {
-  const url = 'v1/render' + (query ? '?' + query : ''), start = performance.now();
-  const answer = await fetch(url, { headers: { Accept: 'image/png' } });
-  if (!answer.ok) {
-    const problem = await answer.json().catch(() => ({}));
-    throw new Error(problem.detail ?? `The server answered ${answer.status}`);
-  }
-  const picture = element('picture'), old = pictureUrl;
-  pictureUrl = URL.createObjectURL(await answer.blob());
-  picture.src = pictureUrl;
-  await picture.decode();
-  URL.revokeObjectURL(old);
-  picture.width = picture.naturalWidth;
-  picture.height = picture.naturalHeight;
-  element('status').textContent =
-    `${picture.naturalWidth} × ${picture.naturalHeight} pixels, ${Math.round(performance.now() - start)} ms` +
-    accuracy(answer.headers.get('Kerrd-Accuracy'));
-  element('link').href = url;
-  listApproximations(answer.headers.get('Kerrd-Approximations'));
-  listTimings(answer.headers.get('Server-Timing'));
-}
-
-async function refresh() {
-  if (busy) {
-    stale = true;
-    return;
-  }
-  busy = true;
-  do {
-    stale = false;
-    await show(chosen.toString()).catch(report);
-  } while (stale);
-  busy = false;
-}
-
-// Dragging the picture up and down tilts the camera. Turning it about the axis of a smooth disk would change nothing.
-function dragToTilt(picture, control) {
-  let from = null;
-  picture.addEventListener('pointerdown', event => {
-    from = { y: event.clientY, tilt: Number(control.value) };
-    picture.setPointerCapture(event.pointerId);
-    event.preventDefault();
-  });
-  picture.addEventListener('pointermove', event => {
-    if (!from) return;
-    control.value = from.tilt - (event.clientY - from.y) * 180 / picture.clientHeight;
-    control.dispatchEvent(new Event('input'));
-  });
-  for (const end of ['pointerup', 'pointercancel']) picture.addEventListener(end, () => { from = null; });
+  }).observe(stage);
 }
 
 async function start() {
-  refresh();
-  const [schema, { presets }] = await Promise.all([getJson('v1/schema'), getJson('v1/presets')]);
-  addPresets(presets);
-  for (const path of shown) addSlider(path, field(schema, path));
-  for (const path of shown) element(path).defaultValue = field(schema, path).default;
-  dragToTilt(element('picture'), element('camera.inclination_deg'));
+  translatePage();
+  buildLanguages();
+  for (const button of document.querySelectorAll('nav [data-view]')) button.addEventListener('click', () => goTo(button.dataset.view));
+  goTo(link.get('view'));
+  const scene = await Scene.load();
+  watch(scene);
+  await buildPresets(scene);
 }
 
-start().catch(report);
+start().catch(error => say(error.message));

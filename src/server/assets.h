@@ -1,13 +1,16 @@
-/* The files of clients/web, compiled in (embed.py). */
+/* The files of clients/web, compiled in (embed.py): index.html is the page, the others are what it loads. */
 #ifndef KD_SERVER_ASSETS_H
 #define KD_SERVER_ASSETS_H
 
 #include <stddef.h>
 
 struct kd_asset {
-    const char *path;
-    const unsigned char *data;
-    size_t size;
+    const char *name, *type; /* media type */
+    struct kd_asset_form {
+        const char *etag; /* of the bytes, with its quotes */
+        const unsigned char *data;
+        size_t size;
+    } plain, gzip;
 };
 extern const struct kd_asset kd_assets[];
 extern const size_t kd_n_assets;

@@ -108,6 +108,27 @@ bool kd_accepts(const char *accept, const char *type)
     return kd_accept_weight(accept, type) > 0;
 }
 
+bool kd_accepts_coding(const char *accept_encoding, const char *coding)
+{
+    int named = -1, any = -1;
+
+    while (accept_encoding) {
+        struct span entry = take(&accept_encoding, ',');
+        char text[256];
+        if (!entry.size || entry.size >= sizeof text)
+            continue;
+        memcpy(text, entry.at, entry.size);
+        text[entry.size] = 0;
+        const char *rest = text;
+        struct span name = take(&rest, ';');
+        if (equals(name, coding))
+            named = entry_weight(rest);
+        else if (equals(name, "*"))
+            any = entry_weight(rest);
+    }
+    return (named >= 0 ? named : any) > 0;
+}
+
 bool kd_etag_listed(const char *if_none_match, const char *etag)
 {
     while (if_none_match) {

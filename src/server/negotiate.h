@@ -1,4 +1,4 @@
-/* Header values that choose an answer: Accept, If-None-Match, Content-Type, Host. Pure; any thread. */
+/* Header values that choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any thread. */
 #ifndef KD_SERVER_NEGOTIATE_H
 #define KD_SERVER_NEGOTIATE_H
 
@@ -9,6 +9,9 @@
 bool kd_accepts(const char *accept, const char *type);
 /* That weight in thousandths, 0 when the type is not admitted: to choose between several. */
 int kd_accept_weight(const char *accept, const char *type);
+
+/* Whether an Accept-Encoding value (RFC 9110, 12.5.3) names the coding, or "*", by a weight above zero. NULL: no. */
+bool kd_accepts_coding(const char *accept_encoding, const char *coding);
 
 /* Whether an If-None-Match value names the entity tag (with its quotes), compared weakly, or is "*". */
 bool kd_etag_listed(const char *if_none_match, const char *etag);

@@ -7,9 +7,8 @@
 #define JSON "application/json"
 
 const struct kd_route kd_routes[] = {
-    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page that shows the default picture" },
-    { "/app.js", KD_GET, kd_handle_page, "text/javascript; charset=utf-8", "The page's script" },
-    { "/style.css", KD_GET, kd_handle_page, "text/css; charset=utf-8", "The page's style" },
+    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page: a live view, its controls and what is computed" },
+    { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads" },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives" },
     { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down" },
     { "/openapi.json", KD_GET, kd_handle_openapi, JSON, "This description" },

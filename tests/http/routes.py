@@ -1,12 +1,14 @@
 """Every address, HEAD, and what is said of a wrong method or path."""
+import gzip
 import json
+import re
 import unittest
 
 import daemon
 
 GETS = {
-    '/': 'text/html; charset=utf-8', '/app.js': 'text/javascript; charset=utf-8',
-    '/style.css': 'text/css; charset=utf-8', '/healthz': 'application/json', '/readyz': 'application/json',
+    '/': 'text/html; charset=utf-8', '/web/app.js': 'text/javascript; charset=utf-8',
+    '/web/style.css': 'text/css; charset=utf-8', '/web/icon.svg': 'image/svg+xml', '/healthz': 'application/json', '/readyz': 'application/json',
     '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
     '/v1/presets/gargantua': 'application/json', '/v1/schema': 'application/schema+json',
     '/v1/render?' + daemon.SMALL: 'image/png',
@@ -31,6 +33,31 @@ class Routes(daemon.Case):
         policy = self.daemon.get('/').header('Content-Security-Policy')
         self.assertTrue(policy.startswith("default-src 'self';"), policy)
         self.assertNotIn('unsafe', policy)
+
+    def test_page_compressed_and_kept(self):
+        plain = self.daemon.get('/web/app.js')
+        for accept in ('gzip', 'br;q=1, gzip;q=0.5', '*', 'GZIP, deflate'):
+            packed = self.daemon.get('/web/app.js', Accept_Encoding=accept)
+            self.assertEqual((packed.header('Content-Encoding'), packed.header('Vary')), ('gzip', 'Accept-Encoding'), accept)
+            self.assertEqual(gzip.decompress(packed.body), plain.body)
+        for accept in ('identity', 'br', 'gzip;q=0', '*;q=0', 'gzip;q=0, *', 'x-gzip'):
+            answer = self.daemon.get('/web/app.js', Accept_Encoding=accept)
+            self.assertEqual((answer.header('Content-Encoding'), answer.body), (None, plain.body), accept)
+        self.assertNotEqual(packed.header('ETag'), plain.header('ETag'))
+        for tag, status in ((plain.header('ETag'), 304), (packed.header('ETag'), 200), ('"x"', 200)):
+            self.assertEqual(self.daemon.get('/web/app.js', If_None_Match=tag).status, status)
+        for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/'):
+            self.assertProblem(self.daemon.get(name), 404, 'not-found')
+
+    def test_page_names_what_is_served(self):
+        page = self.daemon.get('/').body.decode()
+        loaded = re.findall(r'(?:src|href)="(web/[^"]+)"', page)
+        self.assertGreater(len(loaded), 2)
+        for name in loaded:
+            text = self.daemon.get('/' + name)
+            self.assertEqual(text.status, 200, name)
+            for other in re.findall(r"(?:from |import\()'\./([^']+)'", text.body.decode()):
+                self.assertEqual(self.daemon.get('/web/' + other).status, 200, other)
 
     def test_presets_are_scenes(self):
         for preset in self.daemon.get('/v1/presets').json()['presets']:

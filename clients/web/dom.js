@@ -1,0 +1,40 @@
+// Elements in one expression: el('p', { class: 'help' }, 'text', child).
+function maker(create) {
+  return (tag, attributes = {}, ...children) => {
+    const node = create(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+      if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+      else if (value === true) node.setAttribute(name, '');
+      else if (value !== false && value != null) node.setAttribute(name, value);
+    }
+    node.append(...children.flat().filter(child => child != null && child !== false));
+    return node;
+  };
+}
+
+export const el = maker(tag => document.createElement(tag));
+export const svg = maker(tag => document.createElementNS('http://www.w3.org/2000/svg', tag));
+export const math = maker(tag => document.createElementNS('http://www.w3.org/1998/Math/MathML', tag));
+export const byId = id => document.getElementById(id);
+
+export const still = matchMedia('(prefers-reduced-motion: reduce)');
+
+// Runs a task that may take a while: one at a time, and of those asked for meanwhile only the newest.
+export function latest(task) {
+  let busy = false, next = null;
+  return async function run(...what) {
+    if (busy) {
+      next = what;
+      return;
+    }
+    busy = true;
+    try {
+      await task(...what);
+    } finally {
+      busy = false;
+      const queued = next;
+      next = null;
+      if (queued) run(...queued);
+    }
+  };
+}

@@ -1,0 +1,72 @@
+// English and Italian. A text of the page stands in both languages where it is used: t('Presets', 'Preimpostazioni'), or in
+// index.html as data-it beside the English one. it.js has what the server says in English, and is fetched for Italian alone.
+import * as link from './link.js';
+
+export const lang = (link.get('lang') ?? navigator.language).startsWith('it') ? 'it' : 'en';
+export const t = (en, it) => lang === 'it' ? it : en;
+
+const words = lang === 'it' ? await import('./it.js') : null;
+
+// A sentence of the server: translated if it is known, else marked as English for those who have it read aloud.
+export function said(text) {
+  const known = words?.sentences[text];
+  return { text: known ?? text, lang: known || lang === 'en' ? null : 'en' };
+}
+
+const abbreviations = { degrees: '°', pixels: 'px', 'solar masses': 'M☉', 'degrees per second': '°/s', 'M per second': 'M/s', 1: '',
+  microarcseconds: 'µas', 'solar radii': 'R☉', 'solar masses a year': 'M☉/yr', 'solar luminosities': 'L☉', 'c^2': 'c²', 'M^2': 'M²',
+  '1/M^2': '1/M²', 'W/m^2': 'W/m²', radians: 'rad' };
+
+export function unit(name) {
+  return words?.units[name] ?? abbreviations[name] ?? name ?? '';
+}
+
+// Where the name of a field is too short to be a label.
+const labels = {
+  'camera.r': 'Distance', 'camera.field_m': 'Field', 'camera.fov_deg': 'Field of view', 'camera.centre_alpha': 'Centre α', 'camera.centre_beta': 'Centre β',
+  'disk.inner': 'Inner edge', 'disk.outer': 'Outer edge', 'disk.mdot_edd': 'Accretion rate', 'sky.grid_deg': 'Grid spacing', 'disk.colour': 'Temperature scale',
+  r: 'Radius', mdot_edd: 'Accretion rate', mass1_msun: 'First mass', mass2_msun: 'Second mass', star_mass_msun: 'Mass of the star',
+  star_radius_rsun: 'Radius of the star', p: 'p, semi-latus rectum', e: 'e, eccentricity', periods: 'Radial periods', l: 'L, angular momentum',
+  'motion.azimuth_rate_deg': 'Going round', 'motion.time_rate': 'Time goes on',
+};
+
+const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
+
+// Label and help of a field of the scene or of a parameter, from its path and the server's English.
+export function named(path, help) {
+  const it = words?.fields[path];
+  const short = path.split('.').pop();
+  return { label: (lang === 'it' ? it?.[0] ?? words.fields[short]?.[0] : labels[path] ?? labels[short]) ?? spell(short), ...(it?.[1] ? { help: it[1] } : helpOf(help)) };
+}
+
+function helpOf(help) {
+  const { text, lang: marked } = said(help ?? '');
+  return { help: text && text[0].toUpperCase() + text.slice(1), helpLang: marked };
+}
+
+export const section = (name, help) => words?.fields[name]?.[0] ?? spell(help.length < 12 ? help : name);
+export const word = value => words?.values[value] ?? value;
+export const preset = (name, title) => words?.presets[name] ?? title;
+
+const raised = text => [...text].map(c => c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join('');
+
+// 0.0123, 12 300, 1.6 × 10⁻⁷.
+export function number(x, digits = 4) {
+  if (x == null || Number.isNaN(x)) return '–';
+  if (!Number.isFinite(x)) return x > 0 ? '∞' : '−∞';
+  const size = Math.abs(x), show = (v, options) => v.toLocaleString(lang, options).replace('-', '−');
+  if (size && (size < 1e-3 || size >= 1e6)) {
+    const [mantissa, power] = x.toExponential(digits - 1).split('e');
+    const front = show(Number(mantissa), { maximumSignificantDigits: digits });
+    return (front === '1' ? '' : `${front} × `) + '10' + raised(String(Number(power)));
+  }
+  return show(x, { maximumSignificantDigits: Math.max(digits, size >= 1000 ? 6 : 0), useGrouping: size >= 1e4 });
+}
+
+export function translatePage() {
+  document.documentElement.lang = lang;
+  if (lang !== 'it') return;
+  for (const node of document.querySelectorAll('[data-it]')) node.textContent = node.dataset.it;
+  for (const node of document.querySelectorAll('[data-it-label]')) node.setAttribute('aria-label', node.dataset.itLabel);
+  for (const node of document.querySelectorAll('[data-it-alt]')) node.setAttribute('alt', node.dataset.itAlt);
+}

@@ -1,0 +1,113 @@
+// What the server says in English, in Italian. A sentence that is not here stays English and is marked as such.
+export const units = {
+  degrees: '°', pixels: 'px', 'solar masses': 'M☉', 'Eddington rates': 'tassi di Eddington', stops: 'stop', bits: 'bit', decades: 'decadi',
+  'degrees per second': '°/s', 'M per second': 'M/s', 'solar radii': 'R☉', days: 'giorni', 'M or radians': 'M o rad',
+};
+
+export const values = {
+  infinity: 'all’infinito', auto: 'automatico', static: 'fermo', zamo: 'momento angolare nullo (ZAMO)', plane: 'piana', pinhole: 'stenopeica', ring: 'anello',
+  none: 'nessuno', isco: 'all’ISCO', peak: 'di picco', accretion: 'dall’accrescimento', bolometric: 'bolometrica', visible: 'visibile', grid: 'reticolo',
+  'novikov-thorne': 'Novikov–Thorne', 'shakura-sunyaev': 'Shakura–Sunyaev', aces: 'ACES', srgb: 'sRGB', profile: 'quella del profilo', draft: 'bozza',
+  interactive: 'interattivo', balanced: 'equilibrato', high: 'alto', reference: 'riferimento', closed: 'forma chiusa', plunge: 'caduta', spherical: 'sferica', bound: 'legata', captured: 'catturata', escapes: 'in fuga', unbound: 'non legata',
+};
+
+// path or name: [label, help]; help may be left out.
+export const fields = {
+  spacetime: ['Il buco'], camera: ['La camera'], disk: ['Il disco'], sky: ['Il cielo'], image: ['L’immagine'], style: ['Colori'], accuracy: ['Accuratezza'],
+  motion: ['Moto'],
+  'spacetime.spin': ['Spin', 'Parametro di rotazione a; se a < 0 il disco gira in verso opposto al buco'],
+  'spacetime.mass_msun': ['Massa', 'Massa del buco; fissa la temperatura quando i colori vengono dall’accrescimento'],
+  'camera.r': ['Distanza', 'Raggio di Boyer–Lindquist dell’osservatore'],
+  'camera.inclination_deg': ['Inclinazione', 'Angolo polare dell’osservatore: 0 sopra il polo della rotazione del disco, 90 nel suo piano'],
+  'camera.azimuth_deg': ['Azimut', 'Azimut di Boyer–Lindquist dell’osservatore'],
+  'camera.observer': ['Osservatore', 'Stato di moto a distanza finita: fermo rispetto all’infinito, o con momento angolare nullo'],
+  'camera.projection': ['Proiezione', 'Piana: raggi paralleli, solo all’infinito. Stenopeica: solo a distanza finita. Anello: angolo attorno alla curva critica contro il logaritmo della distanza da essa. Automatica: quella adatta alla distanza'],
+  'camera.field_m': ['Campo', 'Larghezza del piano immagine (proiezione piana)'],
+  'camera.fov_deg': ['Campo visivo', 'Angolo orizzontale abbracciato (proiezione stenopeica)'],
+  'camera.centre_alpha': ['Centro α', 'α al centro dell’immagine (proiezione piana)'],
+  'camera.centre_beta': ['Centro β', 'β al centro dell’immagine (proiezione piana)'],
+  'camera.yaw_deg': ['Imbardata', 'Guarda a destra del buco (stenopeica)'],
+  'camera.pitch_deg': ['Beccheggio', 'Guarda sopra il buco (stenopeica)'],
+  'camera.roll_deg': ['Rollio', 'Ruota la camera in senso orario attorno al suo asse; nella proiezione ad anello, l’angolo al centro dell’immagine'],
+  'camera.ring_decades_max': ['Decadi, massimo', 'log₁₀ della distanza dalla curva critica, in suoi raggi, ai bordi superiore e inferiore (anello)'],
+  'camera.ring_decades_min': ['Decadi, minimo', 'Lo stesso sulla linea mediana: sopra i raggi passano fuori dalla curva, sotto dentro (anello)'],
+  'disk.model': ['Modello', 'Flusso al variare del raggio: nessuno, l’integrale esatto di Page–Thorne, o il disco sottile newtoniano troncato all’ISCO'],
+  'disk.inner': ['Bordo interno', 'Mai dentro l’ISCO'],
+  'disk.outer': ['Bordo esterno', 'Maggiore di quello interno'],
+  'disk.taper': ['Sfumatura', 'Frazione esterna del raggio su cui il disco svanisce; 0 lo taglia di netto'],
+  'disk.opacity': ['Opacità', 'Opacità di un attraversamento; 1 è otticamente spesso'],
+  'disk.colour': ['Temperatura', 'Scala delle temperature: un picco scelto, oppure da massa e tasso di accrescimento'],
+  'disk.peak_temperature_k': ['Temperatura di picco', 'Massima temperatura efficace del disco, nel suo riferimento'],
+  'disk.mdot_edd': ['Accrescimento', 'Tasso di accrescimento: luminosità su quella di Eddington, con l’efficienza di questo spin'],
+  'disk.hardening': ['Indurimento', 'Temperatura di colore su temperatura efficace'],
+  'disk.band': ['Banda', 'Luminosità bolometrica, g⁴ F, oppure visibile: lo spettro di Planck come lo pesa l’occhio'],
+  'disk.doppler': ['Doppler', 'Spostamento Doppler e concentrazione della luce del gas in orbita'],
+  'disk.redshift': ['Redshift', 'Redshift gravitazionale e dilatazione del tempo del gas in orbita'],
+  'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla, o un reticolo celeste che mostra la lente'],
+  'sky.brightness': ['Luminosità', 'Luminosità del cielo in unità della massima brillanza del disco a g = 1'],
+  'sky.grid_deg': ['Passo del reticolo', 'Spaziatura del reticolo celeste'],
+  'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati'],
+  'image.bit_depth': ['Profondità', 'Bit per canale: 8 o 16'],
+  'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1'],
+  'style.tone_map': ['Curva dei toni', 'Curva da pellicola, o sRGB con taglio'],
+  'style.dither': ['Dithering', 'Mezzo gradino di rumore ordinato prima dell’arrotondamento, contro le bande'],
+  'motion.azimuth_rate_deg': ['Giro', 'L’osservatore gira attorno all’asse'],
+  'motion.time_rate': ['Scorrere del tempo', 'Il tempo coordinato avanza'],
+  'accuracy.profile': ['Profilo', 'Con quanta cura si seguono i raggi, da grossolana a fine; riferimento è in doppia precisione'],
+  'accuracy.tolerance': ['Tolleranza', 'Errore relativo dei raggi di attraversamento da garantire, secondo la tabella del dispositivo, invece del profilo'],
+  'accuracy.engine': ['Motore', 'Che cosa traccia i raggi; automatico: la forma chiusa dove bastano i raggi di attraversamento, altrimenti mino-rkn6'],
+  'accuracy.precision': ['Precisione', 'Dell’aritmetica; automatica: quella del profilo'],
+  'accuracy.steps': ['Passi', 'Passi dell’integratore per mezzo giro, multiplo di 4; 0: quelli del profilo'],
+  'accuracy.orders': ['Ordini', 'Attraversamenti equatoriali tenuti per raggio: ordini d’immagine da 0 a n − 1'],
+  time: ['Tempo', 'Tempo coordinato dell’immagine'],
+  spin: ['Spin'], l: ['L, momento angolare'], r: ['Raggio'], inclination_deg: ['Inclinazione'],
+  mass_msun: ['Massa'], distance_pc: ['Distanza'], mdot_edd: ['Accrescimento'], mass1_msun: ['Prima massa'], mass2_msun: ['Seconda massa'],
+  star_mass_msun: ['Massa della stella'], star_radius_rsun: ['Raggio della stella'], orbit: ['Orbita'], p: ['p, semilato retto'], e: ['e, eccentricità'],
+  periods: ['Periodi radiali'], method: ['Metodo'], hole: ['Buco nero'],
+};
+
+export const presets = {
+  schwarzschild: 'Un buco che non ruota, il suo disco visto da 10 gradi sopra',
+  gargantua: 'Il buco e la camera di James et al. 2015: spin quasi massimo, da 74 M, un disco da 9,26 a 18,7 M di circa 4500 K; con il Doppler e il redshift che il film tralasciò',
+  m87: 'Il buco di M87, con lo spin rivolto lontano da noi; un disco sottile sta per il flusso caldo',
+  sgra: 'Il buco al centro della nostra Galassia; un disco sottile sta per il flusso caldo',
+  luminet1979: 'La prima immagine di un buco nero con un disco: senza spin, da 10 gradi sopra, luminosità bolometrica',
+  'edge-on': 'Il disco visto lungo il suo piano: ciò che se ne vede è luce piegata',
+  'face-on': 'Il disco visto dal suo polo',
+  'photon-rings': 'Sei anelli di fotoni, uno sopra l’altro: in orizzontale l’angolo attorno al bordo dell’ombra, in verticale la distanza da quel bordo, per nove decadi e mezza',
+};
+
+export const sentences = {
+  'disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge':
+    'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',
+  'disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light':
+    'disco: ogni elemento splende come un corpo nero isotropo; nessun oscuramento al bordo, nessuna luce di ritorno che lo scaldi',
+  'disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral':
+    'disco: flusso newtoniano di disco sottile troncato all’ISCO, invece dell’integrale di Page–Thorne',
+  'disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate':
+    'disco: la temperatura di picco è scelta perché si veda, non calcolata da una massa e da un tasso di accrescimento',
+  'disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum':
+    'disco: la luminosità è bolometrica (g⁴), il colore quello della parte visibile dello spettro',
+  'disk: Doppler shift and beaming of the gas are switched off': 'disco: lo spostamento Doppler e la concentrazione della luce del gas sono disattivati',
+  'disk: gravitational redshift and time dilation of the gas are switched off':
+    'disco: il redshift gravitazionale e la dilatazione del tempo del gas sono disattivati',
+  'disk: the outer edge fades out over a chosen range': 'disco: il bordo esterno sfuma su un tratto scelto',
+  'disk: opacity is a chosen number a crossing, not computed from the gas': 'disco: l’opacità è un numero scelto per attraversamento, non calcolata dal gas',
+  'disk: image orders beyond accuracy.orders are left out': 'disco: gli ordini d’immagine oltre accuracy.orders sono tralasciati',
+  'colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance':
+    'colore: i corpi neri fuori dal gamut sRGB sono portati al suo bordo a pari luminanza',
+  'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
+    'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
+  'post: a film-like tone curve; pixel values are not proportional to radiance':
+    'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
+  'projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale':
+    'proiezione: distanze dalla curva critica in scala logaritmica; nessun occhio la vede così, e le aree non sono in scala',
+  'arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate':
+    'aritmetica: a 32 bit; ai raggi più vicini di circa 10⁻⁵ alla curva critica può toccare la sorte sbagliata',
+  'arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits':
+    'aritmetica: raggi a 64 bit; i raggi dei loro attraversamenti sono conservati a 32 bit',
+  'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs':
+    'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
+  'a test particle: it has no mass of its own, radiates nothing and is not torn':
+    'una particella di prova: non ha massa propria, non irradia e non si spezza',
+};

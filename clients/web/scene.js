@@ -1,0 +1,79 @@
+// The scene of the page: what of it differs from the defaults of the server's schema, by dotted path.
+import { getJson } from './server.js';
+import * as link from './link.js';
+
+function* flatten(schema, prefix = '') {
+  for (const [name, spec] of Object.entries(schema.properties)) {
+    if (spec.properties) yield* flatten(spec, name + '.');
+    else if (!('const' in spec)) yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description };
+  }
+}
+
+// { type: 'number' | 'integer' | 'choice' | 'switch', minimum, maximum, word, choices }
+function kind(spec) {
+  if (spec.enum) return { type: 'choice', choices: spec.enum };
+  if (spec.type === 'boolean') return { type: 'switch' };
+  const range = spec.anyOf?.find(part => part.type) ?? spec;
+  return { type: range.type, minimum: range.minimum, maximum: range.maximum, word: spec.anyOf?.find(part => part.const)?.const };
+}
+
+function parse(field, text) {
+  if (field.type === 'switch') return text === 'true';
+  return field.type === 'choice' || text === field.word ? text : Number(text);
+}
+
+export class Scene extends EventTarget {
+  #values = new Map();
+
+  static async load() {
+    const scene = new Scene();
+    const schema = await getJson('v1/schema');
+    scene.sections = Object.entries(schema.properties).filter(([, spec]) => spec.properties)
+      .map(([name, spec]) => ({ name, help: spec.description }));
+    scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
+    for (const [path, field] of scene.fields)
+      if (link.get(path) != null) scene.#put(path, parse(field, link.get(path)));
+    return scene;
+  }
+
+  #put(path, value) {
+    if (value == null || value === this.fields.get(path).default) this.#values.delete(path);
+    else this.#values.set(path, value);
+    link.set(path, this.#values.get(path));
+  }
+
+  get(path) {
+    return this.#values.get(path) ?? this.fields.get(path)?.default;
+  }
+
+  // The changes: { 'camera.r': 30 }; null is the default. What listens is told with whether more are about to come.
+  change(values, moving = false) {
+    for (const [path, value] of Object.entries(values)) this.#put(path, value);
+    this.dispatchEvent(new CustomEvent('change', { detail: { paths: Object.keys(values), moving } }));
+  }
+
+  // All of a document, whatever was there before; the picture's size is the page's affair.
+  replace(document) {
+    const values = Object.fromEntries([...this.fields.keys()].map(path => [path, null]));
+    for (const path of this.fields.keys()) {
+      const [first, second] = path.split('.');
+      values[path] = (second ? document[first]?.[second] : document[first]) ?? null;
+    }
+    this.change({ ...values, 'image.width': null, 'image.height': null });
+  }
+
+  // As JSON, with what differs only; other: values that go over those of the page.
+  document(other = {}) {
+    const out = {};
+    for (const [path, value] of new Map([...this.#values, ...Object.entries(other)])) {
+      const [first, second] = path.split('.');
+      if (second) (out[first] ??= {})[second] = value;
+      else out[first] = value;
+    }
+    return out;
+  }
+
+  query(other = {}) {
+    return new URLSearchParams([...new Map([...this.#values, ...Object.entries(other)])]).toString();
+  }
+}

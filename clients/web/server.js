@@ -1,0 +1,38 @@
+// What the server is asked for besides pictures. An answer that is no success becomes a Problem (RFC 9457).
+export class Problem extends Error {
+  constructor(document, status) {
+    super(document.detail ?? document.title ?? `HTTP ${status}`);
+    this.pointer = document.pointer ?? '';
+    this.status = status;
+  }
+}
+
+export async function ask(url, options) {
+  const answer = await fetch(url, options);
+  if (!answer.ok) throw new Problem(await answer.json().catch(() => ({})), answer.status);
+  return answer;
+}
+
+export const getJson = async url => (await ask(url)).json();
+
+export const postJson = async (url, body) => (await ask(url, {
+  method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body),
+})).json();
+
+// Numbers of /v1/physics are asked for once: most of what is drawn asks again for what it had.
+const kept = new Map();
+
+export function physicsUrl(name, parameters) {
+  return `v1/physics/${name}?` + new URLSearchParams(parameters).toString().replaceAll('%3A', ':');
+}
+
+export function physics(name, parameters) {
+  const url = physicsUrl(name, parameters);
+  if (!kept.has(url)) {
+    if (kept.size > 200) kept.delete(kept.keys().next().value);
+    const answer = getJson(url);
+    answer.catch(() => kept.delete(url));
+    kept.set(url, answer);
+  }
+  return kept.get(url);
+}

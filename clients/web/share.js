@@ -1,0 +1,44 @@
+// What can be taken away: the link, the picture as a file, the scene as JSON and as a command.
+import { byId } from './dom.js';
+import { t } from './i18n.js';
+import * as link from './link.js';
+
+const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
+
+export function share(scene, size) {
+  const box = byId('scene-text'), form = byId('scene-form'), sizes = byId('save-size');
+
+  function picked() {
+    const [width, height] = sizes.value === 'window' ? [size().width, size().height] : sizes.value.split('x').map(Number);
+    return { 'image.width': width, 'image.height': height };
+  }
+
+  function show() {
+    const json = scene.document(picked());
+    byId('save').href = 'v1/render?' + scene.query(picked());
+    box.value = form.value === 'json' ? JSON.stringify(json, null, 2)
+      : `curl -H 'Content-Type: application/json' -o kerrd.png \\\n  ${new URL('v1/render', location.href)} \\\n  -d ${shell(JSON.stringify(json))}`;
+  }
+
+  async function copy(text, from) {
+    const done = byId('copied');
+    try {
+      await navigator.clipboard.writeText(text); // only where the page came over HTTPS or from this machine
+      done.textContent = t('Copied.', 'Copiato.');
+    } catch {
+      from?.select();
+      done.textContent = from ? t('Selected: copy it with your keyboard.', 'Selezionato: copialo con la tastiera.')
+        : t('Copy the address from the address bar.', 'Copia l’indirizzo dalla barra del browser.');
+    }
+  }
+
+  byId('copy-scene').addEventListener('click', () => copy(box.value, box));
+  byId('copy-link').addEventListener('click', () => {
+    link.flush();
+    copy(location.href);
+  });
+  for (const control of [form, sizes]) control.addEventListener('change', show);
+  scene.addEventListener('change', show);
+  show();
+  return show;
+}

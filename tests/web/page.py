@@ -1,0 +1,358 @@
+"""The page in a headless browser, in front of the program itself: page.py KERRD FOLDER, where screenshots go.
+
+Skipped, with the reason, where Playwright for Python, Chromium or a Vulkan device is missing."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+import urllib.request
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'http'))
+import daemon  # noqa: E402
+
+BUDGET = 300_000  # bytes of a first visit, compressed, without pictures
+AT_REST = '#stage[data-final=true]'
+FINE = '#stage[data-final=true][data-samples="2"]'
+VIEWS = ('lensing', 'orbits', 'physics', 'scale')
+CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
+# No GPU and no WebGL: the page must need neither.
+FLAGS = ['--no-sandbox', '--disable-gpu', '--disable-3d-apis', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync']
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon()
+        cls.base = f'http://127.0.0.1:{cls.daemon.port}/'
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+        code = cls.daemon.stop()
+        if code:
+            raise AssertionError(f'kerrd exited with {code}')
+
+    def setUp(self):
+        self.complaints, self.requests, self.contexts, self.expected = [], [], [], ''
+
+    def tearDown(self):
+        for context in self.contexts:
+            context.close()
+        self.assertEqual([c for c in self.complaints if not self.expected or self.expected not in c], [])
+        for request in self.requests:
+            self.assertTrue(request.url.startswith((self.base, 'blob:' + self.base)), request.url)
+
+    def open(self, fragment='lang=en', wait=AT_REST, **options):
+        options.setdefault('viewport', {'width': 1000, 'height': 640})
+        context = self.browser.new_context(**options)
+        self.contexts.append(context)
+        page = context.new_page()
+        page.on('console', lambda m: self.complaints.append(f'{m.type}: {m.text}') if m.type in ('error', 'warning') else None)
+        page.on('pageerror', lambda e: self.complaints.append(str(e)))
+        page.on('request', lambda r: self.requests.append(r))
+        page.goto(self.base + '#' + fragment)
+        page.wait_for_selector(wait, timeout=60000, state='attached')
+        return page
+
+    def shot(self, page, name, **options):
+        SHOTS.mkdir(exist_ok=True)
+        page.screenshot(path=SHOTS / f'{name}.png', **options)
+
+    def pixels(self, page):
+        return page.evaluate('''async () => {
+            const picture = document.getElementById('picture'), { naturalWidth: width, naturalHeight: height } = picture;
+            const context = new OffscreenCanvas(width, height).getContext('2d');
+            context.drawImage(picture, 0, 0);
+            const hash = await crypto.subtle.digest('SHA-256', context.getImageData(0, 0, width, height).data);
+            return `${width}x${height} ` + [...new Uint8Array(hash)].map(b => b.toString(16).padStart(2, '0')).join('');
+        }''')
+
+    def field(self, page, path):
+        return page.locator(f'[data-path="{path}"] input[type=number]').input_value()
+
+    def drag(self, page, right, down):
+        box = page.locator('#stage').bounding_box()
+        x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for step in range(1, 9):
+            page.mouse.move(x + right * step / 8, y + down * step / 8)
+        page.mouse.up()
+        page.wait_for_selector(AT_REST)
+
+    def open_groups(self, page):
+        page.evaluate('() => { for (const d of document.querySelectorAll("details")) d.open = true; }')
+
+    def physics(self, name, **parameters):
+        query = '&'.join(f'{k}={v}' for k, v in parameters.items())
+        with urllib.request.urlopen(f'{self.base}v1/physics/{name}?{query}') as answer:
+            return json.load(answer)['values']
+
+    def test_it_loads_and_is_light(self):
+        page = self.open(wait=FINE)
+        self.shot(page, 'lensing')
+        with urllib.request.urlopen(self.base + 'v1/schema') as answer:
+            schema = json.load(answer)['properties']
+        paths = {f'{section}.{name}' for section, spec in schema.items() for name in spec.get('properties', {})}
+        shown = set(page.locator('[data-path]').evaluate_all('all => all.map(n => n.dataset.path)'))
+        self.assertEqual(shown, (paths | {'time'}) - {'image.width', 'image.height'})
+        self.assertIn('traced again in double precision', page.inner_text('#accuracy-words'))
+        self.assertGreater(page.locator('#approximations li').count(), 3)
+        self.assertGreater(page.locator('#timings tr').count(), 4)
+        self.assertEqual(page.evaluate('() => document.createElement("canvas").getContext("webgl")'), None, 'the flag took WebGL away')
+
+        for view in VIEWS[1:]:
+            page.click(f'nav [data-view={view}]')
+            page.wait_for_timeout(1500)
+        sizes = {}
+        for request in self.requests:
+            if request.url.startswith(self.base) and '/sessions' not in request.url and request.response():
+                sizes[request.url] = request.sizes()['responseBodySize'] + request.sizes()['responseHeadersSize']
+        print(f'{len(sizes)} requests, {sum(sizes.values())} bytes for all views, '
+              f'{sum(n for url, n in sizes.items() if "/v1/" not in url)} of them the page itself')
+        self.assertLess(sum(n for url, n in sizes.items() if '/v1/' not in url), BUDGET)
+
+    def test_a_drag_changes_the_picture(self):
+        page = self.open()
+        before = self.pixels(page)
+        self.drag(page, 0, -80)
+        self.assertGreater(float(self.field(page, 'camera.inclination_deg')), 90)
+        self.assertNotEqual(self.pixels(page), before)
+        self.drag(page, 60, 0)
+        self.assertNotEqual(float(self.field(page, 'camera.azimuth_deg')), 0)
+
+    def test_wheel_keys_and_buttons(self):
+        page = self.open()
+        page.hover('#stage')
+        page.mouse.wheel(0, 300)
+        page.wait_for_selector(AT_REST)
+        far = float(self.field(page, 'camera.field_m'))
+        self.assertGreater(far, 50)
+        page.focus('#stage')
+        page.keyboard.press('+')
+        self.assertLess(float(self.field(page, 'camera.field_m')), far)
+        page.keyboard.press('ArrowUp')
+        page.keyboard.press('Shift+ArrowRight')
+        self.assertEqual((self.field(page, 'camera.inclination_deg'), self.field(page, 'camera.azimuth_deg')), ('80', '10'))
+        page.click('#nearer')
+        self.assertLess(float(self.field(page, 'camera.field_m')), far / 1.2)
+        page.click('#reset')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual((self.field(page, 'camera.field_m'), self.field(page, 'camera.inclination_deg')), ('46', '82'))
+
+    def test_pinch(self):
+        page = self.open(has_touch=True)
+        page.evaluate('''() => {
+            const stage = document.getElementById('stage');
+            stage.setPointerCapture = () => {};
+            const send = (type, pointerId, x) => stage.dispatchEvent(new PointerEvent(type, { pointerId, clientX: x, clientY: 200, bubbles: true }));
+            send('pointerdown', 1, 200); send('pointerdown', 2, 300);
+            send('pointermove', 2, 400); send('pointerup', 1, 200); send('pointerup', 2, 400);
+        }''')
+        self.assertEqual(float(self.field(page, 'camera.field_m')), 23)
+
+    def test_a_link_restores_the_view(self):
+        page = self.open()
+        self.drag(page, 30, 40)
+        self.open_groups(page)
+        page.select_option('[data-path="sky.model"] select', 'grid')
+        page.check('#over-shadow')
+        page.wait_for_selector(FINE)
+        page.wait_for_timeout(300)
+        again = self.open(page.url.split('#')[1], FINE)
+        self.assertIn('camera.inclination_deg=', again.url)
+        for path in ('camera.inclination_deg', 'camera.azimuth_deg'):
+            self.assertEqual(self.field(again, path), self.field(page, path))
+        self.assertTrue(again.is_checked('#over-shadow'))
+        self.assertEqual(self.pixels(again), self.pixels(page))
+
+    def test_presets_and_refusals(self):
+        page = self.open()
+        before = self.pixels(page)
+        page.select_option('#preset', 'gargantua')
+        self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.r') == '74.1'))
+        page.wait_for_selector(AT_REST)
+        self.assertEqual((self.field(page, 'spacetime.spin'), self.field(page, 'camera.r')), ('0.999', '74.1'))
+        self.assertIn('James', page.inner_text('#preset-help'))
+        self.assertNotEqual(self.pixels(page), before)
+        self.expected = '422'
+        page.fill('[data-path="camera.r"] input[type=number]', '1.5')
+        page.keyboard.press('Enter')
+        page.wait_for_selector('[data-path="camera.r"] .fault:not([hidden])')
+        self.assertIn('ergosphere', page.inner_text('[data-path="camera.r"] .fault'))
+        page.fill('[data-path="camera.r"] input[type=number]', '30')
+        page.keyboard.press('Enter')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(page.locator('.fault:not([hidden]):not(:empty)').count(), 0)
+
+    def test_the_scene_can_be_taken_away(self):
+        page = self.open('lang=en&spacetime.spin=-0.5')
+        self.open_groups(page)
+        page.select_option('#save-size', '1280x720')
+        scene = json.loads(page.input_value('#scene-text'))
+        self.assertEqual(scene, {'spacetime': {'spin': -0.5}, 'image': {'width': 1280, 'height': 720}})
+        page.select_option('#scene-form', 'curl')
+        command = page.input_value('#scene-text')
+        answer = subprocess.run(command.replace('-o kerrd.png', '-s -o -'), shell=True, capture_output=True, timeout=60)
+        self.assertEqual(answer.stdout[:8], b'\x89PNG\r\n\x1a\n', command)
+        with page.expect_download() as download:
+            page.click('#save')
+        saved = pathlib.Path(download.value.path()).read_bytes()
+        self.assertEqual((saved[:4], saved[16:24]), (b'\x89PNG', (1280).to_bytes(4, 'big') + (720).to_bytes(4, 'big')))
+
+    def test_both_languages(self):
+        english, italian = self.open(), self.open('lang=it')
+        self.assertEqual([p.get_attribute('html', 'lang') for p in (english, italian)], ['en', 'it'])
+        self.assertEqual(english.inner_text('nav [aria-current]'), 'Lensing')
+        self.assertEqual(italian.inner_text('nav [aria-current]'), 'Lente')
+        self.open_groups(italian)
+        self.assertIn('doppia precisione', italian.inner_text('#accuracy-words'))
+        left = italian.locator('#lensing [lang=en]').all_inner_texts()
+        self.assertEqual(left, [], 'what the server says and it.js does not translate')
+        labels = [p.locator('#fields .field > label').all_inner_texts() for p in (english, italian)]
+        self.assertGreater(len(set(labels[1]) - set(labels[0])), 25)
+        italian.click('[data-lang=en]')
+        italian.wait_for_selector('html[lang=en]')
+        self.shot(self.open('lang=it&over=shadow,flamm&camera.inclination_deg=75', FINE), 'lensing-it')
+
+    def test_overlays_are_the_numbers_of_the_server(self):
+        page = self.open('lang=en&spacetime.spin=0.9&camera.inclination_deg=60&camera.field_m=30&over=shadow,photons,isco,ergosphere,orders,flamm')
+        page.wait_for_selector('#overlay .over-flamm path', state='attached')
+        box = page.evaluate('() => { const b = document.querySelector("#overlay .over-shadow path").getBBox(); return [b.width, b.height]; }')
+        shadow = self.physics('shadow', spin=0.9, inclination_deg=60)
+        per_m = page.locator('#stage').bounding_box()['width'] / 30
+        for got, name in zip(box, ('width', 'height')):
+            self.assertAlmostEqual(got / (shadow[name] * per_m), 1, delta=2e-3)
+        for name, lines in (('photons', 2), ('isco', 1), ('ergosphere', 1), ('orders', 4)):
+            self.assertEqual(page.locator(f'#overlay .over-{name} path').count(), lines, name)
+        self.assertIn('r = 2.321 M', page.inner_text('#over-isco-words'))
+        self.shot(page, 'overlays')
+
+    def test_the_shadow_line_lies_on_the_shadow(self):
+        """With nothing but a sky behind, the picture is black inside the line and not outside."""
+        page = self.open('lang=en&disk.model=none&sky.model=grid&sky.grid_deg=1&sky.brightness=1&style.exposure=3&spacetime.spin=0.95'
+                         '&camera.field_m=16&camera.inclination_deg=80&camera.roll_deg=25&over=shadow', FINE)
+        page.wait_for_selector('#overlay .over-shadow path', state='attached')
+        bright = page.evaluate('''async () => {
+            const image = document.getElementById('picture'), stage = document.getElementById('stage');
+            const canvas = new OffscreenCanvas(stage.clientWidth, stage.clientHeight), context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0, canvas.width, canvas.height);
+            const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+            const line = document.querySelector('#overlay .over-shadow path'), box = line.getBBox(), count = { inside: 0, outside: 0, lit_inside: 0, lit_outside: 0 };
+            const middle = [box.x + box.width / 2, box.y + box.height / 2], point = stage.querySelector('svg').createSVGPoint();
+            for (let y = 0; y < canvas.height; y += 3) for (let x = 0; x < canvas.width; x += 3) {
+                const at = f => { point.x = middle[0] + (x - middle[0]) * f; point.y = middle[1] + (y - middle[1]) * f; return line.isPointInFill(point); };
+                const lit = data[4 * (y * canvas.width + x)] > 8;
+                if (at(1.03)) count.inside++, count.lit_inside += lit;
+                else if (!at(0.97) && at(0.8)) count.outside++, count.lit_outside += lit;
+            }
+            return count;
+        }''')
+        self.assertGreater(min(bright['inside'], bright['outside']), 1000)
+        self.assertLess(bright['lit_inside'] / bright['inside'], 0.002, bright)
+        self.assertGreater(bright['lit_outside'] / bright['outside'], 0.3, bright)
+
+    def test_orbits(self):
+        page = self.open('lang=en&view=orbits', '#orbit-picture .front')
+        page.wait_for_selector('#orbit-plots .line >> nth=1', state='attached')
+        self.assertIn('Advance of the periastron', page.inner_text('#orbit-facts'))
+        self.assertNotEqual(page.inner_text('#orbit-live'), '')
+        self.shot(page, 'orbits', full_page=True)
+        before = page.get_attribute('#orbit-picture .front', 'd')
+        page.focus('#orbit-turn')
+        page.keyboard.press('ArrowRight')
+        self.assertNotEqual(page.get_attribute('#orbit-picture .front', 'd'), before)
+        page.select_option('#in-orbit-orbit', 'mercury')
+        page.wait_for_selector('#orbit-facts >> text=/10⁻⁵°/')
+        self.assertEqual(page.inner_text('#orbit-fault'), '')
+
+    def test_physics(self):
+        page = self.open('lang=en&view=physics', '#curves .card:last-child .line')
+        cards = page.locator('.card')
+        self.assertGreaterEqual(cards.count(), 9)
+        for i in range(cards.count()):
+            self.assertGreater(cards.nth(i).locator('path.line[d^=M]').count(), 0, cards.nth(i).get_attribute('id'))
+            self.assertEqual(cards.nth(i).locator('.fault').inner_text(), '')
+            self.assertEqual(cards.nth(i).locator('math').count(), 1)
+        self.shot(page, 'physics', full_page=True)
+        page.click('#curve-kerr summary >> nth=0')
+        last = page.locator('#curve-kerr tbody tr').first.inner_text().split()
+        self.assertEqual(last, ['0', '3', '3', '6', '6', '2'])
+        before = page.get_attribute('#curve-qnm path.line >> nth=0', 'd')
+        page.fill('#in-qnm-spin', '0.95')
+        page.keyboard.press('Tab')
+        page.wait_for_timeout(800)
+        self.assertNotEqual(page.get_attribute('#curve-qnm path.line >> nth=0', 'd'), before)
+        self.assertIn('qnm.spin=0.95', page.url)
+
+    def test_real_scale(self):
+        page = self.open('lang=en&view=scale', '#scale-rows tr')
+        self.assertIn('42 µas', page.inner_text('#scale-rows'))
+        self.shot(page, 'scale')
+        page.select_option('#in-scale-hole', 'sgra')
+        page.wait_for_selector('#scale-rows >> text=51.8 µas')
+        page.select_option('#in-scale-hole', 'none')
+        page.fill('#in-scale-mass_msun', '1e9')
+        page.keyboard.press('Tab')
+        page.wait_for_timeout(500)
+        self.assertNotIn('measured', page.inner_text('#scale-rows'))
+
+    def test_phone(self):
+        phone = {'viewport': {'width': 390, 'height': 844}, 'device_scale_factor': 2, 'has_touch': True, 'is_mobile': True}
+        for view in VIEWS:
+            with self.subTest(view):
+                page = self.open(f'lang=it&view={view}', {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'scale': '#scale-rows tr',
+                                                         'physics': '#curves .card:last-child .line'}[view], **phone)
+                self.open_groups(page)
+                self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 390)
+                small = page.evaluate('''() => [...document.querySelectorAll('button, a.button, select, summary, input:not([type=range]):not([type=checkbox])')]
+                    .filter(n => n.offsetParent && Math.min(n.offsetWidth, n.offsetHeight) < 24).map(n => n.outerHTML.slice(0, 80))''')
+                self.assertEqual(small, [])
+                self.shot(page, 'phone-' + view)
+
+    def test_reduced_motion(self):
+        page = self.open('lang=en&view=orbits', '#orbit-picture .front', reduced_motion='reduce')
+        self.assertEqual(page.inner_text('#orbit-play'), 'Play')
+        before = page.get_attribute('#orbit-picture .body', 'cx')
+        page.wait_for_timeout(600)
+        self.assertEqual(page.get_attribute('#orbit-picture .body', 'cx'), before)
+
+    def test_axe(self):
+        try:
+            from axe_playwright_python.sync_playwright import Axe
+        except ImportError:
+            self.skipTest('axe-playwright-python is not installed')
+        ready = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'physics': '#curves .card:last-child .line', 'scale': '#scale-rows tr'}
+        for view in VIEWS:
+            for lang in ('en', 'it'):
+                with self.subTest(view=view, lang=lang):
+                    page = self.open(f'lang={lang}&view={view}&over=shadow', ready[view])
+                    self.open_groups(page)
+                    results = Axe().run(page, options={'runOnly': ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
+                    self.assertGreater(len(results.response['passes']), 15)
+                    found = [f'{v["id"]}: {v["help"]}: {[n["html"][:120] for n in v["nodes"]][:3]}' for v in results.response['violations']]
+                    self.assertEqual(found, [])
+
+
+if __name__ == '__main__':
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        print('skipped: Playwright for Python is not installed')
+        sys.exit(77)
+    if not CHROMIUM:
+        print('skipped: there is no chromium')
+        sys.exit(77)
+    KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / 'screenshots'
+    if 'devices: none' in subprocess.run([KERRD, 'doctor'], capture_output=True, text=True, timeout=60).stdout:
+        print('skipped: no Vulkan device')
+        sys.exit(77)
+    sys.argv.insert(2, 'serve')
+    daemon.main()
