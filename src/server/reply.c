@@ -39,6 +39,10 @@ struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response =
         MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
+    /* Else libmicrohttpd announces chunks and sends the last one, "0", which belongs to no body and which a client that keeps the
+     * connection takes for the beginning of the next answer. Without chunks it closes the connection. */
+    if (response)
+        MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     if (response && type)
         MHD_add_response_header(response, "Content-Type", type);
     return response;

@@ -12,7 +12,8 @@
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 /* One with bytes that outlive it. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
-/* One for HEAD and 304, where the length of what a GET would give is not known. */
+/* One for HEAD and 304, where the length of what a GET would give is not known. Closes the
+ * connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 
 /* Queue the response and give up the reference; NULL: MHD_NO. */

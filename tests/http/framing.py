@@ -60,6 +60,23 @@ class Guard(daemon.Case):
                     answer += more
                 self.assertEqual(answer.count(b'HTTP/1.1'), 1)
 
+    def test_answers_without_a_body_end_with_their_header(self):
+        render = b'/v1/render?' + daemon.SMALL.encode()
+        tag = self.daemon.get(render.decode()).header('ETag').encode()
+        for line, more in ((b'HEAD ' + render, b''), (b'GET ' + render, b'If-None-Match: ' + tag + b'\r\n'), (b'HEAD /web/app.js', b''),
+                           (b'GET /web/app.js', b'If-None-Match: *\r\n')):
+            with self.subTest(line + more), self.daemon.connect() as s:
+                s.sendall(line + b' HTTP/1.1\r\nHost: localhost\r\n' + more + b'\r\n')
+                s.settimeout(1)
+                got = b''
+                try:
+                    while part := s.recv(65536):
+                        got += part
+                except TimeoutError:
+                    pass  # kept alive
+                self.assertTrue(got.startswith(b'HTTP/1.1 '), got[:100])
+                self.assertEqual(got.split(b'\r\n\r\n', 1)[1], b'')
+
     def test_names_with_blanks(self):
         for line in (b'Content-Length : 2', b'Transfer-Encoding : chunked', b'Ho st: x', b'(x): 1'):
             with self.subTest(line):
