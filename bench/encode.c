@@ -89,7 +89,13 @@ __attribute__((noinline)) static size_t by_filter(struct job *job) /* one code f
 
 static size_t by_libpng(struct job *job)
 {
-    struct kd_png_params params = { .width = job->width, .height = job->height, .bit_depth = 8, .compression = job->level, .pixels = job->pixels };
+    const struct kd_png_params params = {
+        .width = job->width,
+        .height = job->height,
+        .bit_depth = 8,
+        .compression = job->level,
+        .pixels = job->pixels,
+    };
     job->out.size = 0;
     return kd_png_encode(&params, &job->out, NULL) ? 0 : job->out.size;
 }
@@ -178,9 +184,10 @@ static void measure(struct job *job, cJSON *rows, int repeat)
     }
 }
 
-static void one_picture(const char *name, bool dither, uint32_t width, uint32_t height, const uint8_t *pixels, int repeat, cJSON *pictures)
+static void one_picture(const char *name, bool dither, const struct kd_frame *frame, int repeat, cJSON *pictures)
 {
-    struct job job = { .width = width, .height = height, .pixels = pixels, .filtered = (3 * (size_t)width + 1) * height };
+    uint32_t width = frame->width, height = frame->height;
+    struct job job = { .width = width, .height = height, .pixels = frame->pixels, .filtered = (3 * (size_t)width + 1) * height };
     job.room = 2 * job.filtered + 65536;
     job.rows = malloc(job.filtered);
     job.packed = malloc(job.room);
@@ -197,8 +204,8 @@ static void one_picture(const char *name, bool dither, uint32_t width, uint32_t 
     free(job.packed);
 }
 
-static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, bool dither, int height, int repeat, cJSON *pictures,
-                                  struct kd_error *error)
+static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, bool dither, int height, int repeat,
+                                  cJSON *pictures, struct kd_error *error)
 {
     struct kd_scene scene;
     struct kd_capacity capacity;
@@ -220,7 +227,7 @@ static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, 
         return status;
     for (size_t i = 0; subjects[subject].noise && i < 3 * (size_t)frame.width * frame.height; i++)
         ((uint8_t *)frame.pixels)[i] = (uint8_t)(random() >> 8);
-    one_picture(subjects[subject].name, dither, frame.width, frame.height, frame.pixels, repeat, pictures);
+    one_picture(subjects[subject].name, dither, &frame, repeat, pictures);
     kd_frame_finish(&frame);
     return KD_OK;
 }

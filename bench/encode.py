@@ -50,7 +50,8 @@ def main():
     for picture in run["pictures"]:
         size, name = title(picture)
         if size.startswith("1280") and picture["dither"] and picture["picture"] != "noise":
-            text += f"\n{name[0].upper() + name[1:]}, {size}; filter and stream, ms / kB by filter and level:\n\n{parts_table(picture)}"
+            text += f"\n{name[0].upper() + name[1:]}, {size}; filter and stream, ms / kB by filter and level:\n\n"
+            text += parts_table(picture)
     measure.save(o.out, "encode", h, {"pictures": run["pictures"]}, text)
 
 

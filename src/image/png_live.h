@@ -8,8 +8,8 @@
  *         hand png over; whoever is last to need it calls kd_buffer_finish
  *     kd_png_live_destroy(live);
  *
- * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working memory grows to the
- * largest and stays, 3 bytes a pixel with ISA-L and 6 with libdeflate. What a frame costs: bench/results, *-encode.md.
+ * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working memory grows to
+ * the largest and stays, 3 bytes a pixel with ISA-L and 6 with libdeflate. What a frame costs: bench/results, *-encode.md.
  *
  * The file: IHDR, sRGB, one IDAT, IEND. No text: what a live frame shows is told beside it, and one that is to be kept is rendered
  * again by kd_picture_encode. */

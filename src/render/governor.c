@@ -1,0 +1,251 @@
+#include "render/governor.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as long. */
+static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the target: noise does not carry from the last to first */
+static const double COOLDOWN_MS = 1000;                /* before a climb */
+static const double RETRY_MS = 8000;                   /* before one to what was too slow; doubled */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 8000; /* a hand that pauses in a drag; two drags */
+static const double BLIND_MS = 2000;                   /* a guess; doubled */
+enum {
+    FEW = 4,    /* spikes in a row are load */
+    ENOUGH = 8, /* two spikes among them are outside the middle half */
+    MISSES = 3, /* a lens map may be missed once, when the rung changes */
+};
+
+void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params)
+{
+    *governor = (struct kd_governor) { .params = *params, .hold_ms = HOLD_MS, .blind_ms = BLIND_MS };
+    governor->changed_at = governor->lens_at = governor->blind_until = -INFINITY;
+    for (int i = 0; i < 2; i++)
+        governor->paces[i] = (struct kd_pace) { .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
+}
+
+/* What frames cost */
+
+static uint32_t at_most(uint32_t n, uint32_t limit)
+{
+    return n < limit ? n : limit;
+}
+
+static const struct kd_frame_cost *latest(const struct kd_pace *pace, uint32_t back)
+{
+    return &pace->costs[(pace->count - 1 - back) % KD_PACE_FRAMES];
+}
+
+static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, double weight)
+{
+    sum->rays_ms += weight * cost->rays_ms;
+    sum->pixels_ms += weight * cost->pixels_ms;
+    sum->total_ms += weight * cost->total_ms;
+}
+
+static struct kd_frame_cost mean_of_latest(const struct kd_pace *pace, uint32_t n)
+{
+    struct kd_frame_cost mean = { 0 };
+    for (uint32_t i = 0; i < n; i++)
+        add(&mean, latest(pace, i), 1.0 / n);
+    return mean;
+}
+
+/* Of the middle half of the window by total: neither a spike nor a frame that had nothing to do moves it, and of two kinds of
+ * frames in turn it is the mean, where a median would be one or the other. */
+static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
+{
+    const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
+    uint32_t n = at_most(pace->count, KD_PACE_FRAMES);
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t j = i;
+        for (; j > 0 && sorted[j - 1]->total_ms > latest(pace, i)->total_ms; j--)
+            sorted[j] = sorted[j - 1];
+        sorted[j] = latest(pace, i);
+    }
+    struct kd_frame_cost mean = { 0 };
+    for (uint32_t i = n / 4; i < n - n / 4; i++)
+        add(&mean, sorted[i], 1.0 / (n - 2 * (n / 4)));
+    return mean;
+}
+
+/* On another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays as it is. */
+static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to, bool rest_stays)
+{
+    double pixels = to->pixels / from->pixels, rest = cost->total_ms - cost->rays_ms - cost->pixels_ms;
+    return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
+}
+
+static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *from,
+                                uint32_t first)
+{
+    uint32_t last = (uint32_t)g->ladder.n_rungs - 1, to = at_most(first, last);
+    while (to < last && predict(cost, from, &g->ladder.rungs[to], false) > g->params.target_ms)
+        to++;
+    return to;
+}
+
+/* Up and down */
+
+static void move(struct kd_pace *pace, uint32_t rung, bool up, double now)
+{
+    if (pace->climbed && !up)
+        pace->retry_ms *= 2;
+    pace->ceiling = up ? at_most(pace->ceiling, rung) : pace->rung + 1;
+    if (!up)
+        pace->failed_at = now;
+    pace->climbed = up;
+    pace->rung = rung;
+    pace->count = 0;
+    pace->changed_at = now;
+}
+
+static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
+{
+    for (uint32_t i = 0; i < at_most(pace->count, FEW); i++)
+        if (latest(pace, i)->total_ms <= FAR_OVER * g->params.target_ms)
+            return false;
+    return pace->count > 1;
+}
+
+/* As far as is safe; else one rung on the better assumption, for if that is wrong the rung is left again, and not climbed to soon.
+ * */
+static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
+{
+    const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung];
+    double limit = CLIMB_BELOW * g->params.target_ms;
+    uint32_t ceiling = now - pace->failed_at < pace->retry_ms ? pace->ceiling : 0, to = pace->rung;
+    while (to > ceiling && predict(cost, here, &rungs[to - 1], false) <= limit)
+        to--;
+    if (to == pace->rung && to > ceiling && predict(cost, here, here - 1, true) <= limit)
+        to--;
+    if (to < pace->rung)
+        move(pace, to, true, now);
+}
+
+static void decide(const struct kd_governor *g, struct kd_pace *pace, double now)
+{
+    const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung];
+    bool far = far_over(g, pace);
+    if (!far && pace->count < ENOUGH)
+        return;
+    struct kd_frame_cost cost = far ? mean_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
+    if (far || cost.total_ms > OVER * g->params.target_ms) {
+        if (pace->rung + 1 < g->ladder.n_rungs)
+            move(pace, first_that_fits(g, &cost, here, pace->rung + 1), false, now);
+        return;
+    }
+    if (now - pace->changed_at >= COOLDOWN_MS)
+        climb(g, pace, &cost, now);
+}
+
+/* Changes */
+
+static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
+{
+    const struct kd_image *i = &a->image, *j = &b->image;
+    const struct kd_accuracy *p = &a->accuracy, *q = &b->accuracy;
+    return i->width == j->width && i->height == j->height && i->samples == j->samples && p->profile == q->profile &&
+           p->tolerance == q->tolerance && p->engine == q->engine && p->precision == q->precision && p->steps == q->steps &&
+           p->orders == q->orders;
+}
+
+static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
+{
+    struct kd_ladder old = g->ladder;
+    kd_ladder_make(asked, &g->params.bounds, &g->ladder);
+    for (int i = 0; i < 2 && g->ladders; i++) {
+        struct kd_pace *pace = &g->paces[i];
+        struct kd_frame_cost cost = mean_of_middle(pace);
+        pace->rung = pace->count ? first_that_fits(g, &cost, &old.rungs[pace->rung], 0)
+                                 : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
+        pace->ceiling = pace->count = 0;
+        pace->climbed = false;
+    }
+    g->ladders++;
+    g->asked = *asked;
+}
+
+void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
+{
+    if (!g->ladders || !same_ladder(&g->asked, asked))
+        change_ladder(g, asked);
+    g->revision++;
+    g->changed_at = now;
+    if (!lens)
+        return;
+    /* Changes of the lens that keep coming just after they were forgotten are one long one. */
+    double gap = now - g->lens_at;
+    g->hold_ms = gap >= HOLD_MAX_MS ? HOLD_MS : fmin(fmax(g->hold_ms, 2 * gap), HOLD_MAX_MS);
+    g->lens_at = now;
+}
+
+void kd_governor_expect(struct kd_governor *g, const struct kd_frame_cost *cost)
+{
+    struct kd_pace *pace = &g->paces[!cost->lens_reused];
+    if (g->ladders && !pace->count && isinf(pace->changed_at))
+        pace->rung = first_that_fits(g, cost, &g->ladder.rungs[0], 0);
+}
+
+/* Turns */
+
+static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn)
+{
+    size_t i = 0;
+    while (i + 1 < g->ladder.n_steps && g->ladder.steps[i].rays <= g->shown_rays)
+        i++;
+    turn.quality = g->ladder.steps[i].quality;
+    turn.rays = g->ladder.steps[i].rays;
+    turn.refining = true;
+    return turn;
+}
+
+struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
+{
+    bool traced = now - g->lens_at < g->hold_ms || now < g->blind_until;
+    struct kd_turn turn = { .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision };
+    turn.quality = g->ladder.rungs[turn.rung].quality;
+    turn.rays = g->ladder.rungs[turn.rung].rays;
+    if (g->shown_revision != g->revision)
+        return turn;
+    double left = g->params.rest_ms - (now - g->changed_at);
+    if (!g->shown.final && left < 1e-3) /* rounded sums of waits end a little early */
+        return next_step(g, turn);
+    turn.quality = g->shown;
+    turn.wait_ms = g->shown.final ? INFINITY : left;
+    return turn;
+}
+
+/* A lens map that should have been there may be missing once after a change of rung. If none is kept, as where it does not fit, the
+ * frames of a scene whose time alone goes on trace all the same. */
+static void miss(struct kd_governor *g, double now)
+{
+    if (++g->missed < MISSES)
+        return;
+    g->missed = 0;
+    g->blind_until = now + g->blind_ms;
+    g->blind_ms *= 2;
+}
+
+void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *turn, const struct kd_frame_cost *cost)
+{
+    if (turn->revision == g->revision) {
+        g->shown = turn->quality;
+        g->shown_revision = turn->revision;
+        g->shown_rays = turn->rays;
+    }
+    struct kd_pace *pace = &g->paces[turn->traced];
+    bool sane = cost->rays_ms >= 0 && cost->pixels_ms >= 0 && cost->total_ms >= 0 && isfinite(cost->total_ms);
+    if (turn->refining || turn->ladder != g->ladders || turn->rung != pace->rung || !sane)
+        return;
+    if (!turn->traced) {
+        g->missed = cost->lens_reused ? 0 : g->missed;
+        if (!cost->lens_reused) {
+            miss(g, now);
+            return;
+        }
+    } else if (cost->lens_reused) {
+        return;
+    }
+    pace->costs[pace->count++ % KD_PACE_FRAMES] = *cost;
+    decide(g, pace, now);
+}

@@ -1,0 +1,182 @@
+/* A session round a governor, on a machine made of formulas: who asks what and when, what frames cost, what was done about it. */
+#ifndef KD_TESTS_GOVERNOR_SIMULATION_H
+#define KD_TESTS_GOVERNOR_SIMULATION_H
+
+#include "render/governor.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static uint64_t seed = 1;
+static double uniform(void) /* in [0, 1) */
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) * 0x1p-53;
+}
+
+struct simulation;
+
+/* What a frame of this scene costs on the machine. */
+typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd_scene *scene, bool reused);
+
+/* A machine whose cost goes with rays, pixels and nothing; noise and spikes on top. */
+struct truth {
+    double traced, reused, pixels, fixed; /* ms of the scene as asked: of rays traced, of rays with their lens map, ... */
+    double noise;                         /* relative; uniform */
+    double spikes, spike;                 /* how often, how many times as long */
+    bool silent;                          /* tells only the total */
+};
+
+struct simulation {
+    struct kd_governor governor;
+    struct kd_scene asked;
+    struct truth truth;
+    machine *cost;
+    double now;
+    uint64_t frames, changes, climbs; /* changes of rung, of both kinds of frames; those upwards */
+    double last_change, sum, load, least_pause; /* of a climb after the change before */
+    uint64_t summed;
+    uint32_t lens;                     /* of the scene: counts */
+    uint32_t kept[4][3], next;         /* lens maps: lens, width, samples */
+    struct kd_quality last;            /* of the last frame rendered */
+    bool forgets;                      /* no lens map is ever kept */
+};
+
+static double rays_of(const struct kd_scene *scene)
+{
+    return (double)scene->image.width * scene->image.height * scene->image.samples * scene->image.samples;
+}
+
+/* Neither orders nor profiles cost here what ray_cost() in quality.c believes. */
+static double ray_weight(const struct kd_scene *scene)
+{
+    static const double profile[] = { 0.9, 0.95, 1, 1.1, 9 };
+    return profile[scene->accuracy.profile] * (5 + scene->accuracy.orders);
+}
+
+static struct kd_frame_cost truthful(const struct simulation *s, const struct kd_scene *scene, bool reused)
+{
+    const struct truth *t = &s->truth;
+    double rays = rays_of(scene) / rays_of(&s->asked), pixels = rays * s->asked.image.samples * s->asked.image.samples /
+                  (scene->image.samples * scene->image.samples);
+    rays *= ray_weight(scene) / ray_weight(&s->asked);
+    struct kd_frame_cost c = { .rays_ms = rays * (reused ? t->reused : t->traced), .pixels_ms = pixels * t->pixels };
+    double factor = s->load * (1 + t->noise * (2 * uniform() - 1)) * (uniform() < t->spikes ? t->spike : 1);
+    c.rays_ms *= factor;
+    c.pixels_ms *= factor;
+    c.total_ms = c.rays_ms + c.pixels_ms + factor * t->fixed;
+    if (t->silent)
+        c.rays_ms = c.pixels_ms = 0;
+    return c;
+}
+
+/* As the renderer's cache of lens maps: the last four. */
+static bool lens_kept(struct simulation *s, const struct kd_scene *scene)
+{
+    uint32_t key[3] = { s->lens, (uint32_t)scene->image.width, (uint32_t)scene->image.samples };
+    for (int i = 0; i < 4 && !s->forgets; i++)
+        if (memcmp(s->kept[i], key, sizeof key) == 0)
+            return true;
+    memcpy(s->kept[s->next++ % 4], key, sizeof key);
+    return false;
+}
+
+static void begin(struct simulation *s, const struct kd_governor_params *params, int width, int height, struct truth truth)
+{
+    *s = (struct simulation) { .truth = truth, .cost = truthful, .load = 1, .least_pause = INFINITY };
+    kd_scene_defaults(&s->asked);
+    s->asked.image.width = width;
+    s->asked.image.height = height;
+    kd_governor_init(&s->governor, params);
+}
+
+static void change(struct simulation *s, bool lens)
+{
+    s->lens += lens;
+    kd_governor_changed(&s->governor, s->now, &s->asked, lens);
+}
+
+/* Render what the governor wants, if anything: whether it wanted. */
+static bool frame(struct simulation *s)
+{
+    struct kd_turn turn = kd_governor_turn(&s->governor, s->now);
+    if (turn.wait_ms > 0)
+        return false;
+    struct kd_scene scene;
+    kd_quality_apply(&turn.quality, &s->asked, &scene);
+    bool reused = lens_kept(s, &scene);
+    struct kd_frame_cost c = s->cost(s, &scene, reused);
+    c.lens_reused = reused;
+    struct kd_pace before[2] = { s->governor.paces[0], s->governor.paces[1] };
+    s->now += c.total_ms;
+    kd_governor_frame(&s->governor, s->now, &turn, &c);
+    for (int i = 0; i < 2; i++) {
+        uint32_t after = s->governor.paces[i].rung;
+        s->climbs += after < before[i].rung;
+        s->changes += after != before[i].rung;
+        if (after != before[i].rung)
+            s->last_change = s->now;
+        if (after < before[i].rung)
+            s->least_pause = fmin(s->least_pause, s->now - before[i].changed_at);
+    }
+    s->frames++;
+    s->sum += c.total_ms;
+    s->summed++;
+    s->last = turn.quality;
+    return true;
+}
+
+/* The scene changes before each frame, which `lens` decides the kind of, and never faster than 60 times a second. */
+enum pattern { PLAY, DRAG, BOTH_IN_TURN, AT_RANDOM, DRAG_IN_BURSTS, PATTERNS };
+
+static bool moves_lens(const struct simulation *s, enum pattern pattern)
+{
+    switch (pattern) {
+    case PLAY: return false;
+    case DRAG: return true;
+    case BOTH_IN_TURN: return s->frames % 2;
+    case AT_RANDOM: return uniform() < 0.1;
+    default: return fmod(s->now, 1500) < 500;
+    }
+}
+
+static void run(struct simulation *s, enum pattern pattern, double ms)
+{
+    for (double end = s->now + ms; s->now < end;) {
+        double start = s->now;
+        change(s, s->lens == 0 || moves_lens(s, pattern));
+        frame(s);
+        s->now = fmax(s->now, start + 1000.0 / 60);
+    }
+}
+
+static double mean_over(struct simulation *s, enum pattern pattern, double ms)
+{
+    s->sum = 0;
+    s->summed = 0;
+    run(s, pattern, ms);
+    return s->sum / (double)s->summed;
+}
+
+/* Without noise: what a rung truly costs. */
+static double true_cost(const struct simulation *s, uint32_t rung, bool reused)
+{
+    struct simulation quiet = *s;
+    struct kd_scene scene;
+    quiet.truth.noise = quiet.truth.spikes = 0;
+    kd_quality_apply(&s->governor.ladder.rungs[rung].quality, &s->asked, &scene);
+    return truthful(&quiet, &scene, reused).total_ms;
+}
+
+static struct truth some_truth(void)
+{
+    double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as asked */
+    double fixed = uniform() < 0.5 ? 0 : 30 * uniform() * uniform(), rays = all * (0.3 + 0.6 * uniform());
+    return (struct truth) { .traced = rays, .reused = rays * (0.05 + 0.5 * uniform()), .pixels = all - rays, .fixed = fixed };
+}
+
+#endif
