@@ -18,9 +18,9 @@ double kd_kerr_isco(double a)
         return 6;
     double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
     double z2 = sqrt(3 * a * a + z1 * z1);
-    double r = 3 + z2 - copysign(sqrt((3 - z1) * (3 + z1 + 2 * z2)), a);
+    double r = 3 + z2 - copysign(sqrt(fmax(0, 3 - z1) * (3 + z1 + 2 * z2)), a);
 
-    /* 3 - Z1 cancels for small a and its root is good to 1e-8 only; Newton on the defining quartic in x = sqrt(r),
+    /* 3 - Z1 cancels for small a, below zero at some, and its root is good to 1e-8 only; Newton on the defining quartic in x = sqrt(r),
      * x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root and the formula is the better one. */
     if (fabs(a) < 0.7) {
         double x = sqrt(r);

@@ -111,6 +111,15 @@ static void the_isco_is_the_minimum(void **state)
     }
 }
 
+/* The ISCO by the quartic in its header, solved in powers of a: 6 - 4 sqrt(2/3) a - 7/18 a^2, less than a^3 off. */
+static void hardly_any_spin(void **state)
+{
+    (void)state;
+    for (double a = 1e-5; a > 1e-320; a *= a > 1e-12 ? 0.997 : 0.01)
+        for (int sign = -1; sign <= 1; sign += 2)
+            close_to("ISCO", sign * a, 0, kd_kerr_isco(sign * a), 6 - sign * a * 4 * sqrt(2. / 3) - 7. / 18 * a * a, 1e-15);
+}
+
 /* 2000 spins crowding towards +-1: continuous, ordered, monotone. */
 static void order_of_the_radii(void **state)
 {
@@ -176,6 +185,7 @@ int main(void)
         cmocka_unit_test(any_orbit),
         cmocka_unit_test(numbers_in_print),
         cmocka_unit_test(the_isco_is_the_minimum),
+        cmocka_unit_test(hardly_any_spin),
         cmocka_unit_test(order_of_the_radii),
         cmocka_unit_test(outside_the_domain),
         cmocka_unit_test(frame_dragging_and_ergosphere),
