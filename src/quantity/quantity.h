@@ -57,7 +57,7 @@ struct kd_quantity {
      * that is not `along` has changed since. KD_EINVAL with the parameter's pointer for what lies outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* Time on one core of 2020, in microseconds, with the text of the answer: each point, and each fresh one more. */
+    /* Time on one core of 2020 at its longest, in microseconds, with the text of the answer: each point, and each fresh one more. */
     double point_us, fresh_us;
 };
 
@@ -104,6 +104,22 @@ struct kd_quantity_answer {
 enum kd_status kd_quantity_evaluate(const struct kd_quantity_request *request, struct kd_quantity_answer *answer,
                                     struct kd_error *error);
 void kd_quantity_answer_finish(struct kd_quantity_answer *answer);
+
+/* The same a point at a time, for whoever has to look around meanwhile: begin, then next until point is answer.points. */
+struct kd_quantity_run {
+    struct kd_quantity_answer answer;
+    size_t point; /* how many there are */
+    /* its own */
+    size_t at[KD_QUANTITY_PARAMETERS];
+    double out[KD_QUANTITY_OUTPUTS];
+    void *memory;
+    bool fresh;
+};
+/* A failed begin leaves nothing to finish. */
+enum kd_status kd_quantity_run_begin(struct kd_quantity_run *run, const struct kd_quantity_request *request,
+                                     struct kd_error *error);
+enum kd_status kd_quantity_run_next(struct kd_quantity_run *run, struct kd_error *error);
+void kd_quantity_run_finish(struct kd_quantity_run *run);
 
 /* {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter that is a range is an array of
  * its values; values are then arrays too, one number a point, but for outputs that no range changes. With several

@@ -13,10 +13,10 @@ static const char introduction[] =
     "    curl 'http://127.0.0.1:8080/v1/physics/kerr?spin=0:0.998:100'\n"
     "\n"
     "A value may be a range, `first:last:count`, with both ends; every point of several ranges is computed, the last parameter of\n"
-    "the table varying fastest, up to 100000 points, and over HTTP up to what takes about 50 ms. In JSON a parameter that is a\n"
-    "range is an array, and so is every value that it changes; values of several ranges are flat, with their `ranges` and `shape`\n"
-    "beside them. `null`, and an empty field in CSV, is a number that does not exist. G = c = M = 1 where no other unit is named.\n"
-    "What lies outside the domain of a quantity is an error (422) that names the parameter and the reason.\n";
+    "the table varying fastest, up to 100000 points. In JSON a parameter that is a range is an array, and so is every value that it\n"
+    "changes; values of several ranges are flat, with their `ranges` and `shape` beside them. `null`, and an empty field in CSV, is\n"
+    "a number that does not exist. G = c = M = 1 where no other unit is named. What lies outside the domain of a quantity is an\n"
+    "error (422) that names the parameter and the reason.\n";
 
 static void write_escaped(struct kd_writer *w, const char *text)
 {

@@ -42,7 +42,7 @@ struct kd_server {
     struct kd_connections *connections;
     struct kd_render_queue *renders;
     struct kd_rays_queue *rays;
-    struct kd_turns *turns; /* orbits */
+    struct kd_turns *turns; /* orbits, long quantities */
     struct kd_sessions *sessions;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
