@@ -101,7 +101,7 @@ static bool progress(void *user, double fraction)
     pthread_mutex_lock(&queue->lock);
     queue->running_ms = job->plan.estimate_ms * (1 - fraction);
     pthread_mutex_unlock(&queue->lock);
-    return !atomic_load(&queue->cancel) && !kd_socket_abandoned(job->socket);
+    return !atomic_load(&queue->cancel) && !atomic_load(&job->drop) && !kd_socket_abandoned(job->socket);
 }
 
 static void mark_lost(struct kd_render_queue *queue, const struct kd_error *error)
@@ -138,7 +138,7 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = KD_EDEVICE;
         return false;
     }
-    if (atomic_load(&queue->cancel) || kd_socket_abandoned(job->socket)) {
+    if (atomic_load(&queue->cancel) || atomic_load(&job->drop) || kd_socket_abandoned(job->socket)) {
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
         return false;
     }

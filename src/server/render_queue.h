@@ -27,6 +27,7 @@ struct kd_render_job {
     bool live; /* before all that is not, and not counted among what may wait */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
     enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
+    _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */
     int socket;                                  /* of the client; once it hangs up the job is dropped; -1: none */
     void (*rendered)(struct kd_render_job *job); /* may be NULL; on the render thread, before the frame is encoded */
     void (*done)(struct kd_render_job *job);     /* on a thread of the queue; may free the job */

@@ -77,6 +77,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     if (!request)
         return;
     write_log(request, why);
+    atomic_fetch_add(&server->answers[request->status / 100 % KD_STATUS_CLASSES], 1);
     stage(request, KD_STAGE_IDLE);
     atomic_fetch_sub(&server->body_bytes, request->body.size);
     if (request->job) {

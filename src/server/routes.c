@@ -11,6 +11,7 @@ const struct kd_route kd_routes[] = {
     { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads" },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives" },
     { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down" },
+    { "/metrics", KD_GET, kd_handle_metrics, "text/plain; version=0.0.4; charset=utf-8", "Counters and gauges for Prometheus" },
     { "/openapi.json", KD_GET, kd_handle_openapi, JSON, "This description" },
     { "/v1/device", KD_GET, kd_handle_device, JSON, "Device, driver, precision, memory, versions" },
     { "/v1/accuracy", KD_GET, kd_handle_accuracy, JSON,

@@ -41,6 +41,7 @@ bool kd_route_is_health(const char *raw);
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* pages.c */
 enum MHD_Result kd_handle_health(struct kd_request *request); /* reports.c */
 enum MHD_Result kd_handle_ready(struct kd_request *request);
+enum MHD_Result kd_handle_metrics(struct kd_request *request); /* metrics.c */
 enum MHD_Result kd_handle_device(struct kd_request *request);
 enum MHD_Result kd_handle_presets(struct kd_request *request);
 enum MHD_Result kd_handle_preset(struct kd_request *request);

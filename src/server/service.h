@@ -25,6 +25,8 @@
 #define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
 #define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
 
+#define KD_STATUS_CLASSES 6
+
 /* The way down, in order. */
 enum kd_phase {
     KD_SERVING,
@@ -49,6 +51,7 @@ struct kd_server {
     _Atomic int phase;
     _Atomic unsigned requests; /* begun and not yet answered in full */
     _Atomic size_t body_bytes, reply_bytes;
+    _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */
     pthread_t keeper;

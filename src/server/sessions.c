@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "image/png_live.h"
+#include "render/governor.h"
 #include "server/clock.h"
 
 #include <math.h>
@@ -13,6 +14,7 @@
 #include <sys/random.h>
 
 #define LOOK_MS 1000.0 /* how late a client that has hung up may be noticed */
+#define TARGET_MS 33.0 /* of a frame while the scene changes */
 #define ENCODING_MAX 2 /* frames of a session behind the renderer: one is traced while one is encoded */
 
 struct kd_session {
@@ -21,9 +23,12 @@ struct kd_session {
     char id[KD_SESSION_ID], token[KD_SESSION_TOKEN];
     struct kd_scene scene; /* as at since_ms */
     double since_ms, used_ms;
-    unsigned revision, submitted; /* of the scene; of the newest frame begun */
+    char lens_key[65];            /* of the scene as asked */
+    struct kd_governor governor;
+    unsigned revision;            /* of the scene */
     uint64_t begun;               /* frames */
-    bool listed, rendering;
+    bool listed;
+    struct live_job *rendering;   /* before it is encoded */
     unsigned encoding;
     struct kd_live_frame *latest;
     double shown_ms, interval_ms; /* when the latest came; between frames, smoothed */
@@ -38,6 +43,7 @@ struct kd_sessions {
     pthread_mutex_t lock;
     struct kd_session *first;
     unsigned count;
+    uint64_t frames;
     bool closed;
     double looked_ms;
     struct kd_png_live *encoders[KD_ENCODERS];
@@ -48,6 +54,7 @@ struct live_job {
     struct kd_session *session;
     uint64_t number;
     unsigned revision;
+    struct kd_turn turn;
     bool rendered;
 };
 
@@ -120,13 +127,13 @@ static struct kd_scene scene_at(const struct kd_session *s, double now)
     return scene;
 }
 
-static bool wanted(const struct kd_session *s)
+/* Whether somebody waits; the first frame is made before anybody asks. */
+static bool awaited(const struct kd_session *s)
 {
-    if (s->submitted != s->revision || moves(&s->scene))
-        for (const struct kd_viewer *v = s->viewers; v; v = v->next)
-            if (v->waiting)
-                return true;
-    return !s->begun; /* the first one is made before anybody asks */
+    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
+        if (v->waiting)
+            return true;
+    return !s->begun;
 }
 
 static enum kd_status encode(struct kd_render_job *job, unsigned encoder);
@@ -140,11 +147,18 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     wake_all(s);
 }
 
-/* Begin a frame if one is wanted and there is room for it. */
+/* Begin a frame if one is awaited, would differ, and there is room for it. */
 static void pump(struct kd_session *s)
 {
-    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !wanted(s))
+    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !awaited(s))
         return;
+    double now = kd_clock_ms();
+    const struct kd_scene scene = scene_at(s, now);
+    if (moves(&scene))
+        kd_governor_changed(&s->governor, now, &scene, false);
+    const struct kd_turn turn = kd_governor_turn(&s->governor, now);
+    if (turn.wait_ms > 0)
+        return; /* the sweep comes back */
     struct live_job *live = calloc(1, sizeof *live);
     struct kd_capacity capacity;
     struct kd_error error = { 0 };
@@ -154,8 +168,9 @@ static void pump(struct kd_session *s)
         return;
     }
     live->session = s;
-    live->job = (struct kd_render_job) { .scene = scene_at(s, kd_clock_ms()), .live = true, .socket = -1,
-                                         .encode = encode, .rendered = rendered, .done = done };
+    live->turn = turn;
+    live->job = (struct kd_render_job) { .live = true, .socket = -1, .encode = encode, .rendered = rendered, .done = done };
+    kd_quality_apply(&turn.quality, &scene, &live->job.scene);
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
     enum kd_status status = kd_plan_make(&live->job.scene, &capacity, &live->job.plan, &error);
@@ -165,8 +180,8 @@ static void pump(struct kd_session *s)
         return;
     }
     live->number = ++s->begun;
-    live->revision = s->submitted = s->revision;
-    s->rendering = true;
+    live->revision = s->revision;
+    s->rendering = live;
     s->references++;
     kd_render_queue_push(s->all->params.renders, &live->job);
 }
@@ -179,6 +194,22 @@ static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
                               &job->error);
 }
 
+/* Encoding overlaps with the next frame, and takes a tenth of what this one took. */
+static struct kd_frame_cost cost_of(const struct kd_frame *frame)
+{
+    struct kd_frame_cost cost = { .lens_reused = frame->lens_reused };
+    for (size_t i = 0; i < frame->n_timings; i++) {
+        const struct kd_timing *t = &frame->timings[i];
+        if (!strcmp(t->name, "trace") || !strcmp(t->name, "audit") || !strcmp(t->name, "transfer"))
+            cost.rays_ms += t->ms;
+        else if (!strcmp(t->name, "expose") || !strcmp(t->name, "post") || !strcmp(t->name, "readback"))
+            cost.pixels_ms += t->ms;
+        else if (!strcmp(t->name, "total"))
+            cost.total_ms = t->ms;
+    }
+    return cost;
+}
+
 /* On the render thread, unlocked: the next frame may be traced while this one is encoded. */
 static void rendered(struct kd_render_job *job)
 {
@@ -187,8 +218,10 @@ static void rendered(struct kd_render_job *job)
     struct kd_sessions *all = s->all;
     pthread_mutex_lock(&all->lock);
     live->rendered = true;
-    s->rendering = false;
+    s->rendering = NULL;
     s->encoding++;
+    const struct kd_frame_cost cost = cost_of(&job->frame);
+    kd_governor_frame(&s->governor, kd_clock_ms(), &live->turn, &cost);
     pump(s);
     pthread_mutex_unlock(&all->lock);
 }
@@ -203,12 +236,13 @@ static void publish(struct kd_session *s, struct live_job *live)
     else
         s->interval_ms = 0;
     s->shown_ms = now;
-    const struct kd_live_note note = { live->number, live->revision, true, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
+    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
         return; /* the next one may have more luck */
     kd_live_frame_release(s->latest);
     s->latest = frame;
+    s->all->frames++;
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->seen < frame->number)
             wake(v);
@@ -224,11 +258,11 @@ static void done(struct kd_render_job *job)
     if (live->rendered)
         s->encoding--;
     else
-        s->rendering = false;
+        s->rendering = NULL;
     job->error.status = job->status;
     if (!job->status)
         publish(s, live);
-    else
+    else if (job->status != KD_ECANCELLED)
         fail(s, &job->error);
     pump(s);
     release(s);
@@ -251,8 +285,8 @@ static bool random_hex(char *out, size_t size)
     return true;
 }
 
-enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, struct kd_session **out,
-                                struct kd_error *error)
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
+                                struct kd_session **out, struct kd_error *error)
 {
     struct kd_session *s = calloc(1, sizeof *s);
     if (!s || !random_hex(s->id, sizeof s->id) || !random_hex(s->token, sizeof s->token)) {
@@ -264,6 +298,10 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     s->scene = *scene;
     s->revision = 1;
     s->since_ms = s->used_ms = kd_clock_ms();
+    memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
+    kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
+    kd_governor_changed(&s->governor, s->since_ms, scene, true);
+    kd_governor_expect(&s->governor, &(struct kd_frame_cost) { .total_ms = plan->estimate_ms });
     pthread_mutex_lock(&all->lock);
     if (all->closed || all->count >= all->params.limit) {
         unsigned n = all->count;
@@ -353,6 +391,10 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     s->since_ms = now;
     s->revision++;
     s->failed = KD_OK;
+    kd_governor_changed(&s->governor, now, &scene, strcmp(s->lens_key, plan.lens_key) != 0);
+    memcpy(s->lens_key, plan.lens_key, sizeof s->lens_key);
+    if (s->rendering && s->rendering->turn.refining)
+        atomic_store(&s->rendering->job.drop, true); /* long, and nobody waits for it any more */
     pump(s);
     state(s, out);
     pthread_mutex_unlock(&s->all->lock);
@@ -484,6 +526,14 @@ unsigned kd_sessions_count(struct kd_sessions *all)
 {
     pthread_mutex_lock(&all->lock);
     unsigned n = all->count;
+    pthread_mutex_unlock(&all->lock);
+    return n;
+}
+
+uint64_t kd_sessions_frames(struct kd_sessions *all)
+{
+    pthread_mutex_lock(&all->lock);
+    uint64_t n = all->frames;
     pthread_mutex_unlock(&all->lock);
     return n;
 }

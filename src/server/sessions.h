@@ -26,9 +26,9 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
 /* Nothing may be under way: after kd_sessions_close, and when the render queue has finished. Accepts NULL. */
 void kd_sessions_destroy(struct kd_sessions *all);
 
-/* A valid scene whose plan can be made, to a new session, of which the caller holds a reference. KD_EBUSY: as many as may. */
-enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, struct kd_session **out,
-                                struct kd_error *error);
+/* A valid scene with its plan, to a new session, of which the caller holds a reference. KD_EBUSY: as many as may. */
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
+                                struct kd_session **out, struct kd_error *error);
 /* A reference to the session of this id, or NULL. Counts as being asked. */
 struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
 void kd_session_release(struct kd_session *session);
@@ -73,5 +73,6 @@ void kd_sessions_sweep(struct kd_sessions *all);
 /* No new sessions, all viewers told that it is over; what is being rendered finishes. */
 void kd_sessions_close(struct kd_sessions *all);
 unsigned kd_sessions_count(struct kd_sessions *all);
+uint64_t kd_sessions_frames(struct kd_sessions *all); /* published so far, of all */
 
 #endif

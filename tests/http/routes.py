@@ -9,7 +9,7 @@ import daemon
 GETS = {
     '/': 'text/html; charset=utf-8', '/web/app.js': 'text/javascript; charset=utf-8',
     '/web/style.css': 'text/css; charset=utf-8', '/web/icon.svg': 'image/svg+xml', '/healthz': 'application/json', '/readyz': 'application/json',
-    '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
+    '/metrics': 'text/plain; version=0.0.4; charset=utf-8', '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
     '/v1/presets/gargantua': 'application/json', '/v1/schema': 'application/schema+json',
     '/v1/render?' + daemon.SMALL: 'image/png',
 }
@@ -28,6 +28,18 @@ class Routes(daemon.Case):
                 self.assertFalse(head.body)
                 if 'json' in kind:
                     json.loads(got.body)
+
+    def test_metrics_count(self):
+        def read():
+            lines = self.daemon.get('/metrics').body.decode().splitlines()
+            return {line.rsplit(' ', 1)[0]: float(line.rsplit(' ', 1)[1]) for line in lines if not line.startswith('#')}
+        before = read()
+        self.assertEqual((before['kerrd_serving'], before['kerrd_requests'], before['kerrd_renders_unfinished']), (1, 1, 0))
+        self.daemon.get('/nothing')
+        self.daemon.get('/v1/device')
+        after = read()
+        self.assertEqual(after['kerrd_answers_total{status="4xx"}'], before['kerrd_answers_total{status="4xx"}'] + 1)
+        self.assertEqual(after['kerrd_answers_total{status="2xx"}'], before['kerrd_answers_total{status="2xx"}'] + 2)
 
     def test_page_forbids_foreign_content(self):
         policy = self.daemon.get('/').header('Content-Security-Policy')

@@ -1,0 +1,38 @@
+/* GET /metrics: counters and gauges in Prometheus's text format 0.0.4. */
+#include "server/reply.h"
+
+static enum kd_status add(struct kd_buffer *out, const char *name, const char *type, const char *help, double value)
+{
+    return kd_buffer_printf(out, "# HELP kerrd_%s %s\n# TYPE kerrd_%s %s\nkerrd_%s %.17g\n", name, help, name, type, name, value);
+}
+
+static enum kd_status add_answers(struct kd_buffer *out, struct kd_server *server)
+{
+    enum kd_status status = kd_buffer_printf(out, "# HELP kerrd_answers_total Requests answered, by the first digit of the status.\n"
+                                                  "# TYPE kerrd_answers_total counter\n");
+    for (unsigned i = 1; i < KD_STATUS_CLASSES && !status; i++)
+        status = kd_buffer_printf(out, "kerrd_answers_total{status=\"%uxx\"} %lu\n", i, atomic_load(&server->answers[i]));
+    return status;
+}
+
+enum MHD_Result kd_handle_metrics(struct kd_request *request)
+{
+    struct kd_server *s = request->server;
+    struct kd_buffer text = { 0 };
+    const struct { const char *name, *type, *help; double value; } rows[] = {
+        { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
+        { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
+          kd_render_queue_unfinished(s->renders) },
+        { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.", 1e-3 * kd_render_queue_backlog_ms(s->renders) },
+        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_rays_queue_unfinished(s->rays) },
+        { "sessions", "gauge", "Live sessions.", kd_sessions_count(s->sessions) },
+        { "session_frames_total", "counter", "Frames of sessions encoded.", (double)kd_sessions_frames(s->sessions) },
+        { "bodies_bytes", "gauge", "Bodies being received.", (double)atomic_load(&s->body_bytes) },
+        { "replies_bytes", "gauge", "Pictures and rays not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
+        { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
+    };
+    enum kd_status status = add_answers(&text, s);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
+        status = add(&text, rows[i].name, rows[i].type, rows[i].help, rows[i].value);
+    return kd_reply_json(request, status, &text, request->route->answer);
+}
