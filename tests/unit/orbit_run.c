@@ -159,8 +159,8 @@ static void methods_agree(void **state)
         "\"orbit\":{\"case\":\"spherical\"}",
         "\"orbit\":{\"p\":50,\"e\":0.9,\"inclination_deg\":120}",
         "\"orbit\":{\"case\":\"mercury\"}",
-        "\"spin\":-0.5,\"orbit\":{\"position\":{\"r\":12,\"theta_deg\":70,\"phi_deg\":40},\"velocity\":{\"v_r\":0.1,\"v_theta\":0."
-        "1,\"v_phi\":0.35}}",
+        ("\"spin\":-0.5,\"orbit\":{\"position\":{\"r\":12,\"theta_deg\":70,\"phi_deg\":40},"
+         "\"velocity\":{\"v_r\":0.1,\"v_theta\":0.1,\"v_phi\":0.35}}"),
     };
     for (size_t i = 0; i < COUNT(orbits); i++) {
         struct kd_orbit_request request[3];

@@ -29,7 +29,7 @@ static void within(const char *what, double a, double x, double got, double want
 static struct kd_ring_point image_of(double a, double i_deg, double r, double phi_deg, int order)
 {
     struct kd_ring ring;
-    struct kd_ring_point point;
+    struct kd_ring_point point = { 0 };
     if (!kd_ring_init(&ring, a, i_deg * RADIAN, r, order) || !kd_ring_find(&ring, phi_deg * RADIAN, &point))
         fail_msg("no image of order %d of a ring at %.17g, %.17g degrees, a = %.17g, i = %.17g", order, r, phi_deg, a, i_deg);
     return point;
