@@ -23,16 +23,19 @@ double kd_accuracy_holds(const struct kd_accuracy_row *row)
     return out;
 }
 
-static enum kd_status refuse(const struct kd_accuracy_row *best, double tolerance, struct kd_error *error)
+static enum kd_status refuse(const struct kd_accuracy_table *table, const struct kd_accuracy_row *best, double tolerance,
+                             struct kd_error *error)
 {
+    bool stands_in = table == kd_accuracy_built_in();
     if (!best)
         return kd_error_field(error, "/accuracy/tolerance", "the accuracy table of this device has no row that can be relied on "
                               "for what was asked; `kerrd bench accuracy` makes a new one");
     /* Rounded up: whoever asks for this number gets it. */
     return kd_error_field(error, "/accuracy/tolerance",
-                          "tolerance is %.3g, this device was measured to hold %.3g and above (%s %s with %u steps); the engine "
+                          "tolerance is %.3g, %s was measured to hold %.3g and above (%s %s with %u steps); the engine "
                           "\"closed\" is what it was measured against",
-                          tolerance, 1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine), kd_precision_name(best->precision),
+                          tolerance, stands_in ? "llvmpipe, whose table stands in for this device's," : "this device",
+                          1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine), kd_precision_name(best->precision),
                           best->steps);
 }
 
@@ -59,7 +62,7 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
             found = row;
     }
     if (!found)
-        return refuse(best, tolerance, error);
+        return refuse(table, best, tolerance, error);
     *out = (struct kd_accuracy_choice) { found->engine, found->precision, found->steps, kd_accuracy_holds(found),
                                          found->sets[KD_ACCURACY_BULK].rays_per_s };
     return KD_OK;

@@ -152,7 +152,8 @@ static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, st
         best = fmin(best, kd_accuracy_holds(&c->accuracy->rows[i]));
     return kd_error_field(error, "/accuracy/tolerance",
                           "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays "
-                          "(POST /v1/rays, kerrd rays) hold %.3g on this device", tolerance, KEPT, 1.01 * best);
+                          "(POST /v1/rays, kerrd rays) hold %.3g%s", tolerance, KEPT, 1.01 * best,
+                          c->accuracy_measured ? " on this device" : ", by the table of llvmpipe that stands in for this device's");
 }
 
 static double ergosphere(const struct kd_scene *scene)

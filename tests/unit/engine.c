@@ -109,9 +109,9 @@ static void what_cannot_be(void **state)
     (void)state;
     struct kd_wish wish = NONE;
     wish.tolerance = 1e-15;
-    refuse(wish, true, "/accuracy/tolerance", "this device was measured to hold");
+    refuse(wish, true, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     wish.tolerance = 1e-9;
-    refuse(wish, false, "/accuracy/tolerance", "this device was measured to hold");
+    refuse(wish, false, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     wish.steps = 8;
     refuse(wish, true, "/accuracy/steps", "beside a tolerance");
     wish.steps = 0;
