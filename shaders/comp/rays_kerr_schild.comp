@@ -140,7 +140,8 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* What a step from x to y adds to the turns about the axis that atan2 forgets: where the way between crosses the half plane x < 0. */
+/* What a step from x to y adds to the turns about the axis that atan2 forgets: whether the chord between crosses the half plane
+ * x < 0. Within a step's bend of the axis the ray may pass on the other side of it. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
