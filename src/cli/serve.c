@@ -10,7 +10,8 @@
 
 struct arguments {
     const char *device, *listen;
-    unsigned port, queue, sessions;
+    const char *state;
+    unsigned port, queue, sessions, jobs, client_jobs;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
 };
@@ -20,6 +21,9 @@ static const struct argp_option table[] = {
     { "port", 'p', "PORT", 0, "TCP port, 0 for any free one (default 8080)", 0 },
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
     { "sessions", 's', "N", 0, "live sessions at once (default 16)", 0 },
+    { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
+    { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one address (default: as many as any)", 0 },
+    { "state", 'S', "DIR", 0, "keep jobs and their frames there, so that they survive a restart", 0 },
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
     { 0 },
 };
@@ -43,6 +47,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'p': arguments->port = kd_cli_number(state, "--port", text, 0, 65535); return 0;
     case 'q': arguments->queue = kd_cli_number(state, "--queue", text, 1, 100000); return 0;
     case 's': arguments->sessions = kd_cli_number(state, "--sessions", text, 1, 10000); return 0;
+    case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
+    case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
+    case 'S': arguments->state = text; return 0;
     case 'H': add_host(arguments, text, state); return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
     }
@@ -79,6 +86,9 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .hosts = arguments->hosts,
         .queue = arguments->queue,
         .sessions = arguments->sessions,
+        .jobs = arguments->jobs,
+        .client_jobs = arguments->client_jobs,
+        .state = arguments->state,
         .renderer = { .device = arguments->device },
     };
     enum kd_status status = kd_server_create(&params, &running, error);
@@ -108,7 +118,7 @@ int kd_cli_serve(int argc, char **argv)
             "is 0. It is 1 when the device was lost: start it again.",
         .children = children,
     };
-    struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16, .sessions = 16 };
+    struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
     struct kd_error error = { 0 };
 
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);

@@ -89,15 +89,21 @@ static enum kd_status read_document(struct reader *reader, const cJSON *root)
     return status;
 }
 
+enum kd_status kd_scene_from_tree(struct kd_scene *scene, const cJSON *object, bool patch, struct kd_error *error)
+{
+    struct reader reader = { .scene = *scene, .patch = patch, .error = error };
+    enum kd_status status = read_document(&reader, object);
+    if (!status)
+        *scene = reader.scene;
+    return status;
+}
+
 static enum kd_status merge(struct kd_scene *scene, const char *text, size_t length, bool patch, struct kd_error *error)
 {
     cJSON *root = NULL;
-    struct reader reader = { .scene = *scene, .patch = patch, .error = error };
     enum kd_status status = kd_tree_parse(text, length, KD_SCENE_JSON_MAX, KD_SCAN_FEW, &root, error);
     if (!status)
-        status = read_document(&reader, root);
-    if (!status)
-        *scene = reader.scene;
+        status = kd_scene_from_tree(scene, root, patch, error);
     cJSON_Delete(root);
     return status;
 }

@@ -55,6 +55,7 @@ static bool step_down(struct kd_server *server, double *since)
         return false;
     case KD_REFUSING:
         kd_sessions_close(server->sessions);
+        kd_jobs_close(server->jobs);
         if (atomic_load(&server->abandon)) {
             kd_render_queue_cancel(server->renders);
             kd_rays_queue_cancel(server->rays);
@@ -81,6 +82,7 @@ void *kd_keeper_main(void *user)
         kd_connections_sweep(server->connections);
         kd_render_queue_sweep(server->renders);
         kd_sessions_sweep(server->sessions);
+        kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
     MHD_stop_daemon(server->daemon); /* nothing is suspended: the queues have finished, and take no more */
     server->daemon = NULL;

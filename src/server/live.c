@@ -74,23 +74,6 @@ static enum MHD_Result look(struct kd_request *request)
     return late ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PNG_TYPE)) : MHD_NO;
 }
 
-/* A whole number of the query, or what is there without it; false: it is not one. */
-static bool number_of(const struct kd_request *request, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out)
-{
-    *out = otherwise;
-    for (size_t i = 0; i < request->target.n_pairs; i++) {
-        const char *text = request->target.pairs[i].value;
-        if (strcmp(request->target.pairs[i].name, name))
-            continue;
-        size_t n = strspn(text, "0123456789");
-        if (!n || text[n] || n > 18)
-            return false;
-        *out = strtoull(text, NULL, 10);
-        return *out <= most;
-    }
-    return true;
-}
-
 static enum MHD_Result bad_number(struct kd_request *request, const char *detail)
 {
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
@@ -102,9 +85,9 @@ enum MHD_Result kd_handle_session_frame(struct kd_request *request)
     enum MHD_Result refused;
     if (request->viewer)
         return look(request);
-    if (!number_of(request, "after", 0, UINT64_MAX, &after))
+    if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
-    if (!number_of(request, "wait_ms", WAIT_MS, 60000, &wait))
+    if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
         return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
     struct kd_session *session = kd_session_of(request, &refused);
     if (!session)

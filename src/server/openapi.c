@@ -1,5 +1,6 @@
 /* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
  * table. */
+#include "server/openapi_jobs.h"
 #include "server/openapi_orbits.h"
 #include "server/openapi_physics.h"
 #include "server/openapi_rays.h"
@@ -100,6 +101,8 @@ static cJSON *operation(const struct kd_route *route, bool post, const cJSON *sc
         kd_openapi_rays_bodies(o, ok);
     else if (route->takes == KD_TAKES_ORBITS)
         kd_openapi_orbits_bodies(o, ok);
+    else if (route->takes == KD_TAKES_JOB)
+        kd_openapi_jobs_bodies(o, ok);
     else
         cJSON_AddItemToObject(ok, "content", content(type, cJSON_CreateObject()));
     cJSON_AddItemToObject(responses, "default", reference("#/components/responses/Problem"));

@@ -16,6 +16,7 @@
     X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                                    \
     X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
     X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \
+    X(NOT_READY, 409, "not-ready", "What this asks for is not there yet")                                    \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
     X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here")                  \
@@ -24,7 +25,9 @@
     X(INVALID_RAYS, 422, "invalid-rays", "The request for rays is not valid")                                \
     X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid")                             \
     X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid")                            \
+    X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid")                                 \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
+    X(QUOTA, 429, "quota", "This client has as many jobs as one may")                                         \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \

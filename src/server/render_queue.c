@@ -25,7 +25,7 @@ struct kd_render_queue {
 
     pthread_mutex_t lock;
     pthread_cond_t changed; /* anything below; few threads wait, so one condition serves all */
-    bool opened, closing, running;
+    bool opened, closing, running, encoding_background;
     struct list waiting, encoding;
     unsigned limit, n_waiting, unfinished;
     size_t frame_bytes;
@@ -46,13 +46,15 @@ static void append(struct list *list, struct kd_render_job *job)
     list->end = &job->next;
 }
 
-/* Behind the other live ones, before the rest. */
-static void append_live(struct list *list, struct kd_render_job *job)
+static int rank(const struct kd_render_job *job) { return job->live ? 0 : job->background ? 2 : 1; }
+
+/* Behind its like, before the lower ranks. */
+static void append_ranked(struct list *list, struct kd_render_job *job)
 {
     struct kd_render_job **link = &list->first;
-    while (job->live && *link && (*link)->live)
+    while (*link && rank(*link) <= rank(job))
         link = &(*link)->next;
-    if (!job->live || !*link) {
+    if (!*link) {
         append(list, job);
         return;
     }
@@ -60,19 +62,31 @@ static void append_live(struct list *list, struct kd_render_job *job)
     *link = job;
 }
 
-static struct kd_render_job *take_first(struct list *list)
+static struct kd_render_job *take(struct list *list, struct kd_render_job **link)
 {
-    struct kd_render_job *job = list->first;
-    list->first = job->next;
-    if (!list->first)
-        list->end = &list->first;
+    struct kd_render_job *job = *link;
+    *link = job->next;
+    if (!*link)
+        list->end = link;
     return job;
+}
+
+static struct kd_render_job *take_first(struct list *list) { return take(list, &list->first); }
+
+/* The first, or one in the background that has waited long enough. */
+static struct kd_render_job *take_next(struct list *list)
+{
+    double now = kd_clock_ms();
+    for (struct kd_render_job **link = &list->first; *link; link = &(*link)->next)
+        if ((*link)->background && now - (*link)->submitted_ms > KD_BACKGROUND_MS + 10 * (*link)->plan.estimate_ms)
+            return take(list, link);
+    return take_first(list);
 }
 
 /* The job, no longer in the list, stops counting as waiting. */
 static void leave(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
-    if (job->live)
+    if (rank(job) != 1)
         return;
     queue->n_waiting--;
     queue->waiting_ms = queue->n_waiting ? queue->waiting_ms - job->plan.estimate_ms : 0;
@@ -93,6 +107,11 @@ static size_t frame_bytes(const struct kd_render_job *job)
     return (size_t)job->plan.width * job->plan.height * 3 * (job->scene.image.bit_depth > 8 ? 2 : 1);
 }
 
+static bool unwanted(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    return atomic_load(&queue->cancel) || atomic_load(&job->drop) || kd_socket_abandoned(job->socket);
+}
+
 static bool progress(void *user, double fraction)
 {
     struct kd_render_job *job = user;
@@ -101,7 +120,9 @@ static bool progress(void *user, double fraction)
     pthread_mutex_lock(&queue->lock);
     queue->running_ms = job->plan.estimate_ms * (1 - fraction);
     pthread_mutex_unlock(&queue->lock);
-    return !atomic_load(&queue->cancel) && !atomic_load(&job->drop) && !kd_socket_abandoned(job->socket);
+    if (job->progress)
+        job->progress(job, fraction);
+    return !unwanted(queue, job);
 }
 
 static void mark_lost(struct kd_render_queue *queue, const struct kd_error *error)
@@ -138,7 +159,7 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = KD_EDEVICE;
         return false;
     }
-    if (atomic_load(&queue->cancel) || atomic_load(&job->drop) || kd_socket_abandoned(job->socket)) {
+    if (unwanted(queue, job)) {
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
         return false;
     }
@@ -169,7 +190,7 @@ static void open_renderer(struct kd_render_queue *queue)
 
 static void render_one(struct kd_render_queue *queue) /* locked; unlocks while it works */
 {
-    struct kd_render_job *job = take_first(&queue->waiting);
+    struct kd_render_job *job = take_next(&queue->waiting);
     size_t bytes = frame_bytes(job);
     leave(queue, job);
     queue->running = true;
@@ -186,7 +207,7 @@ static void render_one(struct kd_render_queue *queue) /* locked; unlocks while i
     queue->running = false;
     queue->running_ms = 0;
     if (encode) {
-        append_live(&queue->encoding, job);
+        append_ranked(&queue->encoding, job);
         queue->frame_bytes += bytes;
         pthread_cond_broadcast(&queue->changed);
     }
@@ -219,12 +240,14 @@ static void *encode_main(void *user)
     pthread_mutex_lock(&queue->lock);
     unsigned encoder = queue->encoders_begun++;
     while (!queue->closing || queue->unfinished) {
-        if (!queue->encoding.first) {
+        if (!queue->encoding.first || (queue->encoding.first->background && queue->encoding_background)) {
             pthread_cond_wait(&queue->changed, &queue->lock);
             continue;
         }
         struct kd_render_job *job = take_first(&queue->encoding);
         size_t bytes = frame_bytes(job);
+        bool background = job->background;
+        queue->encoding_background |= background;
         pthread_mutex_unlock(&queue->lock);
 
         double start = kd_clock_ms();
@@ -240,6 +263,9 @@ static void *encode_main(void *user)
         pthread_mutex_unlock(&queue->lock);
         finish(queue, job);
         pthread_mutex_lock(&queue->lock);
+        if (background)
+            queue->encoding_background = false;
+        pthread_cond_broadcast(&queue->changed);
     }
     pthread_mutex_unlock(&queue->lock);
     return NULL;
@@ -373,9 +399,9 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     job->queue = queue;
     job->submitted_ms = kd_clock_ms();
     pthread_mutex_lock(&queue->lock);
-    append_live(&queue->waiting, job);
+    append_ranked(&queue->waiting, job);
     queue->unfinished++;
-    if (!job->live) {
+    if (rank(job) == 1) {
         queue->n_waiting++;
         queue->waiting_ms += job->plan.estimate_ms;
     }

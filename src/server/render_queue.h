@@ -10,11 +10,13 @@
 #include "base/buffer.h"
 #include "render/render.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 struct kd_render_queue;
 
-#define KD_ENCODERS 2
+#define KD_ENCODERS 2 /* one of which is for what is not in the background */
+#define KD_BACKGROUND_MS 1000.0
 
 struct kd_render_job {
     /* filled in by the submitter */
@@ -25,6 +27,10 @@ struct kd_render_job {
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
     bool live; /* before all that is not, and not counted among what may wait */
+    /* Behind all that is not, unless it has waited for KD_BACKGROUND_MS and ten times as long as it should take: others cannot stop
+     * it for good, nor it them. Not counted either. */
+    bool background;
+    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
     enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
     _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */

@@ -13,6 +13,7 @@
 #define BODY_TOO_LARGE "a body may hold 1048576 bytes"
 #define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
 #define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
+#define JOB_TOO_LARGE "a body of a job may hold 4194304 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
 
 static struct kd_connection *connection_of(struct MHD_Connection *mhd)
@@ -102,6 +103,7 @@ static size_t body_max(const struct kd_request *request)
     switch (request->route->takes) {
     case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
     case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
+    case KD_TAKES_JOB: return KD_JOB_BODY_MAX;
     default: return KD_BODY_MAX;
     }
 }
@@ -111,6 +113,7 @@ static const char *too_large(const struct kd_request *request)
     switch (request->route->takes) {
     case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
     case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
+    case KD_TAKES_JOB: return JOB_TOO_LARGE;
     default: return BODY_TOO_LARGE;
     }
 }

@@ -37,6 +37,8 @@ void kd_physics_job_destroy(struct kd_physics_job *job); /* physics.c; accepts N
 void kd_live_abandon(struct kd_request *request);  /* live.c: nobody waits for a frame any more */
 /* session_routes.c: a reference to the session that the path names, or NULL after a refusal. */
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused);
+/* The token that comes with a request, in its header or query; NULL: none. */
+const char *kd_token_of(struct kd_request *request);
 
 /* The four callbacks libmicrohttpd is started with; cls is the struct kd_server. */
 void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd);

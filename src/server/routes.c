@@ -38,6 +38,12 @@ const struct kd_route kd_routes[] = {
       "Frames as they come, the newest only; with Accept: application/x-kerrd-frames length, number, revision and 0 before each" },
     { "/v1/sessions/{id}/events", KD_GET, kd_handle_session_events, "text/event-stream",
       "Numbers of each frame: quality in force, times, accuracy" },
+    { "/v1/jobs", KD_POST, kd_handle_jobs, JSON, "A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it",
+      KD_TAKES_JOB },
+    { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON, "How far a job is; its end, with its files" },
+    { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
+    { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, "application/zip",
+      "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come" },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;
@@ -79,6 +85,7 @@ static const char *allow(unsigned methods)
     case KD_GET: return "GET, HEAD";
     case KD_POST: return "POST";
     case KD_GET | KD_POST: return "GET, HEAD, POST";
+    case KD_GET | KD_DELETE: return "GET, HEAD, DELETE";
     default: return "GET, HEAD, PATCH, DELETE";
     }
 }

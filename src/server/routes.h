@@ -17,6 +17,7 @@ enum kd_takes {
     KD_TAKES_SCENE, /* in the body, or with GET in the query */
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
     KD_TAKES_ORBITS,
+    KD_TAKES_JOB,
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
@@ -57,6 +58,10 @@ enum MHD_Result kd_handle_session(struct kd_request *request);
 enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* live.c */
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);
+enum MHD_Result kd_handle_jobs(struct kd_request *request); /* job_routes.c */
+enum MHD_Result kd_handle_job(struct kd_request *request);
+enum MHD_Result kd_handle_job_events(struct kd_request *request);
+enum MHD_Result kd_handle_job_result(struct kd_request *request); /* job_result.c */
 enum MHD_Result kd_handle_quantities(struct kd_request *request); /* physics.c */
 enum MHD_Result kd_handle_quantity(struct kd_request *request);
 

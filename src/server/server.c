@@ -133,6 +133,16 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         close(fd);
         return status;
     }
+    const struct kd_jobs_params jobs = {
+        .renders = server->renders, .state = params->state, .limit = or_default(params->jobs, 16), .kept = KD_JOBS_KEPT,
+        .client_limit = params->client_jobs, .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
+        .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,
+    };
+    status = kd_jobs_create(&jobs, &server->jobs, error);
+    if (status) {
+        close(fd);
+        return status;
+    }
     status = start_daemon(server, fd, connections, error);
     return status ? status : start_keeper(server, error);
 }
@@ -192,10 +202,13 @@ void kd_server_destroy(struct kd_server *server)
     }
     if (server->sessions)
         kd_sessions_close(server->sessions);
+    if (server->jobs)
+        kd_jobs_close(server->jobs);
     kd_turns_destroy(server->turns);
     kd_rays_queue_destroy(server->rays);
     kd_render_queue_destroy(server->renders);
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
+    kd_jobs_destroy(server->jobs);
     kd_connections_destroy(server->connections);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);

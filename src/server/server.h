@@ -16,6 +16,10 @@ struct kd_server_params {
     unsigned queue;           /* renders that may wait, default 16 */
     unsigned sessions;        /* live ones at once, default 16 */
     unsigned session_ms;      /* that one lives on unwatched, default 60 000 */
+    unsigned jobs;            /* unfinished ones, default 16 */
+    unsigned client_jobs;     /* unfinished ones of one address; 0: as many as any */
+    unsigned jobs_kib;        /* of the frames of all jobs, default 16 GiB */
+    const char *state;        /* a folder in which jobs survive a restart; NULL: none */
     unsigned drain_ms;        /* of serving on after a stop request, with /readyz failing; default 1000 */
     unsigned connections;     /* at once; one more is answered 503, all but the health routes; default 512 */
     unsigned header_ms;       /* a request's header must be complete by then; default 10 000 */

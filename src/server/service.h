@@ -6,6 +6,7 @@
 #define KD_SERVER_SERVICE_H
 
 #include "server/connections.h"
+#include "server/jobs.h"
 #include "server/rays_queue.h"
 #include "server/render_queue.h"
 #include "server/server.h"
@@ -23,6 +24,10 @@
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
 #define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
+#define KD_JOBS_KEPT 64u                   /* jobs in all, finished ones too */
+#define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
+#define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */
+#define KD_JOB_BYTES ((uint64_t)16 << 30)  /* on disk, of all jobs */
 #define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
 
 #define KD_STATUS_CLASSES 6
@@ -46,6 +51,7 @@ struct kd_server {
     struct kd_rays_queue *rays;
     struct kd_turns *turns; /* orbits, long quantities */
     struct kd_sessions *sessions;
+    struct kd_jobs *jobs;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;

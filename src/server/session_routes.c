@@ -18,7 +18,7 @@ struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *re
     return session;
 }
 
-static const char *token_of(struct kd_request *request)
+const char *kd_token_of(struct kd_request *request)
 {
     const char *header = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Authorization");
     if (header && !strncasecmp(header, "Bearer ", 7))
@@ -113,7 +113,7 @@ static enum MHD_Result patch(struct kd_request *request, struct kd_session *sess
 
 static enum MHD_Result change(struct kd_request *request, struct kd_session *session)
 {
-    if (!kd_session_owned(session, token_of(request)))
+    if (!kd_session_owned(session, kd_token_of(request)))
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
                                                                 .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
     if (!strcmp(request->method, "PATCH"))

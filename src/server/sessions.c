@@ -4,6 +4,7 @@
 #include "image/png_live.h"
 #include "render/governor.h"
 #include "server/clock.h"
+#include "server/secret.h"
 
 #include <math.h>
 #include <poll.h>
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
 
 #define LOOK_MS 1000.0 /* how late a client that has hung up may be noticed */
 #define TARGET_MS 33.0 /* of a frame while the scene changes */
@@ -20,7 +20,7 @@
 struct kd_session {
     struct kd_sessions *all;
     unsigned references;
-    char id[KD_SESSION_ID], token[KD_SESSION_TOKEN];
+    char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     struct kd_scene scene; /* as at since_ms */
     double since_ms, used_ms;
     char lens_key[65];            /* of the scene as asked */
@@ -274,22 +274,11 @@ static void done(struct kd_render_job *job)
 
 /* Unlocked from here on. */
 
-static bool random_hex(char *out, size_t size)
-{
-    unsigned char bytes[KD_SESSION_TOKEN / 2];
-    size_t n = (size - 1) / 2;
-    if (getrandom(bytes, n, 0) != (ssize_t)n)
-        return false;
-    for (size_t i = 0; i < n; i++)
-        snprintf(out + 2 * i, 3, "%02x", bytes[i]);
-    return true;
-}
-
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
                                 struct kd_session **out, struct kd_error *error)
 {
     struct kd_session *s = calloc(1, sizeof *s);
-    if (!s || !random_hex(s->id, sizeof s->id) || !random_hex(s->token, sizeof s->token)) {
+    if (!s || !kd_secret_make(s->id, sizeof s->id) || !kd_secret_make(s->token, sizeof s->token)) {
         free(s);
         return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a session");
     }
@@ -346,12 +335,7 @@ const char *kd_session_token(const struct kd_session *s) { return s->token; }
 
 bool kd_session_owned(const struct kd_session *s, const char *token)
 {
-    unsigned differ = 0;
-    if (!token || strlen(token) != KD_SESSION_TOKEN - 1)
-        return false;
-    for (size_t i = 0; i < KD_SESSION_TOKEN - 1; i++)
-        differ |= (unsigned)(s->token[i] ^ token[i]);
-    return !differ;
+    return kd_secret_equal(s->token, token);
 }
 
 static void state(const struct kd_session *s, struct kd_session_state *out) /* locked */

@@ -14,9 +14,6 @@
 struct kd_sessions;
 struct kd_session;
 
-#define KD_SESSION_ID 17    /* hexadecimal digits and NUL: who knows it may watch */
-#define KD_SESSION_TOKEN 33 /* who knows it may change and end the session */
-
 struct kd_sessions_params {
     struct kd_render_queue *renders;
     unsigned limit;   /* sessions at once */

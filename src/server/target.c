@@ -86,3 +86,24 @@ void kd_target_finish(struct kd_target *target)
     free(target->text);
     *target = (struct kd_target) { 0 };
 }
+
+const char *kd_target_value(const struct kd_target *target, const char *name)
+{
+    for (size_t i = 0; i < target->n_pairs; i++)
+        if (!strcmp(target->pairs[i].name, name))
+            return target->pairs[i].value;
+    return NULL;
+}
+
+bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out)
+{
+    const char *text = kd_target_value(target, name);
+    *out = otherwise;
+    if (!text)
+        return true;
+    size_t n = strspn(text, "0123456789");
+    if (!n || text[n] || n > 18)
+        return false;
+    *out = strtoull(text, NULL, 10);
+    return *out <= most;
+}

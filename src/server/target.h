@@ -4,7 +4,9 @@
 
 #include "base/error.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #define KD_TARGET_PAIRS 64
 
@@ -22,5 +24,10 @@ struct kd_target {
  * Whatever the result, finish it. */
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
 void kd_target_finish(struct kd_target *target);
+
+/* A parameter of the query, NULL: it is not given. */
+const char *kd_target_value(const struct kd_target *target, const char *name);
+/* The same as a whole number, or what holds without it; false: it is not one, or above most. */
+bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out);
 
 #endif

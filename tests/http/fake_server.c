@@ -26,6 +26,9 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         { "--queue", &params->queue },
         { "--sessions", &params->sessions },
         { "--session-ms", &params->session_ms },
+        { "--jobs", &params->jobs },
+        { "--client-jobs", &params->client_jobs },
+        { "--jobs-kib", &params->jobs_kib },
         { "--drain-ms", &params->drain_ms },
         { "--header-ms", &params->header_ms },
         { "--body-ms", &params->body_ms },
@@ -39,6 +42,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->port = (uint16_t)atoi(value), 1;
     if (!strcmp(name, "--listen"))
         return params->listen = value, 1;
+    if (!strcmp(name, "--state"))
+        return params->state = value, 1;
     if (!strcmp(name, "--device"))
         return params->renderer.device = value, 1;
     if (!strcmp(name, "--host"))

@@ -27,6 +27,7 @@ FOREIGN = {
     "vulkan/": {"vk"},
     "cjson/": {"scene", "orbit", "render", "server", "cli"},
     "microhttpd.h": {"server"},
+    "archive": {"server"},
     "png.h": {"image"},
     "libdeflate.h": {"image"},
     "isa-l/": {"image"},

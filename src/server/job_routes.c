@@ -1,0 +1,232 @@
+/* POST /v1/jobs; how far one is, by asking and as events; its end. */
+#include "server/clock.h"
+#include "server/job_routes.h"
+#include "server/reply.h"
+
+#include <cjson/cJSON.h>
+#include <limits.h>
+#include <math.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+#define HEARTBEAT_MS 15000.0 /* of an event stream */
+
+struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
+{
+    struct kd_job *job = kd_jobs_find(request->server->jobs, request->rest);
+    if (!job)
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                                    .detail = "there is no such job, or it has been deleted" });
+    return job;
+}
+
+static const char *state_word(const struct kd_job_status *s)
+{
+    if (s->deleted)
+        return "deleted";
+    return s->state == KD_JOB_DONE ? "done" : s->state == KD_JOB_FAILED ? "failed" : s->place ? "waiting" : "running";
+}
+
+static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s, bool token, struct kd_buffer *out)
+{
+    cJSON *o = cJSON_CreateObject();
+    cJSON_AddStringToObject(o, "id", kd_job_id(job));
+    if (token)
+        cJSON_AddStringToObject(o, "token", kd_job_token(job));
+    cJSON_AddStringToObject(o, "state", state_word(s));
+    cJSON_AddNumberToObject(o, "place", s->place);
+    cJSON_AddNumberToObject(o, "frames", s->frames);
+    cJSON_AddNumberToObject(o, "finished", s->finished);
+    cJSON_AddNumberToObject(o, "fraction", s->fraction);
+    cJSON_AddItemToObject(o, "remaining_s", isnan(s->remaining_s) ? cJSON_CreateNull() : cJSON_CreateNumber(s->remaining_s));
+    cJSON_AddNumberToObject(o, "bytes", (double)s->bytes);
+    cJSON_AddNumberToObject(o, "created", s->created);
+    cJSON_AddItemToObject(o, "ended", s->ended > 0 ? cJSON_CreateNumber(s->ended) : cJSON_CreateNull());
+    if (s->state == KD_JOB_FAILED)
+        cJSON_AddStringToObject(o, "error", s->error);
+    char *text = cJSON_PrintUnformatted(o);
+    cJSON_Delete(o);
+    enum kd_status status = text ? kd_buffer_printf(out, "%s", text) : KD_ENOMEM;
+    cJSON_free(text);
+    return status;
+}
+
+static enum MHD_Result answer(struct kd_request *request, struct kd_job *job, bool created)
+{
+    struct kd_buffer json = { 0 };
+    struct kd_job_status state;
+    kd_job_status(job, &state);
+    enum kd_status status = to_json(job, &state, created, &json);
+    if (!status)
+        status = kd_buffer_append(&json, "\n", 1);
+    if (status || !created)
+        return kd_reply_json(request, status, &json, JSON_TYPE);
+    char location[40];
+    snprintf(location, sizeof location, "/v1/jobs/%s", kd_job_id(job));
+    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+    if (response)
+        MHD_add_response_header(response, "Location", location);
+    return kd_reply_send(request, MHD_HTTP_ACCEPTED, response);
+}
+
+/* "" where it cannot be told. */
+static void client_of(struct kd_request *request, char *out, size_t size)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(request->mhd, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+    const struct sockaddr *address = info ? info->client_addr : NULL;
+    socklen_t length = address && address->sa_family == AF_INET6 ? sizeof(struct sockaddr_in6) : sizeof(struct sockaddr_in);
+    if (!address || getnameinfo(address, length, out, (socklen_t)size, NULL, 0, NI_NUMERICHOST))
+        *out = 0;
+}
+
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool quota)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    double s = kd_jobs_remaining_s(request->server->jobs);
+    if (error->status == KD_EINVAL)
+        problem.type = *error->pointer ? KD_PROBLEM_INVALID_JOB : KD_PROBLEM_MALFORMED_JSON;
+    if (quota)
+        problem.type = KD_PROBLEM_QUOTA;
+    if (error->status == KD_EBUSY)
+        problem.retry_after = s < 3600 ? 1 + (unsigned)s : s >= 3600 ? 3600 : 10;
+    return kd_reply_problem(request, &problem);
+}
+
+enum MHD_Result kd_handle_jobs(struct kd_request *request)
+{
+    const char *text = request->body.data ? (const char *)request->body.data : "";
+    char client[48];
+    bool quota;
+    struct kd_job *job;
+    struct kd_error error = { 0 };
+    if (request->target.n_pairs)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
+                                                                .detail = "parameters belong to the document, not to the query" });
+    if (atomic_load(&request->server->phase) >= KD_REFUSING)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
+                                                                .detail = "the server is stopping and takes no new jobs" });
+    client_of(request, client, sizeof client);
+    if (kd_jobs_open(request->server->jobs, text, request->body.size, client, &quota, &job, &error))
+        return refuse(request, &error, quota);
+    enum MHD_Result result = answer(request, job, true);
+    kd_job_release(job);
+    return result;
+}
+
+enum MHD_Result kd_handle_job(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_job *job = kd_job_of(request, &result);
+    if (!job)
+        return result;
+    if (strcmp(request->method, "DELETE")) {
+        result = answer(request, job, false);
+    } else if (!kd_secret_equal(kd_job_token(job), kd_token_of(request))) {
+        result = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                                                  .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
+    } else {
+        kd_job_delete(job);
+        result = kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    }
+    kd_job_release(job);
+    return result;
+}
+
+struct events {
+    struct kd_job_watcher watcher; /* first */
+    struct kd_buffer text;         /* of one event */
+    size_t at;
+    bool over;
+};
+
+static enum kd_status write_event(struct events *e)
+{
+    struct kd_job_status s;
+    struct kd_buffer json = { 0 };
+    kd_job_status(e->watcher.job, &s);
+    e->over = s.deleted || s.state != KD_JOB_ACTIVE;
+    enum kd_status status = to_json(e->watcher.job, &s, false, &json);
+    if (!status)
+        status = kd_buffer_printf(&e->text, "event: %s\ndata: %s\n\n", e->over ? "end" : "progress", (const char *)json.data);
+    kd_buffer_finish(&json);
+    return status;
+}
+
+static enum kd_status next_event(struct events *e, ssize_t *instead)
+{
+    e->text.size = e->at = 0;
+    if (e->over) {
+        *instead = MHD_CONTENT_READER_END_OF_STREAM;
+        return KD_OK;
+    }
+    switch (kd_job_await(&e->watcher)) {
+    case KD_JOB_NEWS: return write_event(e);
+    case KD_JOB_OVER: *instead = MHD_CONTENT_READER_END_OF_STREAM; return KD_OK; /* the server stops; the job may go on later */
+    case KD_JOB_LATER: *instead = 0; return KD_OK;
+    case KD_JOB_LATE: /* a sign of life, which also finds out who has left without a word */
+        e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
+        return kd_buffer_printf(&e->text, ":\n\n");
+    }
+    return KD_OK;
+}
+
+static ssize_t produce_events(void *cls, uint64_t position, char *to, size_t size)
+{
+    struct events *e = cls;
+    ssize_t instead = 0;
+    (void)position;
+    if (e->at == e->text.size && next_event(e, &instead))
+        return MHD_CONTENT_READER_END_WITH_ERROR;
+    size_t left = e->text.size - e->at, n = left < size ? left : size;
+    if (!n)
+        return instead;
+    memcpy(to, e->text.data + e->at, n);
+    e->at += n;
+    return (ssize_t)n;
+}
+
+static void release_events(void *cls)
+{
+    struct events *e = cls;
+    kd_job_unwatch(&e->watcher);
+    kd_buffer_finish(&e->text);
+    free(e);
+}
+
+enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_ContentReaderCallback produce, void *cls,
+                              MHD_ContentReaderFreeCallback release)
+{
+    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, cls, release);
+    if (!response) {
+        release(cls);
+        return MHD_NO;
+    }
+    MHD_add_response_header(response, "Content-Type", type);
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
+    enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
+    /* It may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
+    return result;
+}
+
+enum MHD_Result kd_handle_job_events(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_job *job = kd_job_of(request, &result);
+    if (!job)
+        return result;
+    struct events *e = request->head ? NULL : calloc(1, sizeof *e);
+    if (!e) {
+        kd_job_release(job);
+        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(request->route->answer))
+                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    e->watcher = (struct kd_job_watcher) { .job = job, .mhd = request->mhd, .revision = UINT_MAX,
+                                           .deadline_ms = kd_clock_ms() + HEARTBEAT_MS };
+    kd_job_watch(&e->watcher);
+    return kd_job_stream(request, request->route->answer, produce_events, e, release_events);
+}

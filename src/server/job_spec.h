@@ -1,0 +1,37 @@
+/* What a job renders: listed scenes, or one scene that keyframes change. Pure; any thread.
+ *
+ * {"scene": {...}}                one picture
+ * {"scenes": [{...}, ...]}        a picture each
+ * {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation": "smooth"}
+ *
+ * A keyframe's scene is a merge patch of the keyframe before; what holds at frame 0 without a keyframe there is "scene". Between
+ * keyframes real numbers are interpolated, everything else keeps the value of the keyframe before. After the last nothing changes. */
+#ifndef KD_SERVER_JOB_SPEC_H
+#define KD_SERVER_JOB_SPEC_H
+
+#include "scene/scene.h"
+
+#define KD_JOB_BODY_MAX (4u << 20)
+#define KD_JOB_FRAMES_MAX 10000
+
+struct kd_job_key {
+    unsigned frame;
+    struct kd_scene scene;
+};
+
+struct kd_job_spec {
+    unsigned frames;
+    struct kd_job_key *keys; /* listed: one a frame; else the keyframes, the first at frame 0, growing */
+    size_t n_keys;
+    bool listed;
+    bool smooth; /* monotone cubics instead of straight lines */
+};
+
+/* Every scene of a list and every keyframe is valid afterwards. KD_EINVAL with the pointer into the request. */
+enum kd_status kd_job_spec_parse(const char *text, size_t length, struct kd_job_spec *out, struct kd_error *error);
+void kd_job_spec_finish(struct kd_job_spec *spec);
+
+/* The scene of a frame, valid; KD_EINVAL where what lies between two keyframes is not. */
+enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error);
+
+#endif

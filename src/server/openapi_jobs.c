@@ -1,0 +1,32 @@
+#include "server/openapi_jobs.h"
+
+#include "server/job_spec.h"
+
+#define SCENE "{\"$ref\":\"#/components/schemas/Scene\"}"
+#define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,"
+#define COUNT "{\"type\":\"integer\",\"minimum\":0}"
+
+static const char request[] =
+    "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" SCENE ",\"keyframes\":{\"type\":\"array\",\"minItems\":1,"
+    "\"maxItems\":1000,\"items\":" OBJECT "\"required\":[\"frame\",\"scene\"],\"properties\":{\"frame\":{\"type\":\"integer\",\"minimum\":0,"
+    "\"maximum\":9999},\"scene\":{\"type\":\"object\"}}}},\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
+    "\"interpolation\":{\"enum\":[\"linear\",\"smooth\"]}}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    "\"minItems\":1,\"maxItems\":10000,\"items\":" SCENE "}}}]}";
+
+static const char answer[] =
+    "{\"type\":\"object\",\"properties\":{\"id\":{\"type\":\"string\"},\"token\":{\"type\":\"string\"},\"state\":{\"enum\":[\"waiting\",\"running\","
+    "\"done\",\"failed\",\"deleted\"]},\"place\":" COUNT ",\"frames\":" COUNT ",\"finished\":" COUNT ",\"fraction\":{\"type\":\"number\"},"
+    "\"remaining_s\":{\"type\":[\"number\",\"null\"]},\"bytes\":" COUNT ",\"created\":{\"type\":\"number\"},\"ended\":{\"type\":[\"number\","
+    "\"null\"]},\"error\":{\"type\":\"string\"}}}";
+
+_Static_assert(KD_JOB_FRAMES_MAX == 10000, "openapi.json says so");
+
+void kd_openapi_jobs_bodies(cJSON *operation, cJSON *ok)
+{
+    cJSON *body = cJSON_AddObjectToObject(operation, "requestBody");
+    cJSON_AddTrueToObject(body, "required");
+    cJSON *content = cJSON_AddObjectToObject(body, "content");
+    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(request));
+    content = cJSON_AddObjectToObject(ok, "content");
+    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(answer));
+}

@@ -1,0 +1,463 @@
+"""Jobs: what is asked, progress by asking and as events, results of every form, ends, limits, restarts. In the fake renderer's scenes
+`time` is how many milliseconds a frame takes."""
+import io
+import json
+import os
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+import zipfile
+import zlib
+
+import daemon
+
+IMAGE = {'width': 32, 'height': 18}
+SCENE = {'image': IMAGE, 'time': 5}
+SLOW = {'image': IMAGE, 'time': 30000}
+
+
+# Of test_smooth, by scipy.interpolate:
+#   x, y = [0, 10, 15, 40, 50], [10, 20, 80, 75, 75]; d = PchipInterpolator(x, y).derivative()(x); d[0] = d[-1] = 0; CubicHermiteSpline(x, y, d)
+SMOOTH = {0: 10, 4: 11.56377358490566, 9: 18.06943396226415, 10: 20, 12: 42.587169811320756, 15: 80, 30: 76.76, 45: 75, 50: 75}
+
+
+def size(png):
+    return struct.unpack('>II', png[16:24])
+
+
+def scene_of(png):
+    """The scene that a picture says it shows."""
+    at = 8
+    while at < len(png):
+        n, kind = struct.unpack('>I4s', png[at:at + 8])
+        data = png[at + 8:at + 8 + n]
+        if kind == b'tEXt' and data.startswith(b'kerrd:scene\0'):
+            return json.loads(data.split(b'\0', 1)[1])
+        if kind == b'zTXt' and data.startswith(b'kerrd:scene\0'):
+            return json.loads(zlib.decompress(data.split(b'\0', 1)[1][1:]))
+        if kind == b'iTXt' and data.startswith(b'kerrd:scene\0'):
+            packed, text = data[12], data[14:].split(b'\0', 2)[2]
+            return json.loads(zlib.decompress(text) if packed else text)
+        at += 12 + n
+    raise AssertionError('a picture without a scene')
+
+
+class Case(daemon.Case):
+    def setUp(self):
+        self.opened = []
+
+    def tearDown(self):
+        for job in self.opened:
+            self.daemon.request('DELETE', self.at(job), headers=self.owner(job))
+        super().tearDown()
+
+    def post(self, body, server=None):
+        answer = (server or self.daemon).post('/v1/jobs', body)
+        self.assertEqual(answer.status, 202, answer.body)
+        job = answer.json()
+        self.assertEqual(answer.header('Location'), '/v1/jobs/' + job['id'])
+        if not server:
+            self.opened.append(job)
+        return job
+
+    @staticmethod
+    def at(job, rest=''):
+        return '/v1/jobs/' + job['id'] + rest
+
+    @staticmethod
+    def owner(job):
+        return {'Authorization': 'Bearer ' + job['token']}
+
+    def status(self, job, server=None):
+        return (server or self.daemon).get(self.at(job)).json()
+
+    def until(self, job, state, server=None, timeout=20):
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['state'] == state, timeout), self.status(job, server))
+        return self.status(job, server)
+
+    def stream(self, job, rest, timeout=20):
+        s = self.daemon.connect(timeout)
+        s.sendall(f'GET {self.at(job, rest)} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n'.encode())
+        return s
+
+    def frames(self, job, first=0):
+        """number -> png, of a stream to its end"""
+        body = self.daemon.get(self.at(job, f'/result?format=stream&frame={first}')).body
+        found = {}
+        while body:
+            n, number, zero, none = struct.unpack('<4I', body[:16])
+            self.assertEqual((zero, none), (0, 0))
+            found[number] = body[16:16 + n]
+            body = body[16 + n:]
+        return found
+
+
+class Jobs(Case):
+    options = ('--jobs', 4)
+
+    def test_one_picture(self):
+        job = self.post({'scene': SCENE})
+        self.assertRegex(job['id'], '^[0-9a-f]{16}$')
+        self.assertRegex(job['token'], '^[0-9a-f]{32}$')
+        done = self.until(job, 'done')
+        self.assertNotIn('token', done)
+        self.assertEqual((done['frames'], done['finished'], done['fraction'], done['remaining_s'], done['place']), (1, 1, 1, None, 0))
+        self.assertTrue(done['created'] <= done['ended'] <= time.time())
+        png = self.daemon.get(self.at(job, '/result'))
+        self.assertEqual((png.status, png.header('Content-Type'), len(png.body)), (200, 'image/png', done['bytes']))
+        self.assertEqual(size(png.body), (32, 18))
+        self.assertEqual(scene_of(png.body)['time'], 5)
+        head = self.daemon.request('HEAD', self.at(job, '/result'))
+        self.assertEqual((head.status, head.body), (200, b''))
+
+    def test_list_as_zip(self):
+        job = self.post({'scenes': [{'image': {'width': 20 + i, 'height': 9}} for i in range(12)]})
+        self.until(job, 'done')
+        answer = self.daemon.get(self.at(job, '/result'))
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/zip'))
+        with zipfile.ZipFile(io.BytesIO(answer.body)) as z:
+            self.assertIsNone(z.testzip())
+            self.assertEqual(z.namelist(), [f'{i:06}.png' for i in range(12)])
+            self.assertEqual([size(z.read(n))[0] for n in z.namelist()], list(range(20, 32)))
+            self.assertEqual({i.compress_type for i in z.infolist()}, {zipfile.ZIP_STORED})
+            for i in (0, 11):
+                self.assertEqual(self.daemon.get(self.at(job, f'/result?format=png&frame={i}')).body, z.read(f'{i:06}.png'))
+
+    def test_keyframes(self):
+        job = self.post({'scene': {'image': IMAGE, 'disk': {'outer': 20}, 'camera': {'inclination_deg': 10}}, 'frames': 9,
+                         'keyframes': [{'frame': 4, 'scene': {'camera': {'inclination_deg': 30}, 'spacetime': {'spin': 0.9},
+                                                              'sky': {'model': 'grid'}, 'image': {'width': 36}, 'style': {'exposure': 1}}},
+                                       {'frame': 6, 'scene': {'time': 8, 'disk': None}}]})
+        scenes = [scene_of(png) for png in self.frames(job).values()]
+        self.assertEqual(len(scenes), 9)
+
+        def all_of(section, name):
+            return [round(s[section][name] if section else s[name], 12) for s in scenes]
+        self.assertEqual(all_of('camera', 'inclination_deg'), [10, 15, 20, 25, 30, 30, 30, 30, 30])
+        self.assertEqual(all_of('spacetime', 'spin'), [0.7, 0.75, 0.8, 0.85, 0.9, 0.9, 0.9, 0.9, 0.9])
+        self.assertEqual(all_of('', 'time'), [0, 0, 0, 0, 0, 4, 8, 8, 8])
+        self.assertEqual(all_of('disk', 'outer'), [20, 20, 20, 20, 20, 21, 22, 22, 22])
+        self.assertEqual(all_of('image', 'width'), [32] * 4 + [36] * 5)
+        self.assertEqual([s['sky']['model'] for s in scenes], ['none'] * 4 + ['grid'] * 5)
+        self.assertEqual([s['style']['exposure'] for s in scenes], ['auto'] * 4 + [1] * 5)  # a word steps, too
+
+    def test_smooth(self):
+        at = {0: 10, 10: 20, 15: 80, 40: 75, 50: 75}
+        job = self.post({'scene': {'image': IMAGE}, 'interpolation': 'smooth',
+                         'keyframes': [{'frame': f, 'scene': {'camera': {'inclination_deg': v}}} for f, v in at.items()]})
+        found = [scene_of(png)['camera']['inclination_deg'] for png in self.frames(job).values()]
+        for frame, value in SMOOTH.items():
+            self.assertAlmostEqual(found[frame], value, places=10, msg=frame)
+        self.assertTrue(all(a <= b for a, b in zip(found[:15], found[1:16])) and all(a >= b for a, b in zip(found[15:], found[16:])))
+
+    def test_progress(self):
+        job = self.post({'scenes': [{**SCENE, 'time': 300}] * 4})
+        seen = []
+        while not seen or seen[-1]['state'] in ('waiting', 'running'):
+            seen.append(self.status(job))
+            time.sleep(0.04)
+        fractions = [s['fraction'] for s in seen]
+        self.assertEqual(seen[-1]['state'], 'done')
+        self.assertGreater(len({f for f in fractions if 0 < f < 0.25}), 1, fractions)  # within a frame
+        self.assertGreater(len({s['finished'] for s in seen}), 3)
+        last = [s['remaining_s'] for s in seen if s['finished'] == 3 and s['remaining_s'] is not None]
+        self.assertTrue(last and all(0 <= s < 1 for s in last), last)
+
+    def test_events(self):
+        job = self.post({'scenes': [{**SCENE, 'time': 200}] * 3})
+        with self.stream(job, '/events') as s:
+            answer = daemon.read_answer(s)
+        self.assertEqual(answer.header('Content-Type'), 'text/event-stream')
+        events = [dict(line.split(': ', 1) for line in e.split('\n')) for e in answer.body.decode().split('\n\n') if e and e != ':']
+        data = [json.loads(e['data']) for e in events]
+        self.assertEqual({e['event'] for e in events[:-1]}, {'progress'})
+        self.assertEqual((events[-1]['event'], data[-1]['state'], data[-1]['finished']), ('end', 'done', 3))
+        self.assertGreater(len(data), 5)
+        self.assertTrue(all(a['finished'] <= b['finished'] for a, b in zip(data, data[1:])))
+        self.assertNotIn('token', answer.body.decode())
+        with self.stream(job, '/events') as s:  # of one that is over
+            self.assertEqual(daemon.read_answer(s).body.count(b'event: end'), 1)
+
+    def test_stream_as_they_come(self):
+        job = self.post({'scenes': [{**SCENE, 'time': 250}] * 4})
+        came, body = [], b''
+        with self.stream(job, '/result?format=stream') as s:
+            while part := s.recv(65536):
+                body += part
+                came.append(time.monotonic())
+        self.assertGreater(came[-1] - came[0], 0.5)
+        self.assertEqual(list(self.frames(job)), [0, 1, 2, 3])
+        self.assertEqual(list(self.frames(job, 2)), [2, 3])
+
+    def test_disconnected(self):
+        before = self.daemon.open_files()
+        job = self.post({'scenes': [{**SCENE, 'time': 100}] * 5})
+        for rest in ('/events', '/result?format=stream'):
+            for _ in range(4):
+                s = self.stream(job, rest)
+                time.sleep(0.02)
+                s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack('ii', 1, 0))
+                s.close()
+        self.until(job, 'done')
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before + 1))
+
+    def test_in_turn(self):
+        first, second = self.post({'scene': SLOW}), self.post({'scene': SCENE})
+        self.assertTrue(daemon.eventually(lambda: self.status(first)['fraction'] > 0))
+        waiting = self.status(second)
+        self.assertEqual((waiting['state'], waiting['place'], waiting['remaining_s']), ('waiting', 1, None))
+        begun = time.monotonic()
+        self.assertEqual(self.daemon.request('DELETE', self.at(first), headers=self.owner(first)).status, 204)
+        self.until(second, 'done')
+        self.assertLess(time.monotonic() - begun, 3)  # what was running has been dropped
+
+    def test_delete(self):
+        job, other = self.post({'scene': SLOW}), self.post({'scene': SLOW})
+        watched = []
+        thread = threading.Thread(target=lambda: watched.append(self.daemon.get(self.at(job, '/events')).body))
+        thread.start()
+        time.sleep(0.3)
+        for headers in ({}, self.owner(other), {'Authorization': 'Bearer ' + job['token'][:-1]}):
+            self.assertProblem(self.daemon.request('DELETE', self.at(job), headers=headers), 403, 'forbidden')
+        self.assertEqual(self.daemon.request('DELETE', self.at(job), headers=self.owner(job)).status, 204)
+        thread.join(5)
+        self.assertIn(b'event: end', watched[0])
+        self.assertIn(b'"state":"deleted"', watched[0])
+        for rest in ('', '/events', '/result'):
+            self.assertProblem(self.daemon.get(self.at(job, rest)), 404, 'not-found')
+
+    def test_a_stream_of_a_deleted_job_does_not_look_complete(self):
+        job = self.post({'scenes': [SCENE, SLOW]})
+        self.assertTrue(daemon.eventually(lambda: self.status(job)['finished'] == 1))
+        with self.stream(job, '/result?format=stream') as s:
+            s.recv(100)
+            self.daemon.request('DELETE', self.at(job), headers=self.owner(job))
+            rest = b''
+            while part := s.recv(65536):
+                rest += part
+        self.assertFalse(rest.endswith(b'0\r\n\r\n'))
+
+    def test_what_others_wait_for_goes_first(self):
+        job = self.post({'scenes': [{**SCENE, 'time': 300}] * 6})
+        for i in range(4):
+            begun = time.monotonic()
+            answer = self.daemon.get(f'/v1/render?image.width=40&image.height=20&time={i}')
+            self.assertEqual(answer.status, 200)
+            self.assertLess(time.monotonic() - begun, 0.8)  # the frame under way at most
+        self.assertLess(self.status(job)['finished'], 6)
+
+    def test_others_cannot_stop_it(self):
+        over = threading.Event()
+
+        def ask(i):
+            while not over.is_set():
+                self.daemon.get(f'/v1/render?image.width=40&image.height={20 + i}&time=100')
+        threads = [threading.Thread(target=ask, args=(i,)) for i in range(3)]
+        for t in threads:
+            t.start()
+        try:
+            time.sleep(0.2)
+            job = self.post({'scenes': [SCENE] * 2})
+            self.until(job, 'done', timeout=10)
+        finally:
+            over.set()
+            for t in threads:
+                t.join()
+
+    def test_not_ready(self):
+        job = self.post({'scenes': [SCENE, SLOW]})
+        self.assertTrue(daemon.eventually(lambda: self.status(job)['finished'] == 1))
+        self.assertProblem(self.daemon.get(self.at(job, '/result')), 409, 'not-ready')
+        self.assertProblem(self.daemon.get(self.at(job, '/result?format=png&frame=1')), 409, 'not-ready')
+        self.assertEqual(self.daemon.get(self.at(job, '/result?format=png&frame=0')).status, 200)
+
+    def test_a_frame_that_fails(self):
+        job = self.post({'scenes': [SCENE, {**SCENE, 'time': -3}, SCENE]})
+        self.assertEqual(self.until(job, 'failed')['error'], 'something failed')
+        self.assertTrue(daemon.eventually(lambda: self.status(job)['finished'] == 1))  # the one before was still being encoded
+        self.assertIn('something failed', self.assertProblem(self.daemon.get(self.at(job, '/result')), 409, 'not-ready')['detail'])
+        self.assertEqual(self.daemon.get(self.at(job, '/result?format=png')).status, 200)
+        self.until(self.post({'scene': SCENE}), 'done')
+
+    def test_bad_requests(self):
+        key = {'frame': 3, 'scene': {}}
+        long = [{'disk': {'outer': 30}}] * 2 + [{'disk': {'outer': 1}}]
+        for body, status, pointer in (
+                ('{', 400, None), ('', 400, None), ('[]', 400, None), ('{}', 422, '/scene'), ('{"scenes":[]}', 422, '/scenes'),
+                ({'scenes': {}}, 422, '/scenes'), ({'scenes': long}, 422, '/scenes/2/disk/outer'), ({'scenes': [3]}, 422, '/scenes/0'),
+                ({'scenes': [{}], 'scene': {}}, 422, '/scenes'), ({'scene': {}, 'x/y': 1}, 422, '/x~1y'),
+                ('{"scene":{},"scene":{}}', 422, '/scene'), ('{"scene":{"time":1,"time":2}}', 422, '/scene/time'),
+                ({'scene': {'camera': {'inclination_deg': 181}}}, 422, '/scene/camera/inclination_deg'),
+                ({'scene': {'disk': {'outer': None}}}, 422, '/scene/disk/outer'), ({'scene': {}, 'frames': 3}, 422, '/frames'),
+                ({'scene': {}, 'interpolation': 'linear'}, 422, '/interpolation'), ({'scene': {}, 'keyframes': []}, 422, '/keyframes'),
+                ({'scene': {}, 'keyframes': {}}, 422, '/keyframes'), ({'scene': {}, 'keyframes': [1]}, 422, '/keyframes/0'),
+                ({'scene': {}, 'keyframes': [{'frame': 1}]}, 422, '/keyframes/0'), ({'scene': {}, 'keyframes': [key, key]}, 422, '/keyframes/1/frame'),
+                ({'scene': {}, 'keyframes': [{**key, 'frame': 1.5}]}, 422, '/keyframes/0/frame'),
+                ({'scene': {}, 'keyframes': [{**key, 'frame': 10000}]}, 422, '/keyframes/0/frame'),
+                ({'scene': {}, 'keyframes': [{**key, 'y': 1}]}, 422, '/keyframes/0/y'),
+                ({'scene': {}, 'keyframes': [{'frame': 2, 'scene': {'camera': {'x': 1}}}]}, 422, '/keyframes/0/scene/camera/x'),
+                ({'scene': {}, 'keyframes': [key], 'frames': 3}, 422, '/frames'), ({'scene': {}, 'keyframes': [key], 'frames': 10001}, 422, '/frames'),
+                ({'scene': {}, 'keyframes': [key], 'interpolation': 'cubic'}, 422, '/interpolation'),
+                ({'scenes': [{}] * 10001}, 422, '/scenes'), ({'scenes': [{}, {'accuracy': {'tolerance': 1e-15}}]}, 422, '/scenes/1/accuracy/tolerance'),
+                # valid at both ends, with the disk's edge inside the ISCO between them
+                ({'scene': {'spacetime': {'spin': -0.9}, 'disk': {'outer': 9.5}},
+                  'keyframes': [{'frame': 10, 'scene': {'spacetime': {'spin': 0.998}, 'disk': {'outer': 1.5}}}]}, 422, '/keyframes')):
+            with self.subTest(str(body)[:100]):
+                problem = self.assertProblem(self.daemon.post('/v1/jobs', body), status, 'malformed-json' if status == 400 else 'invalid-job')
+                if pointer:
+                    self.assertEqual(problem['pointer'], pointer)
+        self.assertProblem(self.daemon.post('/v1/jobs?preset=x', {'scene': {}}), 422, 'invalid-parameters')
+        self.assertProblem(self.daemon.post('/v1/jobs', {'scenes': [{'image': {'width': 20000, 'height': 20000, 'samples': 8}}]}), 422, 'too-large',
+                           '/scenes/0')
+        job = self.post({'scenes': [SCENE] * 2})
+        for rest in ('?format=gif', '?frame=2&format=png', '?format=png&frame=x', '?format=zip&frame=1'):
+            self.assertProblem(self.daemon.get(self.at(job, '/result' + rest)), 422, 'invalid-parameters')
+        self.assertProblem(self.daemon.get('/v1/jobs'), 405)
+        refused = self.daemon.request('PATCH', self.at(job), '{}')
+        self.assertProblem(refused, 405)
+        self.assertEqual(refused.header('Allow'), 'GET, HEAD, DELETE')
+
+    def test_as_many_as_may(self):
+        jobs = [self.post({'scene': SLOW}) for _ in range(4)]
+        refused = self.daemon.post('/v1/jobs', {'scene': SCENE})
+        self.assertProblem(refused, 503, 'queue-full')
+        self.assertGreater(int(refused.header('Retry-After')), 0)
+        self.daemon.request('DELETE', self.at(jobs[1]), headers=self.owner(jobs[1]))
+        self.post({'scene': SCENE})
+
+    def test_finished_ones_make_room(self):
+        first = None
+        for _ in range(70):
+            job = self.post({'scene': {'image': {'width': 2, 'height': 2}}})
+            first = first or job
+            self.until(job, 'done')
+        self.assertEqual(self.daemon.get(self.at(first)).status, 404)
+
+
+class Quota(Case):
+    options = ('--client-jobs', 2, '--jobs', 10, '--jobs-kib', 4)
+
+    def test_of_one_client(self):
+        for _ in range(2):
+            self.post({'scene': SLOW})
+        refused = self.daemon.post('/v1/jobs', {'scene': SCENE})
+        self.assertProblem(refused, 429, 'quota')
+        self.assertTrue(refused.header('Retry-After'))
+
+    def test_of_bytes(self):
+        failed = self.until(self.post({'scenes': [{'image': {'width': 64, 'height': 64, 'samples': 2}}] * 3}), 'failed')
+        self.assertIn('bytes', failed['error'])
+
+
+class State(Case):
+    def setUp(self):
+        super().setUp()
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def start(self):
+        return daemon.Daemon('--drain-ms', 10, '--state', self.folder)
+
+    def folders(self):
+        return sorted(n for n in os.listdir(os.path.join(self.folder, 'jobs')) if n != 'lock')
+
+    def test_goes_on(self):
+        for kill in (False, True):
+            with self.subTest(kill=kill):
+                server = self.start()
+                ended = self.post({'scene': SCENE}, server)
+                self.until(ended, 'done', server)
+                job, next_one = self.post({'scenes': [{**SCENE, 'time': 150 + i} for i in range(8)]}, server), self.post({'scene': SCENE}, server)
+                self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 2))
+                first = server.get(self.at(job, '/result?format=png')).body
+                if kill:
+                    server.process.send_signal(signal.SIGKILL)
+                    server.wait()
+                else:
+                    self.assertEqual(server.stop(), 0)
+                written = os.stat(os.path.join(self.folder, 'jobs', job['id'], '000000.png')).st_mtime_ns
+                server = self.start()
+                again = self.status(job, server)
+                self.assertTrue(2 <= again['finished'] < 8 and again['state'] == 'running', again)
+                self.assertEqual(self.status(next_one, server)['place'], 1)
+                self.until(job, 'done', server)
+                self.until(next_one, 'done', server)
+                with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+                    self.assertEqual([scene_of(z.read(n))['time'] for n in z.namelist()], list(range(150, 158)))
+                    self.assertEqual(z.read('000000.png'), first)
+                self.assertEqual(os.stat(os.path.join(self.folder, 'jobs', job['id'], '000000.png')).st_mtime_ns, written)
+                self.assertEqual(server.get(self.at(ended, '/result')).status, 200)
+                for j in (job, next_one, ended):
+                    self.assertEqual(server.request('DELETE', self.at(j), headers=self.owner(j)).status, 204)
+                self.assertTrue(daemon.eventually(lambda: not self.folders()))
+                self.assertEqual(server.stop(), 0)
+
+    def test_what_ends_the_server_is_given_up(self):
+        server = self.start()
+        job = self.post({'scenes': [SCENE, {**SCENE, 'time': -1}]}, server)
+        for i in range(3):
+            self.assertEqual(server.wait(), 1)
+            try:
+                server = self.start()
+            except RuntimeError:
+                self.fail('it did not start')
+        # The frame before it came when the server was started first, so that only the later starts were without one.
+        if self.status(job, server)['state'] != 'failed':
+            self.assertEqual(server.wait(), 1)
+            server = self.start()
+        failed = self.status(job, server)
+        self.assertEqual((failed['state'], failed['finished']), ('failed', 1), failed)
+        self.assertIn('ended 3 times', failed['error'])
+        self.until(self.post({'scene': SCENE}, server), 'done', server)
+        self.assertEqual(server.stop(), 0)
+
+    def test_remains(self):
+        server = self.start()
+        kept = self.post({'scene': SCENE}, server)
+        self.until(kept, 'done', server)
+        self.assertEqual(server.stop(), 0)
+        jobs = os.path.join(self.folder, 'jobs')
+        for name, files in (('0123456789abcdef', {'000000.png': 'x'}), ('0123456789abcdee', {'request.json': '{}', 'job.json': '{"format":1'}),
+                            ('notes', {'mine.txt': 'x'})):
+            os.mkdir(os.path.join(jobs, name))
+            for file, text in files.items():
+                with open(os.path.join(jobs, name, file), 'w', encoding='ascii') as f:
+                    f.write(text)
+        server = self.start()
+        self.assertEqual(self.folders(), sorted([kept['id'], 'notes']))
+        self.assertEqual(server.stop(), 0)
+
+    def test_one_server_a_folder(self):
+        server = self.start()
+        second = subprocess.run([*daemon.COMMAND, '--port', '0', '--state', self.folder], capture_output=True, text=True, timeout=20)
+        self.assertEqual(second.returncode, 1)
+        self.assertIn('another server', second.stderr)
+        self.assertEqual(server.stop(), 0)
+
+    def test_without_a_folder_nothing_stays(self):
+        tmp = os.environ.get('TMPDIR')
+        os.environ['TMPDIR'] = self.folder
+        try:
+            server = daemon.Daemon('--drain-ms', 10)
+        finally:
+            os.environ.pop('TMPDIR')
+            if tmp:
+                os.environ['TMPDIR'] = tmp
+        self.until(self.post({'scenes': [SCENE] * 3}, server), 'done', server)
+        job = self.post({'scene': SLOW}, server)
+        self.assertEqual(len(os.listdir(self.folder)), 1)
+        begun = time.monotonic()
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['fraction'] > 0))
+        self.assertEqual(server.stop(), 0)
+        self.assertLess(time.monotonic() - begun, 5)  # the frame has been dropped
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == '__main__':
+    daemon.main()
