@@ -107,28 +107,55 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
+/* Whether frames that reuse a lens map may have this one: it has to be traced first. */
+static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
+{
+    return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
+}
+
+static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t to,
+                      bool rest_stays)
+{
+    const struct kd_rung *rungs = g->ladder.rungs;
+    return predict(cost, &rungs[pace->rung], &rungs[to], rest_stays) <= CLIMB_BELOW * g->params.target_ms &&
+           traceable(g, pace, &rungs[to], CLIMB_BELOW * g->params.stall_ms);
+}
+
 /* As far as is safe; else one rung on the better assumption, for if that is wrong the rung is left again, and not climbed to soon.
  * */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
-    const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung];
-    double limit = CLIMB_BELOW * g->params.target_ms;
     uint32_t ceiling = now - pace->failed_at < pace->retry_ms ? pace->ceiling : 0, to = pace->rung;
-    while (to > ceiling && predict(cost, here, &rungs[to - 1], false) <= limit)
+    while (to > ceiling && may_climb(g, pace, cost, to - 1, false))
         to--;
-    if (to == pace->rung && to > ceiling && predict(cost, here, here - 1, true) <= limit)
+    if (to == pace->rung && to > ceiling && may_climb(g, pace, cost, to - 1, true))
         to--;
     if (to < pace->rung)
         move(pace, to, true, now);
 }
 
-static void decide(const struct kd_governor *g, struct kd_pace *pace, double now)
+static void spare_a_stall(struct kd_governor *g, double now)
 {
-    const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung];
+    struct kd_pace *pace = &g->paces[0];
+    uint32_t last = (uint32_t)g->ladder.n_rungs - 1, to = pace->rung;
+    while (to < last && !traceable(g, pace, &g->ladder.rungs[to], g->params.stall_ms))
+        to++;
+    if (to > pace->rung)
+        move(pace, to, false, now);
+}
+
+static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
+{
+    const struct kd_rung *here = &g->ladder.rungs[pace->rung];
     bool far = far_over(g, pace);
     if (!far && pace->count < ENOUGH)
         return;
     struct kd_frame_cost cost = far ? mean_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
+    if (pace == &g->paces[1]) {
+        g->traced = cost;
+        g->traced_on = *here;
+        spare_a_stall(g, now);
+    }
     if (far || cost.total_ms > OVER * g->params.target_ms) {
         if (pace->rung + 1 < g->ladder.n_rungs)
             move(pace, first_that_fits(g, &cost, here, pace->rung + 1), false, now);

@@ -30,6 +30,8 @@
  * - Up as far as would take at most 80 % of the target if all of the cost grew, or by one rung if only what is known to grow did;
  *   not within a second of the last change.
  * - After each change of rung averages start again.
+ * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
+ *   on.
  *
  * When nothing changed for rest_ms: the steps of the ladder, one frame each, those that are less than what is shown left out. Then
  * nothing, until the next change. A scene that is stepped in time at each frame does not rest. */
@@ -44,9 +46,10 @@
 struct kd_governor_params {
     double target_ms; /* of a frame while the scene changes; over 0 */
     double rest_ms;   /* without a change before the picture is refined */
+    double stall_ms;  /* once, for the lens map that frames are to reuse */
     struct kd_ladder_bounds bounds;
 };
-#define KD_GOVERNOR_DEFAULTS .target_ms = 33, .rest_ms = 150, .bounds = KD_LADDER_BOUNDS_DEFAULT,
+#define KD_GOVERNOR_DEFAULTS .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .bounds = KD_LADDER_BOUNDS_DEFAULT,
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
 /* Where a frame's time went. total_ms is compared with the target: if stages overlap, the longest; if not, the sum. What the parts
@@ -86,6 +89,8 @@ struct kd_governor {
     uint32_t ladders, revision;
     struct kd_pace paces[2];             /* frames that reuse their lens map; that trace it */
     double changed_at, lens_at, hold_ms; /* last change; last one of the lens; how long that counts as lately */
+    struct kd_frame_cost traced;         /* the newest average of frames that trace, */
+    struct kd_rung traced_on;            /* and their rung; no rays: none yet */
     double blind_until, blind_ms;        /* lens maps are not kept, whatever the changes are */
     uint32_t missed;                     /* frames in a row that traced though the lens was the same */
     struct kd_quality shown;

@@ -159,7 +159,8 @@ static void settles_on_a_steady_machine(void **state)
             hopeless++;
         }
         if (rung > 0) /* what would be 80 % of the target was climbed to */
-            assert_true(true_cost(&s, rung - 1, pattern == PLAY) > 0.8 * target);
+            assert_true(true_cost(&s, rung - 1, pattern == PLAY) > 0.8 * target ||
+                        (pattern == PLAY && true_cost(&s, rung - 1, false) > 0.7 * s.governor.params.stall_ms));
     }
     print_message("settled below the target %d times, on the last rung above it %d times\n", reached, hopeless);
     assert_true(reached > 200 && hopeless > 20);
@@ -317,30 +318,31 @@ static struct kd_frame_cost telegraph(const struct simulation *s, const struct k
 
 /* Climbs that were in vain, by the doubling of the wait after each: 8 s (2^n - 1) <= T, those that came before the first wait
  * besides, one a rung; each between a descent and a climb of the whole ladder at most. */
-static void assert_settles(machine *adversary, struct truth truth, enum pattern pattern)
+static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
     begin(&s, kd_governor_params(), 1280, 720, truth);
     s.cost = adversary;
-    run(&s, pattern, 3600e3);
+    run(&s, DRAG, 3600e3);
     uint64_t hour = s.changes, n = s.governor.ladder.n_rungs;
     uint64_t vain = n + (uint64_t)ceil(log2(3600 / 8.0));
     assert_true(hour <= 2 * vain * n);
-    run(&s, pattern, 9 * 3600e3);
-    assert_true(s.changes - hour <= 8 * n); /* log2(10) more tries */
+    run(&s, DRAG, (hours - 1) * 3600e3);
+    assert_true(s.changes - hour <= 8 * n); /* log2(10) more tries at most */
     assert_true(s.least_pause >= 1000);
-    print_message("%llu changes in an hour, %llu in nine more\n", (unsigned long long)hour, (unsigned long long)(s.changes - hour));
+    print_message("%llu changes in an hour, %llu in %d more\n", (unsigned long long)hour, (unsigned long long)(s.changes - hour),
+                  hours - 1);
 }
 
 static void adversaries_are_outwaited(void **state)
 {
     (void)state;
-    assert_settles(slow_after_each_climb, (struct truth) { 0 }, DRAG);
-    assert_settles(greedy, (struct truth) { 0 }, DRAG);
+    assert_settles(slow_after_each_climb, (struct truth) { 0 }, 10);
+    assert_settles(greedy, (struct truth) { 0 }, 10);
     for (int period = 1; period <= 40; period += period < 10 ? 1 : 10)
-        assert_settles(by_count, (struct truth) { .fixed = period }, DRAG);
+        assert_settles(by_count, (struct truth) { .fixed = period }, 2);
     for (double ms = 100; ms < 100e3; ms *= 3.3) /* load that comes and goes every so often */
-        assert_settles(telegraph, (struct truth) { .traced = 20, .reused = 3, .pixels = 3, .spike = ms }, DRAG);
+        assert_settles(telegraph, (struct truth) { .traced = 20, .reused = 3, .pixels = 3, .spike = ms }, 3);
 }
 
 static void no_climb_back_before_the_wait_is_over(void **state)
@@ -388,6 +390,29 @@ static void slow_traced_frames_leave_cheap_ones_alone(void **state)
         assert_true(s.last.final);
     }
     assert_int_equal(s.changes, changes);
+}
+
+/* After a drag the first frame of what goes on in time alone traces, on its own rung. */
+static void the_end_of_a_drag_is_no_stall(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 100; i++) {
+        struct simulation s;
+        double full = 100 * pow(100, uniform());
+        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = full, .reused = 12, .pixels = 10 });
+        run(&s, DRAG, 60e3);
+        double longest = 0;
+        for (double end = s.now + 60e3; s.now < end;) {
+            double before = s.now;
+            run(&s, PLAY, 1);
+            longest = fmax(longest, s.now - before);
+        }
+        assert_true(longest <= 1.1 * 500);
+        uint32_t rung = s.governor.paces[0].rung;
+        assert_true(full > 0.7 * 500 ? true_cost(&s, rung, false) <= 1.1 * 500 : s.last.final);
+        /* And no less than that, as far as can be told: orders and steps cost less on this machine than the governor believes. */
+        assert_true(rung == 0 || true_cost(&s, rung - 1, false) > 0.4 * 500);
+    }
 }
 
 /* Also what is seen settles, not only each rung. */
@@ -615,6 +640,7 @@ int main(void)
         cmocka_unit_test(adversaries_are_outwaited),
         cmocka_unit_test(no_climb_back_before_the_wait_is_over),
         cmocka_unit_test(slow_traced_frames_leave_cheap_ones_alone),
+        cmocka_unit_test(the_end_of_a_drag_is_no_stall),
         cmocka_unit_test(mixed_changes_do_not_flicker),
         cmocka_unit_test(lens_maps_that_are_never_kept),
         cmocka_unit_test(rest_refines_to_what_is_asked_and_then_costs_nothing),
