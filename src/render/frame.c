@@ -27,7 +27,7 @@ struct job {
     struct kd_error *error;
 };
 
-static double now_ms(void)
+double kd_render_now_ms(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -130,7 +130,7 @@ static enum kd_status list_band(struct job *j, uint32_t band)
     uint64_t width = (uint64_t)p->width * p->side;
     uint32_t step = slice_rows(p->trace_ns * (double)width, rows);
     enum kd_status status = KD_OK;
-    double start = now_ms();
+    double start = kd_render_now_ms();
     for (uint32_t done = 0; done < rows && !status; done += step) {
         const struct kd_lens_rows part = {
             .first = first + done, .count = rows - done < step ? rows - done : step, .to = lens_buffer(j, band),
@@ -140,7 +140,7 @@ static enum kd_status list_band(struct job *j, uint32_t band)
         if (!status)
             status = report(j, (double)part.count / p->side);
     }
-    j->listed_ms += now_ms() - start;
+    j->listed_ms += kd_render_now_ms() - start;
     return status;
 }
 
@@ -353,11 +353,11 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     }
     if (!status)
         status = finish_pixels(j, frame);
-    double audited = now_ms();
+    double audited = kd_render_now_ms();
     if (!status && !reused)
         status = kd_audit(r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error);
     if (j->plan->audit && !reused)
-        j->audit_ms = now_ms() - audited;
+        j->audit_ms = kd_render_now_ms() - audited;
     if (!status && !reused)
         status = count_undecided(j, &j->lens->accuracy.undecided);
     if (!status && !reused)
@@ -369,7 +369,7 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    double start = now_ms();
+    double start = kd_render_now_ms();
     struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = scene->image.bit_depth };
     struct job job = {
         .r = renderer, .scene = scene, .plan = plan, .camera = kd_camera_push(scene),
@@ -388,7 +388,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         kd_frame_finish(&frame);
         return status;
     }
-    collect_timings(&job, &frame, now_ms() - start);
+    collect_timings(&job, &frame, kd_render_now_ms() - start);
     kd_renderer_learn(renderer, plan, &frame);
     *out = frame;
     return KD_OK;

@@ -26,4 +26,7 @@ struct kd_renderer {
 /* Learn from the device times of a frame: nanoseconds an item, smoothed. */
 void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
 
+/* Of a clock that only goes forward. */
+double kd_render_now_ms(void);
+
 #endif

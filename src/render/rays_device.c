@@ -10,7 +10,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define CHUNK 65536u /* rays a submission: some 40 ms of double precision on two CPU cores */
+/* Rays a submission: few at first, then as many as take TARGET_MS. From the fastest engine to Tao's with its most steps, from a GPU
+ * to one core, a ray's cost varies by a factor of a million; a submission is what others wait for, and drivers reset a device over. */
+#define LEAST 256u
+#define MOST 65536u
+#define TARGET_MS 40.0
 #define HEADER 7u    /* numbers in front of the list in rays.comp, four in rays_kerr_schild.comp */
 
 struct work {
@@ -133,16 +137,26 @@ static void unpack(const struct work *w, size_t i, struct kd_ray_crossing *cross
     }
 }
 
+/* After m rays that took so long. */
+static uint32_t next_size(uint32_t m, double ms)
+{
+    double n = m * fmin(8, TARGET_MS / fmax(ms, 1e-3));
+    return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
+}
+
 static enum kd_status trace(const struct work *w, const struct kd_vk_pipeline *pipeline, const struct kd_ray_labels *rays,
                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user)
 {
-    for (size_t first = 0, n = rays->n; first < n; first += CHUNK) {
-        uint32_t m = (uint32_t)(n - first < CHUNK ? n - first : CHUNK);
+    uint32_t most = LEAST, m;
+    for (size_t first = 0, n = rays->n; first < n; first += m) {
+        m = (uint32_t)(n - first < most ? n - first : most);
         const struct kd_ray_labels part = { rays->alpha_beta + 2 * first, rays->outward ? rays->outward + first : NULL, m };
         (w->kerr_schild ? upload_states : upload)(w, &part);
+        double begun = kd_render_now_ms();
         enum kd_status status = run(w, pipeline, m);
         if (status)
             return status;
+        most = next_size(m, kd_render_now_ms() - begun);
         for (size_t i = 0; i < m; i++)
             unpack(w, i, crossings + (first + i) * w->params->orders, &ends[first + i]);
         if (progress && !progress(user, (double)(first + m) / (double)n))
@@ -178,7 +192,7 @@ static enum kd_status device(struct kd_renderer *renderer, const struct kd_rays_
     };
     if (w.wide && !kd_vk_info(vk)->float64)
         return kd_error_set(error, KD_EDEVICE, "%s has no double precision; use f32 or the closed engine", kd_vk_info(vk)->name);
-    size_t number = w.wide ? 8 : 4, room = rays->n < CHUNK ? rays->n : CHUNK, per_start = w.kerr_schild ? 8 : 3;
+    size_t number = w.wide ? 8 : 4, room = rays->n < MOST ? rays->n : MOST, per_start = w.kerr_schild ? 8 : 3;
     const uint32_t method = w.kerr_schild ? params->engine - KD_ENGINE_KS_EULER : params->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
     const uint32_t steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     const uint32_t constants[] = { params->orders, steps, method };

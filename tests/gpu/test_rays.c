@@ -321,6 +321,32 @@ static void test_kerr_schild_errors(void **state)
                 check_kerr_schild(engine, (enum kd_precision)wide, h);
 }
 
+static bool stop_at_once(void *user, double fraction)
+{
+    *(double *)user = fraction;
+    return false;
+}
+
+/* The costliest rays come in submissions of a few, so that a request for many can be cancelled and others have their turn. */
+static void test_submissions_are_short(void **state)
+{
+    (void)state;
+    enum { MANY = 8 * RAYS };
+    static double rays[2 * MANY];
+    static struct kd_ray_crossing crossings[MANY * ORDERS];
+    static struct kd_ray_end ends[MANY];
+    struct kd_error stopped;
+    double done = 0;
+    const struct kd_rays_params params = {
+        .spin = 0.9, .r = INFINITY, .inclination_deg = 70, .orders = ORDERS, .engine = KD_ENGINE_KS_TAO6,
+        .precision = KD_PRECISION_F32, .steps = 64,
+    };
+    for (int k = 0; k < 2 * MANY; k++)
+        rays[k] = lists[0][k % (2 * RAYS)];
+    assert_int_equal(kd_rays_trace(renderer, &params, rays, MANY, crossings, ends, stop_at_once, &done, &stopped), KD_ECANCELLED);
+    assert_true(done > 0 && done < 0.1);
+}
+
 /* The most steps that each engine takes do not run into llvmpipe's limit of 65535 rounds, past which a ray ends anywhere. */
 static void test_most_steps(void **state)
 {
@@ -361,6 +387,6 @@ int main(void)
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_single), cmocka_unit_test(test_double),
                                         cmocka_unit_test(test_estimate), cmocka_unit_test(test_orders),
                                         cmocka_unit_test(test_starts), cmocka_unit_test(test_kerr_schild_errors),
-                                        cmocka_unit_test(test_most_steps) };
+                                        cmocka_unit_test(test_submissions_are_short), cmocka_unit_test(test_most_steps) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
