@@ -38,8 +38,13 @@ def radii(axes):
 def frequencies(axes):
     for a, style in ((0, "--"), (0.9, "-")):
         p, v = ask("kerr", spin=a, r="2:14:121")
-        for name, label, colour in (("omega_phi", "Ω", "black"), ("omega_theta", "Ω θ", BLUE), ("kappa", "κ", RED)):
+        lines = (("omega_phi", "$\\Omega_\\phi$", "black"), ("omega_theta", "$\\Omega_\\theta$", BLUE)) if a else (
+            ("omega_phi", "$\\Omega_\\phi = \\Omega_\\theta$", "black"),)
+        for name, label, colour in lines:
             axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
+        isco = ask("kerr", spin=a)[1]["isco"]
+        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # from where it vanishes
+        axes.plot(p["r"], v["kappa"], style, color=RED, label=f"$\\kappa$, a = {a}")
     axes.set(xlabel="r / M", ylabel="M × angular frequency", yscale="log", ylim=(6e-3, 0.4), title="Orbit and its small oscillations")
 
 
@@ -49,7 +54,7 @@ def potential(axes):
         axes.plot(p["r"], v["v_matter"], color=colour, label=f"L = {l:.4g}")
         if isinstance(v["r_min_matter"], float) and v["r_max_matter"]:
             axes.plot([v["r_min_matter"], v["r_max_matter"]], [v["v_min_matter"], v["v_max_matter"]], ".", color=colour)
-    axes.set(xlabel="r / M", ylabel="V", ylim=(0.85, 1.08), title="Effective potential of matter, a = 0; dots: its extrema")
+    axes.set(xlabel="r / M", ylabel="V, energy a unit of rest mass", ylim=(0.85, 1.08), title="Effective potential of matter, a = 0; dots: its extrema")
 
 
 def embedding(axes):
@@ -58,14 +63,14 @@ def embedding(axes):
         _, v = ask("flamm", spin=a, r=f"{horizon!r}:16:161")
         axes.plot(v["radius"], v["z"], color=colour, label=f"a = {a}")
         axes.plot([-x for x in v["radius"]], v["z"], color=colour)
-    axes.set(xlabel="circumference / 2π", ylabel="z / M", title="The equatorial plane embedded in flat space", aspect="equal")
+    axes.set(xlabel="circumference / 2πM", ylabel="z / M", title="The equatorial plane embedded in flat space", aspect="equal")
 
 
 def shadows(axes):
     for a, colour in ((0, "black"), (0.5, BLUE), (0.9, GREEN), (0.998, RED)):
         _, v = ask("shadow", spin=a, inclination_deg=85, angle_deg="0:360:121")
         axes.plot(v["alpha"], v["beta"], color=colour, label=f"a = {a}")
-    axes.set(xlabel="α / M", ylabel="β / M", title="Edge of the shadow at i = 85°", aspect="equal", xlim=(-10, 8))
+    axes.set(xlabel="α / M", ylabel="β / M", title="Edge of the shadow at i = 85°", aspect="equal", xlim=(-10.5, 7.5))
 
 
 def redshift(axes):
@@ -87,29 +92,32 @@ def flux(axes):
 def colours(axes):
     p, v = ask("blackbody", temperature_k="1000:12000:111")
     for i, t in enumerate(p["temperature_k"]):
-        axes.axvspan(t - 50, t + 50, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)
+        axes.axvspan(t - 50, t + 150, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)  # no seams
     for name, style in (("srgb_r", "-"), ("srgb_g", "--"), ("srgb_b", ":")):
         axes.plot(p["temperature_k"], v[name], style, color="black", label=name[-1].upper())
     axes.set(xlabel="T / K", ylabel="encoded sRGB", xlim=(1000, 12000), title="Colour of a black body")
 
 
 def deflection(axes):
-    for a, colour in ((0, "black"), (0.9, BLUE)):
-        p, v = ask("deflection", spin=a, b="2.5:16:401")
-        axes.plot(p["b"], v["angle"], color=colour, label=f"a = {a}" + (", towards +φ" if a else ""))
-        if a:
-            axes.plot(p["b"], v["angle_retrograde"], color=RED, label=f"a = {a}, towards −φ")
+    for a, sign, label, colour in ((0, "", "a = 0", "black"), (0.9, "", "a = 0.9, towards +φ", BLUE),
+                                   (0.9, "_retrograde", "a = 0.9, towards −φ", RED)):
+        b_c = ask("deflection", spin=a)[1]["b_critical" + sign]
+        p, near = ask("deflection", spin=a, b=f"{b_c + 1e-3!r}:{b_c + 0.1!r}:199")
+        q, far = ask("deflection", spin=a, b=f"{b_c + 0.1!r}:16:200")
+        axes.plot(p["b"] + q["b"], near["angle" + sign] + far["angle" + sign], color=colour, label=label)
+        axes.axvline(b_c, color=colour, linewidth=0.5, linestyle=":")
+    p, v = ask("deflection", spin=0, b="2.5:16:200")
     axes.plot(p["b"], v["weak"], ":", color="0.4", label="4M/b")
-    axes.set(xlabel="b / M", ylabel="bending, radians", ylim=(0, 6.3), title="Bending of light; b_c is where a curve ends")
+    axes.set(xlabel="b / M", ylabel="bending, radians", ylim=(0, 6.3), title="Bending of light; without bound at $b_c$")
 
 
 def quality(axes):
     for m, colour in ((2, BLUE), (1, SKY), (0, GREEN), (-1, ORANGE), (-2, RED)):
         p, v = ask("qnm", m=m, spin="0:0.99:100")
-        axes.plot(p["spin"], v["quality"], color=colour, label=f"l = 2, m = {m}, n = 0")
+        axes.plot(p["spin"], v["quality"], color=colour, label=f"m = {m}".replace("-", "−"))
         if m == 2:
             axes.plot(p["spin"], v["quality_cubic"], ":", color="0.4", label="2.1 + 11.3 a³")
-    axes.set(xlabel="spin a", ylabel="quality factor", ylim=(0, 15), title="Quasi-normal modes and the cubic that circulates")
+    axes.set(xlabel="spin a", ylabel="quality factor", ylim=(0, 15), title="Quasi-normal modes l = 2, n = 0; a cubic that circulates for m = 2")
 
 
 def ringdown(axes):
@@ -120,12 +128,13 @@ def ringdown(axes):
 
 
 def fallback(axes):
-    for mass, colour in ((1e6, BLUE), (1e7, GREEN), (1e8, RED)):
+    for power, colour in ((6, BLUE), (7, GREEN), (8, RED)):
+        mass = 10**power
         _, v = ask("tidal", mass_msun=mass)
         start = v["fallback_days"]
         p, v = ask("tidal", mass_msun=mass, time_days=f"{start * 1.000001!r}:{start * 16!r}:121")
-        axes.plot(p["time_days"], v["rate_msun_yr"], color=colour, label=f"10^{len(str(int(mass))) - 1} solar masses")
-    axes.set(xlabel="days since the disruption", ylabel="solar masses a year", xscale="log", yscale="log", title="What comes back of a torn sun, t^(−5/3)")
+        axes.plot(p["time_days"], v["rate_msun_yr"], color=colour, label=f"$10^{power}$ solar masses")
+    axes.set(xlabel="days since the disruption", ylabel="solar masses a year", xscale="log", yscale="log", title="What comes back of a torn sun, as $t^{-5/3}$")
 
 
 def draw(panels, path):

@@ -60,7 +60,7 @@ static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
     double i = p->inclination_deg, up = (i > 90 ? 180 - i : i) * (M_PI / 180); /* mirrored: the same but for beta */
-    if (fabs(i - 90) < 0.1)
+    if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i, "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
     m->r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
     if (m->r <= kd_kerr_horizon(p->spin))

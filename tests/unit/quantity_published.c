@@ -52,8 +52,8 @@ static void figures(void **state)
     (void)state;
     published("solar mass in seconds, Damour & Taylor 1991", ASK("scale", "m_s", "mass_msun=1"), 4.925490947e-6, 1e-14);
     published("M of M87*, EHT 2019, ApJL 875, L1", ASK("scale", "m_uas", "hole=m87"), 3.8, 0.4);
-    published("sqrt(27) M of Sgr A*, EHT 2022, ApJL 930, L12, abstract: GR shadow of its mass and distance",
-              ASK("scale", "shadow_uas", "hole=sgra"), 53, 0.5);
+    published("GRAVITY 2022, A&A 657, L12, abstract: mass of Sgr A*, within 0.25 %", ASK("scale", "mass", "hole=sgra"), 4.30e6, 1.1e4);
+    published("GRAVITY 2021, arXiv:2101.12098: 8275 +- 9 pc to it", ASK("scale", "distance", "hole=sgra"), 8275, 9);
     published("radius of the horizon of one solar mass", ASK("scale", "horizon_km", "mass_msun=1"), 2.95325, 5e-6);
     published("Thorne 1974, ApJ 191, 507: efficiency at a = 0.998", ASK("kerr", "efficiency", "spin=0.998"), 0.321, 5e-4);
     published("Thorne 1974: ISCO at a = 0.998", ASK("kerr", "isco", "spin=0.998"), 1.237, 5e-4);
