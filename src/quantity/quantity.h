@@ -57,7 +57,7 @@ struct kd_quantity {
      * that is not `along` has changed since. KD_EINVAL with the parameter's pointer for what lies outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* Time on one core of 2020 at its longest, in microseconds, with the text of the answer: each point, and each fresh one more. */
+    /* Longest time on one core of 2020, in microseconds, with the text of the answer: each point, each fresh one more. */
     double point_us, fresh_us;
 };
 
