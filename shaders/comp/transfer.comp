@@ -23,6 +23,7 @@ layout(constant_id = 8) const bool VISIBLE = false; /* brightness as the eye wei
 layout(constant_id = 9) const bool OPAQUE = true;   /* the first crossing that meets the disk ends the ray */
 layout(constant_id = 10) const bool RING = false;   /* rays are not on the camera's grid: the map holds alpha */
 layout(constant_id = 11) const uint ALPHA_PLANE = 0;
+layout(constant_id = 12) const bool PARTICLES = false; /* the grid of particles modulates the light */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -31,11 +32,12 @@ layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
-    float pad[KD_TRANSFER_HEADER - 11];
+    float pad[KD_TRANSFER_HEADER - 14];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
 } tr;
 layout(set = 0, binding = 2) writeonly buffer Radiance { float radiance[]; };
+layout(set = 0, binding = 3) readonly buffer Density { float density[]; };
 #include "camera.glsl"
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */
@@ -77,6 +79,19 @@ vec4 disk_light(float w, float energy, float momentum)
     float f = clamp((tr.r_out - r) / max(tr.r_out - tr.taper_r, 1e-6), 0.0, 1.0);
     float fade = f * f * (3.0 - 2.0 * f);
     return vec4(c.rgb * brightness, tr.opacity * fade);
+}
+
+/* Particles at w = 1/r and this azimuth over the number expected: bilinear between the nodes of the grid. */
+float density_at(float w, float phi)
+{
+    float row = clamp(-log2(w * tr.r_in) * tr.rows_octave, 0.0, float(tr.rows));
+    float turn = (phi + tr.azimuth) * (0.5 / KD_PI), column = (turn - floor(turn)) * float(tr.columns);
+    uint i = min(uint(row), tr.rows - 1), j = uint(column), at = i * tr.columns;
+    uint left = j & (tr.columns - 1), right = (j + 1) & (tr.columns - 1);
+    float g = column - float(j);
+    float lower = mix(density[at + left], density[at + right], g);
+    float upper = mix(density[at + tr.columns + left], density[at + tr.columns + right], g);
+    return mix(lower, upper, row - float(i));
 }
 
 /* A celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a fortieth of
@@ -126,6 +141,8 @@ void main()
                     if (w <= 0.0)
                         break;
                     vec4 c = disk_light(w, energy, momentum);
+                    if (PARTICLES && c.a > 0.0)
+                        c.rgb *= density_at(w, lens[at + (ORDERS + n) * cam.stride]);
                     light += through * c.a * c.rgb;
                     through *= 1.0 - c.a;
                     if (OPAQUE && through <= 0.0)

@@ -32,7 +32,9 @@
     F(sky_brightness) F(sky_grid)         /* sky; grid spacing in radians */                                   \
     F(azimuth)                            /* of the observer, radians */                                       \
     F(one_minus_a)                        /* 1 - spin, which a float of the spin has lost near 1 */            \
-    U(pixels_x)                           /* pixels a row */
+    U(pixels_x)                           /* pixels a row */                                                      \
+    U(rows) U(columns)                    /* of the grid of particles */                                          \
+    F(rows_octave)                        /* rows that r doubles in */
 
 /* Tables behind the transfer parameters, in floats. */
 #define KD_TRANSFER_HEADER 16
@@ -40,6 +42,19 @@
 #define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
 #define KD_COLOUR_LOG_MIN 6.0 /* 64 K */
 #define KD_COLOUR_LOG_MAX 30.0
+
+/* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
+#define KD_GUIDE_FIELDS_(F, U)                                                                                 \
+    U(phi) U(radial) U(vertical)                                                                               \
+    F(row)                   /* of the grid */                                                                 \
+    F(swing_row) F(swing_phi) /* the latter in turns */
+#define KD_PARTICLES_FIELDS_(F, U)                                                                             \
+    U(key)                   /* hash of the seed */                                                            \
+    U(first) U(stride) U(count)                                                                                \
+    U(per_particle)          /* 2^31 radii/particles */                                                        \
+    U(rows) U(columns_log2)                                                                                    \
+    U(unit)                  /* weight of one particle */                                                      \
+    F(tilt)                  /* largest latitude, radians */
 
 #define KD_POST_FIELDS_(F, U)                                                                                  \
     F(gain)                  /* 2^exposure */                                                                  \

@@ -22,3 +22,12 @@ double kd_epicyclic_vertical(double a, double r)
     double q = d * d * (r + 2 * x + 3) + e * (4 * d - 2 + 3 * e);
     return kd_kerr_omega(a, r) * sqrt(q) / r;
 }
+
+/* d(phi)/dt = (L (1 - 2/r) + 2aE/r) / (E (r^2 + a^2 + 2a^2/r) - 2aL/r) in the plane, from the metric; the quotient is Omega. */
+double kd_epicyclic_shear(double a, double r)
+{
+    double e = kd_kerr_energy(a, r), l = kd_kerr_momentum(a, r), omega = kd_kerr_omega(a, r);
+    double over = 2 * (l - a * e) / (r * r), under = 2 * e * (r - a * a / (r * r)) + 2 * a * l / (r * r);
+    double energy = e * (r * r + a * a + 2 * a * a / r) - 2 * a * l / r;
+    return (over - omega * under) / energy;
+}

@@ -13,4 +13,8 @@
 double kd_epicyclic_radial(double a, double r);
 double kd_epicyclic_vertical(double a, double r);
 
+/* How the angular velocity d(phi)/dt changes with r for a body that keeps the E and L of the circular orbit: the azimuth of a small
+ * radial oscillation A cos(kappa t) is ahead of the guiding centre by this, times A/kappa sin(kappa t). Newton's limit is -2 Omega/r. */
+double kd_epicyclic_shear(double a, double r);
+
 #endif

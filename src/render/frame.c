@@ -4,6 +4,7 @@
 #include "render/audit.h"
 #include "render/camera.h"
 #include "render/lens_listed.h"
+#include "render/particles.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -88,9 +89,10 @@ static enum kd_status transfer_kernel(struct job *j, const struct kd_vk_pipeline
     const uint32_t constants[] = {
         p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
         alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
+        p->particles.count > 0,
     };
     _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, 12, out, j->error);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, 13, out, j->error);
 }
 
 /* Run a kernel over the rows of a band in slices. rays: the grid is that of the rays, not of the pixels. */
@@ -163,7 +165,8 @@ static enum kd_status transfer_band(struct job *j, uint32_t band, const struct k
         pipeline,
         { { lens_buffer(j, band), 0, 0, false },
           { j->r->store.transfer, 0, 0, false },
-          { j->r->store.radiance.buffers[band], 0, 0, true } },
+          { j->r->store.radiance.buffers[band], 0, 0, true },
+          { j->plan->particles.count ? j->r->particles.density : j->r->store.transfer, 0, 0, false } },
         NULL,
         { 0 },
     };
@@ -344,7 +347,10 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
 
     frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (reused ? 2 : 3);
-    status = trace_and_transfer(j, reused, &c);
+    if (j->plan->particles.count)
+        status = kd_particles_deposit(r, j->scene, &j->plan->particles, c.ns_per_particle, j->error);
+    if (!status)
+        status = trace_and_transfer(j, reused, &c);
     frame->exposure = j->scene->style.exposure;
     if (!status && isinf(frame->exposure)) {
         status = measure(j);

@@ -10,10 +10,15 @@
 
 #include <pthread.h>
 
+struct kd_particles {
+    struct kd_vk_buffer *guides, *grid, *density, *list; /* made when first needed, and kept */
+};
+
 struct kd_renderer {
     struct kd_vk *vk;
     struct kd_kernels kernels;
     struct kd_store store;
+    struct kd_particles particles;
     struct kd_vk_buffer *rays[3];    /* a list, its ends, and those on the host: rays_device.c's, kept for the next list */
     struct kd_transfer_data *tables; /* staging; its colour table is filled once */
     bool tables_ready;
@@ -22,6 +27,8 @@ struct kd_renderer {
     struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     char name[800];
 };
+
+void kd_particles_finish(struct kd_particles *particles, struct kd_vk *vk);
 
 /* Learn from the device times of a frame: nanoseconds an item, smoothed. */
 void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);

@@ -2,9 +2,11 @@
 
 #include "render/layout.h"
 
+#include "density.spv.h"
 #include "expose.spv.h"
 #include "lens_map.spv.h"
 #include "lens_radius.spv.h"
+#include "particles.spv.h"
 #include "post.spv.h"
 #include "rays.spv.h"
 #include "rays_f64.spv.h"
@@ -36,7 +38,9 @@ static const struct {
                                       3, 8 },
     [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
-    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 3, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 4, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
+    [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
 };

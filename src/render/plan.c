@@ -27,6 +27,12 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, disk && !d->doppler, "disk: Doppler shift and beaming of the gas are switched off");
     say(plan, disk && !d->redshift, "disk: gravitational redshift and time dilation of the gas are switched off");
     say(plan, disk && d->taper > 0, "disk: the outer edge fades out over a chosen range");
+    bool particles = d->model == KD_DISK_PARTICLES;
+    say(plan, particles,
+        "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is");
+    say(plan, particles,
+        "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions");
+    say(plan, particles, "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
     say(plan, disk && d->opacity < 1, "disk: opacity is a chosen number a crossing, not computed from the gas");
     say(plan, disk, "disk: image orders beyond accuracy.orders are left out");
     say(plan, disk, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
@@ -56,6 +62,7 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     key.accuracy.engine = (int32_t)plan->setting.engine + 1;
     key.accuracy.precision = (int32_t)plan->setting.precision + 1;
     key.accuracy.steps = (int32_t)plan->setting.steps;
+    key.disk.model = plan->phi ? KD_DISK_PARTICLES : KD_DISK_NONE; /* who alone asks for azimuths */
     key.sky.model = plan->sky ? KD_SKY_GRID : KD_SKY_NONE;
     return kd_scene_hash(&key, plan->lens_key);
 }
@@ -106,6 +113,8 @@ static void passes(struct kd_plan *plan, const struct kd_scene *scene, const str
         add_pass(plan, "trace", kernel_of(plan), plan->rays, plan->trace_ns);
     if (plan->audit)
         add_pass(plan, "audit", "", KD_AUDIT_RAYS, NS_PER_AUDIT);
+    if (plan->particles.count)
+        add_pass(plan, "particles", "particles.comp", plan->particles.count, c->ns_per_particle);
     add_pass(plan, "transfer", "transfer.comp", plan->rays, c->ns_per_sample_transfer);
     if (isinf(scene->style.exposure))
         add_pass(plan, "expose", "expose.comp", pixels, 0.25 * c->ns_per_pixel_post);
@@ -130,7 +139,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     plan->lens_bytes = row_lens * plan->height;
     plan->host_bytes = row_out * plan->height;
-    uint64_t fixed = row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20);
+    uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20);
     uint64_t one_band = row_lens * plan->band_rows;
     plan->cacheable = fixed + plan->lens_bytes <= c->memory_bytes;
     plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
@@ -236,6 +245,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.phi = needs->phi;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     plan.sky = needs->sky;
+    plan.particles = kd_particle_grid(scene);
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
     enum kd_status status = choose(&plan, scene, capacity, error);
@@ -262,6 +272,7 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
 {
     struct kd_needs needs = {
         .disk = scene->disk.model != KD_DISK_NONE,
+        .phi = scene->disk.model == KD_DISK_PARTICLES,
         .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
     };
     return kd_plan_make_for(scene, &needs, capacity, out, error);

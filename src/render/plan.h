@@ -6,6 +6,7 @@
 #include "base/buffer.h"
 #include "base/error.h"
 #include "render/engine.h"
+#include "render/particles.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -14,12 +15,12 @@
 
 #define KD_PLAN_MAX_PASSES 8
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
-#define KD_PLAN_MAX_APPROXIMATIONS 16
+#define KD_PLAN_MAX_APPROXIMATIONS 24
 
 /* What the device allows and how fast it has been measured to be. */
 struct kd_capacity {
     uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything */
-    double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post;
+    double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post, ns_per_particle;
     bool measured; /* false: the figures are a default guess for this type of device */
     bool float64;  /* the device has double precision */
     unsigned cores; /* of the host, that the closed form in double runs on */
@@ -28,7 +29,7 @@ struct kd_capacity {
 };
 
 struct kd_plan_pass {
-    const char *name;   /* "trace", "audit", "transfer", "expose", "post", "readback" */
+    const char *name;   /* "trace", "audit", "particles", "transfer", "expose", "post", "readback" */
     const char *kernel; /* file under shaders/comp, "" for a copy and for the CPU */
     uint64_t invocations;
     double estimate_ms;
@@ -43,6 +44,7 @@ struct kd_plan {
         KD_LENS_LISTED, /* as listed rays (render/rays.h), by any engine, in either precision */
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
+    struct kd_particle_grid particles;
     bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
     uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */

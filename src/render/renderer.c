@@ -25,6 +25,7 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
         .ns_per_ray_full = 150 * scale,
         .ns_per_sample_transfer = 20 * scale,
         .ns_per_pixel_post = 30 * scale,
+        .ns_per_particle = 40 * scale,
         .float64 = info->float64,
         .cores = cores(),
     };
@@ -84,6 +85,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
         kd_vk_wait(renderer->vk, 0, NULL);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);
+        kd_particles_finish(&renderer->particles, renderer->vk);
         for (size_t i = 0; i < sizeof renderer->rays / sizeof *renderer->rays; i++)
             kd_vk_buffer_destroy(renderer->vk, renderer->rays[i]);
         kd_vk_destroy(renderer->vk);
@@ -124,6 +126,7 @@ void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan,
         smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), plan->rays);
     smooth(&c->ns_per_sample_transfer, timing(frame, "transfer"), plan->rays);
     smooth(&c->ns_per_pixel_post, timing(frame, "post"), pixels);
+    smooth(&c->ns_per_particle, timing(frame, "particles"), plan->particles.count);
     c->measured = c->measured || pixels >= 4096;
     pthread_mutex_unlock(&renderer->lock);
 }
@@ -168,6 +171,7 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     cJSON_AddNumberToObject(speed, "ray_full", c.ns_per_ray_full);
     cJSON_AddNumberToObject(speed, "sample_transfer", c.ns_per_sample_transfer);
     cJSON_AddNumberToObject(speed, "pixel_post", c.ns_per_pixel_post);
+    cJSON_AddNumberToObject(speed, "particle", c.ns_per_particle);
 
     char *text = root ? cJSON_Print(root) : NULL;
     enum kd_status status = text ? kd_buffer_append(out, text, strlen(text)) : KD_ENOMEM;

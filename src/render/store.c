@@ -98,9 +98,8 @@ void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const stru
         memcpy(map->key, plan->lens_key, sizeof map->key);
 }
 
-/* A buffer of at least this size; a larger one is kept. */
-static enum kd_status at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
-                               const char *name, struct kd_error *error)
+enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                                 const char *name, struct kd_error *error)
 {
     if (*buffer && kd_vk_buffer_size(*buffer) >= size && kd_vk_buffer_size(*buffer) <= 4 * size + (1 << 20))
         return KD_OK;
@@ -117,9 +116,9 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     uint64_t words = (pixels + 3) / 4 * (bit_depth == 16 ? 24 : 12);
     enum kd_status status = bands_init(&store->radiance, vk, plan->bands, 12 * pixels, "radiance", error);
     if (!status)
-        status = at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
+        status = kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
     if (!status)
-        status = at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
+        status = kd_store_at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
     if (!status && !store->transfer)
         status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_UPLOAD, "transfer tables",
                                      &store->transfer, error);

@@ -43,6 +43,9 @@ void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const stru
 /* Radiance, packed pixels, tables and histogram for a picture of this plan and bit depth. */
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth,
                               struct kd_error *error);
+/* *buffer (NULL: none yet) becomes one of at least this size; a larger one is kept unless it is much too large. */
+enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                                 const char *name, struct kd_error *error);
 void kd_store_finish(struct kd_store *store);
 
 #endif

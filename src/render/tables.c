@@ -3,6 +3,7 @@
 #include "physics/colour.h"
 #include "physics/disk.h"
 #include "physics/kerr.h"
+#include "render/particles.h"
 
 #include <math.h>
 
@@ -57,7 +58,8 @@ static void fill_luminous(float (*table)[4], double peak)
 void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, bool fill_colour)
 {
     const struct kd_disk *disk = &scene->disk;
-    double isco = kd_kerr_isco(scene->spacetime.spin), peak = kd_tables_peak_temperature(scene) * disk->hardening;
+    double isco = kd_kerr_isco(scene->spacetime.spin), r_in = isinf(disk->inner) ? isco : disk->inner;
+    double peak = kd_tables_peak_temperature(scene) * disk->hardening;
 
     if (fill_colour)
         fill_colours(out->colour);
@@ -66,9 +68,10 @@ void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, 
         if (disk->band == KD_BAND_VISIBLE)
             fill_luminous(out->colour, peak);
     }
+    const struct kd_particle_grid grid = kd_particle_grid(scene);
     out->block = (struct kd_transfer_block){
         .r_isco = (float)isco,
-        .r_in = (float)(isinf(disk->inner) ? isco : disk->inner),
+        .r_in = (float)r_in,
         .r_out = (float)disk->outer,
         .taper_r = (float)(disk->outer * (1 - disk->taper)),
         .opacity = (float)disk->opacity,
@@ -78,5 +81,8 @@ void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, 
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .one_minus_a = (float)(1 - scene->spacetime.spin),
         .pixels_x = (uint32_t)scene->image.width,
+        .rows = grid.rows,
+        .columns = grid.columns,
+        .rows_octave = (float)(grid.rows / log2(disk->outer / r_in)),
     };
 }

@@ -48,8 +48,9 @@
 
 #define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                           \
     ENUM(disk, model, KD_DISK_NOVIKOV_THORNE,                                                                 \
-         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO",     \
-         "none|novikov-thorne|shakura-sunyaev")                                                               \
+         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; "    \
+         "particles: the exact one, made of orbiting particles",                                              \
+         "none|novikov-thorne|shakura-sunyaev|particles")                                                               \
     WORD(disk, inner, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco")                   \
     REAL(disk, outer, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                           \
     REAL(disk, taper, 0.7, 0.0, 1.0, "1",                                                                    \
@@ -67,7 +68,14 @@
          "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it", \
          "bolometric|visible")                                                                                \
     BOOL(disk, doppler, true, "the Doppler shift and beaming of the orbiting gas")                            \
-    BOOL(disk, redshift, true, "gravitational redshift and time dilation of the orbiting gas")
+    BOOL(disk, redshift, true, "gravitational redshift and time dilation of the orbiting gas")                \
+    INT(disk, particles, 300000, 1000, 10000000, "1", "number of particles (model: particles)")               \
+    INT(disk, seed, 1, 0, 2147483647, "1", "another number, other particles (model: particles)")              \
+    REAL(disk, density_index, 2.0, 0.0, 4.0, "1",                                                             \
+         "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)") \
+    REAL(disk, epicycles, 0.02, 0.0, 0.2, "1",                                                                \
+         "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes at " \
+         "the ISCO (model: particles)")
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     ENUM(sky, model, KD_SKY_NONE,                                                                             \
@@ -124,7 +132,7 @@
 
 enum kd_observer { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO };
 enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING };
-enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV };
+enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };

@@ -40,6 +40,12 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"projection\":\"ring\",\"inclination_deg\":60,\"roll_deg\":90,\"ring_decades_min\":-9.5},"
       "\"disk\":{\"inner\":4.3,\"outer\":20,\"taper\":0.8,\"opacity\":0.5,\"peak_temperature_k\":6500},"
       "\"accuracy\":{\"orders\":7}}" },
+    { "living-disk", "A disk of 300 000 particles on their orbits, lensed in every image order; in a live session they go round",
+      "{\"spacetime\":{\"spin\":0.9},"
+      "\"camera\":{\"inclination_deg\":76,\"field_m\":38},"
+      "\"disk\":{\"model\":\"particles\",\"outer\":18,\"peak_temperature_k\":5000},"
+      "\"style\":{\"exposure\":0.75},"
+      "\"motion\":{\"time_rate\":8}}" },
 };
 /* clang-format on */
 const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;

@@ -61,6 +61,10 @@ enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char
  * radius, disk edges in order and outside the ISCO, bit depth 8 or 16, ... */
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
 
+/* What goes on by itself in a live session, azimuth and time, after so many seconds; and whether any of it can be seen. */
+void kd_scene_advance(struct kd_scene *scene, double seconds);
+bool kd_scene_moves(const struct kd_scene *scene);
+
 /* The canonical document: every field, in table order, shortest numbers that read back exactly, no spaces. */
 enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out);
 

@@ -112,18 +112,10 @@ static void unlist(struct kd_session *s)
     release(s);
 }
 
-/* Whether anything in the picture changes while nobody changes the scene. */
-static bool moves(const struct kd_scene *scene)
-{
-    return scene->motion.azimuth_rate_deg != 0 && scene->sky.model != KD_SKY_NONE;
-}
-
 static struct kd_scene scene_at(const struct kd_session *s, double now)
 {
     struct kd_scene scene = s->scene;
-    double elapsed = 1e-3 * (now - s->since_ms);
-    scene.camera.azimuth_deg = remainder(scene.camera.azimuth_deg + scene.motion.azimuth_rate_deg * elapsed, 360);
-    scene.top.time = fmax(-1e12, fmin(1e12, scene.top.time + scene.motion.time_rate * elapsed));
+    kd_scene_advance(&scene, 1e-3 * (now - s->since_ms));
     return scene;
 }
 
@@ -154,7 +146,7 @@ static void pump(struct kd_session *s)
         return;
     double now = kd_clock_ms();
     const struct kd_scene scene = scene_at(s, now);
-    if (moves(&scene))
+    if (kd_scene_moves(&scene))
         kd_governor_changed(&s->governor, now, &scene, false);
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);
     if (turn.wait_ms > 0)

@@ -31,6 +31,7 @@ static const struct shot {
     { "edge-on", "edge-on", "{" SIZE "}" },
     { "face-on", "face-on", "{" SIZE "}" },
     { "photon-rings", "photon-rings", "{" SIZE "}" },
+    { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
     { "retrograde", NULL, "{\"spacetime\":{\"spin\":-0.9}," SIZE "}" },
     { "zamo", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,"

@@ -50,6 +50,14 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(first.body, again.body)
         self.assertEqual(first.header('ETag'), again.header('ETag'))
 
+    def test_particles_move_over_a_lens_map_that_is_kept(self):
+        target = TARGET + '&disk.model=particles&camera.inclination_deg=63.5&time='
+        first, later = self.daemon.get(target + '0'), self.daemon.get(target + '50')
+        self.assertNotIn('reused', first.header('Server-Timing'))
+        self.assertIn('trace;desc="reused";dur=0', later.header('Server-Timing'))
+        self.assertIn('particles;dur=', later.header('Server-Timing'))
+        self.assertNotEqual(pixels(first.body), pixels(later.body))
+
     def test_the_answer_knows_its_error(self):
         header = self.daemon.get(TARGET + '&spacetime.spin=0.6').header('Kerrd-Accuracy')
         figure = dict(pair.split('=') for pair in header.split())

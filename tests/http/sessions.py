@@ -181,6 +181,14 @@ class Sessions(daemon.Case):
         self.assertTrue(two < three < two + 20)  # it stops where it is
         self.assertEqual(self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg'], three)
 
+    def test_time_goes_on_where_it_is_seen(self):
+        still = {'image': {'width': 64, 'height': 36}, 'style': {'exposure': 0}, 'motion': {'time_rate': 20}}
+        session, smooth = self.open({**still, 'disk': {'model': 'particles'}}), self.open(still)
+        numbers = [int(self.frame(session, n).header('Kerrd-Frame')) for n in (0, 1, 2)]
+        self.assertEqual(numbers, sorted(set(numbers)))
+        number = int(self.frame(smooth).header('Kerrd-Frame'))
+        self.assertEqual(self.frame(smooth, number + 8, 700).status, 204)
+
     def test_nobody_watches_nothing_is_drawn(self):
         session = self.open(MOVING)
         number = int(self.frame(session).header('Kerrd-Frame'))

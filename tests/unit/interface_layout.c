@@ -5,6 +5,7 @@
 
 #include "lens_map.spv.h"
 #include "lens_radius.spv.h"
+#include "particles.spv.h"
 #include "post.spv.h"
 #include "transfer.spv.h"
 
@@ -148,8 +149,18 @@ static const struct field transfer_fields[] = { KD_TRANSFER_FIELDS_(F, U) };
 #define F(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_INT },
 static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_INT },
+static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_INT },
+static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
-static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post);
+static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), particles = SPIRV(particles);
 
 static void camera(void **state)
 {
@@ -166,6 +177,15 @@ static void post_push(void **state)
     (void)state;
     same(&post, "Push", post_fields, COUNT(post_fields), 0);
     assert_int_equal(sizeof(struct kd_post_push), 4 * COUNT(post_fields));
+}
+
+static void particles_kernel(void **state)
+{
+    (void)state;
+    same(&particles, "Push", particles_fields, COUNT(particles_fields), 0);
+    same(&particles, "kd_guide", guide_fields, COUNT(guide_fields), 0);
+    assert_int_equal(sizeof(struct kd_particles_push), 4 * COUNT(particles_fields));
+    assert_int_equal(sizeof(struct kd_guide), 4 * COUNT(guide_fields));
 }
 
 static void transfer_buffer(void **state)
@@ -197,6 +217,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(camera),
         cmocka_unit_test(post_push),
+        cmocka_unit_test(particles_kernel),
         cmocka_unit_test(transfer_buffer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

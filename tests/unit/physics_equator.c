@@ -2,6 +2,7 @@
  * potentials (tests/oracle/equator_reference.py). */
 #include "physics/epicyclic.h"
 #include "physics/kerr.h"
+#include "physics/orbit_bound.h"
 #include "physics/potential.h"
 
 #include "equator_reference.h"
@@ -42,6 +43,31 @@ static void frequencies(void **state)
     }
     for (double r = 6.5; r < 1e6; r *= 3) /* Schwarzschild: Omega_theta = Omega, kappa = Omega sqrt(1 - 6/r) */
         within("kappa", 0, r, kd_epicyclic_radial(0, r), sqrt(1 - 6 / r) / (r * sqrt(r)), 1e-14 * pow(r, -1.5));
+}
+
+/* Along geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the shear. From periastron
+ * r = r0 (1 - e cos kappa t), so that phi is behind by shear r0 e sin(kappa t)/kappa. To first order in e over the distance to the ISCO. */
+static void shear(void **state)
+{
+    (void)state;
+    const double e = 1e-6;
+    for (double a = -0.9; a < 1; a += 0.19)
+        for (double r = 1.1 * kd_kerr_isco(a); r < 300; r *= 1.7) {
+            struct kd_orbit orbit;
+            struct kd_error error = { 0 };
+            assert_int_equal(kd_orbit_from_shape(a, r, e, 1, &orbit, &error), KD_OK);
+            struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
+            struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
+            struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&bound);
+            within("kappa of a geodesic", a, r, kd_epicyclic_radial(a, r), f.r, 1e-9 * f.r);
+            double swing = -kd_epicyclic_shear(a, r) * r * e / f.r;
+            for (double phase = 0.3; phase < 12; phase += 0.7) {
+                struct kd_orbit_place at = kd_orbit_bound_at(&bound, phase / f.mino_r);
+                within("swing of phi", a, r, at.phi - f.phi * at.t, swing * sin(f.r * at.t), 1e-4 * fabs(swing));
+            }
+        }
+    for (double a = 0; a < 0.9985; a += 0.002) /* the whole range of disks */
+        assert_true(kd_epicyclic_radial(a, kd_kerr_isco(a)) == 0);
 }
 
 static void potentials(void **state)
@@ -100,7 +126,7 @@ static void dragging(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(frequencies), cmocka_unit_test(potentials),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(frequencies), cmocka_unit_test(shear), cmocka_unit_test(potentials),
                                         cmocka_unit_test(turning_points), cmocka_unit_test(no_orbit),
                                         cmocka_unit_test(dragging) };
     return cmocka_run_group_tests(tests, NULL, NULL);

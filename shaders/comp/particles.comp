@@ -1,0 +1,67 @@
+/* Particles of the disk at one time: each from its number, in closed form, onto the grid or into a list (src/render/particles.h).
+ *
+ * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four nodes around it.
+ * A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its neighbour on the right, so that
+ * two additions do. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.h"
+#include "math.glsl"
+#include "hash.glsl"
+
+layout(constant_id = 0) const bool SWING = true; /* there are epicycles */
+layout(constant_id = 1) const bool LIST = false;
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+#define F(name) float name;
+#define U(name) uint name;
+struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
+layout(push_constant) uniform Push { KD_PARTICLES_FIELDS_(F, U) } push;
+layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
+layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
+
+/* Cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
+kd_turn swing(uint random, uint phase)
+{
+    kd_turn t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
+    float u = sqrt(float(kd_hash(random ^ push.key) >> 8) * (1.0 / 16777216.0));
+    t.c *= u;
+    t.s *= u;
+    return t;
+}
+
+void share_out(float row, uint phi)
+{
+    if (row < 0.0 || row > float(push.rows)) /* beyond the edge for now */
+        return;
+    uint i = min(uint(row), push.rows - 1), j = phi >> (32 - push.columns_log2);
+    uint upper = uint((row - float(i)) * float(push.unit) + 0.5), lower = push.unit - upper;
+    float right = float((phi << push.columns_log2) >> 8) * (1.0 / 16777216.0);
+    uint lower_right = uint(float(lower) * right + 0.5), upper_right = uint(float(upper) * right + 0.5);
+    uint at = (i << push.columns_log2) + j;
+    atomicAdd(grid[at], (lower - lower_right) | lower_right << 16);
+    atomicAdd(grid[at + (1 << push.columns_log2)], (upper - upper_right) | upper_right << 16);
+}
+
+void main()
+{
+    uint n = gl_GlobalInvocationID.x;
+    if (n >= push.count)
+        return;
+    uint i = push.first + n * push.stride, k, low;
+    umulExtended(2 * i + 1, push.per_particle, k, low); /* equal shares, in order of radius: neighbours meet on the grid */
+    uint random = kd_hash(i ^ push.key), phi = random + guides[k].phi;
+    float row = guides[k].row;
+    if (SWING) {
+        kd_turn t = swing(kd_hash(random + 0x9e3779b9u), guides[k].radial);
+        row += guides[k].swing_row * t.c;
+        phi += uint(int(guides[k].swing_phi * t.s * 4294967296.0));
+    }
+    if (LIST) {
+        grid[3 * n] = floatBitsToUint(row);
+        grid[3 * n + 1] = phi;
+        grid[3 * n + 2] = SWING ? floatBitsToUint(push.tilt * swing(kd_hash(random + 0x3c6ef372u), guides[k].vertical).c) : 0;
+    } else {
+        share_out(row, phi);
+    }
+}

@@ -1,0 +1,258 @@
+#include "render/particles.h"
+
+#include "physics/epicyclic.h"
+#include "physics/kerr.h"
+#include "render/internal.h"
+#include "render/layout.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PER_CELL 5.0 /* particles: the density scatters by a third, in spots some pixels wide */
+#define SLICE_MS 40.0
+#define GROUPS_MAX 65535u
+#define GUIDES_BYTES (KD_PARTICLE_RADII * sizeof(struct kd_guide)) /* what the rows expect follows: a multiple of 256 */
+
+static double inner(const struct kd_scene *scene)
+{
+    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+}
+
+/* Guiding orbits reach beyond the edges of the disk by as much as their particles swing, so that as many come in as go out. */
+struct span { double low, high, s; };
+static struct span span_of(const struct kd_scene *scene)
+{
+    double reach = scene->disk.epicycles;
+    return (struct span) {
+        .low = fmax(kd_kerr_isco(scene->spacetime.spin), inner(scene) * (1 - reach)),
+        .high = scene->disk.outer * (1 + reach),
+        .s = 2 - scene->disk.density_index, /* particles per area as r^-p: those inside r are as r^s - low^s */
+    };
+}
+
+double kd_particle_radius(const struct kd_scene *scene, double q)
+{
+    const struct span o = span_of(scene);
+    double all = log(o.high / o.low);
+    return o.low * exp(o.s == 0 ? q * all : log1p(q * expm1(o.s * all)) / o.s);
+}
+
+/* Share of the particles per unit of ln r. */
+static double density(const struct kd_scene *scene, double r)
+{
+    const struct span o = span_of(scene);
+    double all = log(o.high / o.low);
+    return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
+}
+
+struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
+{
+    if (scene->disk.model != KD_DISK_PARTICLES)
+        return (struct kd_particle_grid) { 0 };
+    struct kd_particle_grid g = { .count = (uint32_t)scene->disk.particles };
+    double all = log(scene->disk.outer / inner(scene)), columns = sqrt(g.count * (2 * M_PI / PER_CELL) / all);
+    g.columns = 64;
+    while (g.columns < KD_PARTICLE_ROWS && g.columns * M_SQRT2 < columns)
+        g.columns *= 2;
+    g.rows = (uint32_t)fmax(4, fmin(g.count / (PER_CELL * g.columns), KD_PARTICLE_ROWS));
+    g.radii = g.count < KD_PARTICLE_RADII ? g.count : KD_PARTICLE_RADII;
+    /* Particles are scattered at random: twice the mean of the fullest row and sixty-four more are never on one node. */
+    double fullest = fmax(density(scene, inner(scene)), density(scene, scene->disk.outer)) * all;
+    double unit = 65535 / (2 * fullest * g.count / ((double)g.rows * g.columns) + 64);
+    g.unit = (uint32_t)fmax(1, fmin(unit, 1024));
+    g.bytes = 8ull * (g.rows + 1) * g.columns + GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1);
+    return g;
+}
+
+/* 2^31 radii over particles: what the kernel multiplies by, with the same rounding. */
+static uint32_t per_particle(const struct kd_particle_grid *grid)
+{
+    return (uint32_t)(((uint64_t)grid->radii << 31) / grid->count);
+}
+
+uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particle)
+{
+    return (uint32_t)((2ull * particle + 1) * per_particle(grid) >> 32);
+}
+
+struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k)
+{
+    double a = scene->spacetime.spin, r = kd_particle_radius(scene, (k + 0.5) / radii);
+    struct kd_particle_orbit o = {
+        .r = r, .omega = kd_kerr_omega(a, r), .kappa = kd_epicyclic_radial(a, r), .vertical = kd_epicyclic_vertical(a, r),
+    };
+    double share = o.kappa / o.omega, reach = scene->disk.epicycles * r * share * share;
+    o.swing_r = reach / r;
+    o.swing_phi = o.kappa > 0 ? reach / o.kappa * kd_epicyclic_shear(a, r) : 0;
+    return o;
+}
+
+static uint32_t hash(uint32_t x)
+{
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    return x ^ x >> 16;
+}
+
+/* What is left of a phase after whole turns, in 2^-32 of a turn. */
+static uint32_t turns(double rate, double t)
+{
+    double phase = rate * t / (2 * M_PI);
+    return (uint32_t)(uint64_t)((phase - floor(phase)) * 4294967296.0);
+}
+
+static double rows_of(const struct kd_scene *scene, const struct kd_particle_grid *grid)
+{
+    return grid->rows / log(scene->disk.outer / inner(scene));
+}
+
+static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
+{
+    double rows = rows_of(scene, grid), r_in = inner(scene);
+    for (uint32_t k = 0; k < grid->radii; k++) {
+        struct kd_particle_orbit o = kd_particle_orbit(scene, grid->radii, k);
+        out[k] = (struct kd_guide) {
+            .phi = turns(o.omega, scene->top.time),
+            .radial = turns(o.kappa, scene->top.time),
+            .vertical = turns(o.vertical, scene->top.time),
+            .row = (float)(rows * log(o.r / r_in)),
+            .swing_row = (float)(rows * o.swing_r),
+            .swing_phi = (float)(o.swing_phi / (2 * M_PI)),
+        };
+    }
+}
+
+/* One over the weight that a node of each row expects: particles within a row of it, less by their distance. */
+static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
+{
+    enum { PARTS = 8 }; /* of the hat on each side */
+    double rows = rows_of(scene, grid), weight = (double)grid->count * grid->unit / grid->columns;
+    for (uint32_t i = 0; i <= grid->rows; i++) {
+        double sum = 0;
+        for (int k = -PARTS; k < PARTS; k++) {
+            double off = (k + 0.5) / PARTS, x = i + off;
+            if (x > 0 && x < grid->rows)
+                sum += (1 - fabs(off)) / PARTS * density(scene, inner(scene) * exp(x / rows)) / rows;
+        }
+        out[i] = (float)(1 / (weight * sum));
+    }
+}
+
+static enum kd_status guides(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_particle_grid *grid,
+                             struct kd_error *error)
+{
+    enum kd_status status = kd_store_at_least(r->vk, &r->particles.guides, GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1),
+                                              KD_VK_UPLOAD, "orbits of particles", error);
+    if (status)
+        return status;
+    char *to = kd_vk_buffer_map(r->particles.guides);
+    fill_guides((struct kd_guide *)to, scene, grid);
+    fill_expected((float *)(to + GUIDES_BYTES), scene, grid);
+    return KD_OK;
+}
+
+static struct kd_particles_push push_of(const struct kd_scene *scene, const struct kd_particle_grid *grid)
+{
+    return (struct kd_particles_push) {
+        .key = hash((uint32_t)scene->disk.seed + 0x9e3779b9u),
+        .stride = 1,
+        .per_particle = per_particle(grid),
+        .rows = grid->rows,
+        .columns_log2 = (uint32_t)__builtin_ctz(grid->columns),
+        .unit = grid->unit,
+        .tilt = (float)scene->disk.epicycles,
+    };
+}
+
+static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
+
+static enum kd_status share_out(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_particle_grid *grid,
+                                double ns_per_particle, struct kd_error *error)
+{
+    const struct kd_vk_pipeline *kernel;
+    const uint32_t constants[] = { scene->disk.epicycles > 0, false };
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 2, &kernel, error);
+    if (!status)
+        status = kd_vk_fill(r->vk, r->particles.grid, 0, 4ull * (grid->rows + 1) * grid->columns, 0, error);
+    struct kd_particles_push push = push_of(scene, grid);
+    double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)GROUPS_MAX * KD_GROUP_SIZE));
+    for (; push.first < grid->count && !status; push.first += push.count) {
+        uint32_t left = grid->count - push.first;
+        push.count = left < slice ? left : (uint32_t)slice;
+        const struct kd_vk_dispatch d = {
+            "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.grid, 0, 0, true } }, &push,
+            { groups(push.count) },
+        };
+        status = kd_vk_dispatch(r->vk, &d, error);
+        if (!status)
+            status = kd_vk_submit(r->vk, NULL, error);
+    }
+    return status;
+}
+
+enum kd_status kd_particles_deposit(struct kd_renderer *r, const struct kd_scene *scene,
+                                    const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
+{
+    uint64_t bytes = 4ull * (grid->rows + 1) * grid->columns;
+    const struct kd_vk_pipeline *kernel;
+    enum kd_status status = guides(r, scene, grid, error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &r->particles.grid, bytes, KD_VK_DEVICE, "particles", error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &r->particles.density, bytes, KD_VK_DEVICE, "density of particles", error);
+    if (!status)
+        status = share_out(r, scene, grid, ns_per_particle, error);
+    if (!status)
+        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_DENSITY, NULL, 0, &kernel, error);
+    if (status)
+        return status;
+    const struct kd_vk_dispatch d = {
+        "particles", kernel,
+        { { r->particles.grid, 0, 0, false },
+          { r->particles.guides, GUIDES_BYTES, 0, false },
+          { r->particles.density, 0, 0, true } },
+        &grid->columns, { groups(grid->columns), grid->rows + 1 },
+    };
+    status = kd_vk_dispatch(r->vk, &d, error);
+    return status ? status : kd_vk_submit(r->vk, NULL, error);
+}
+
+enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene *scene, uint32_t first, uint32_t stride,
+                                   size_t n, struct kd_particle_place *out, struct kd_error *error)
+{
+    const struct kd_particle_grid grid = kd_particle_grid(scene);
+    const struct kd_vk_pipeline *kernel;
+    const uint32_t constants[] = { scene->disk.epicycles > 0, true };
+    struct kd_particles_push push = push_of(scene, &grid);
+    push.first = first;
+    push.stride = stride;
+    push.count = (uint32_t)n;
+    enum kd_status status = guides(r, scene, &grid, error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof *out, KD_VK_READBACK, "places of particles", error);
+    if (!status)
+        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 2, &kernel, error);
+    const struct kd_vk_dispatch d = {
+        "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
+        { groups(push.count) },
+    };
+    if (!status)
+        status = kd_vk_dispatch(r->vk, &d, error);
+    if (!status)
+        status = kd_vk_submit(r->vk, NULL, error);
+    if (!status)
+        status = kd_vk_wait(r->vk, 0, error);
+    const struct kd_particle_place *got = status ? NULL : kd_vk_buffer_map(r->particles.list);
+    double rows = rows_of(scene, &grid);
+    for (size_t i = 0; i < n && got; i++) /* the device gives rows */
+        out[i] = (struct kd_particle_place) { (float)(inner(scene) * exp(got[i].r / rows)), got[i].phi, got[i].latitude };
+    return status;
+}
+
+void kd_particles_finish(struct kd_particles *p, struct kd_vk *vk)
+{
+    struct kd_vk_buffer *buffers[] = { p->guides, p->grid, p->density, p->list };
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        kd_vk_buffer_destroy(vk, buffers[i]);
+    memset(p, 0, sizeof *p);
+}

@@ -1,0 +1,66 @@
+/* The disk as particles. Each has a guiding orbit, one of `radii` circular ones that hold equal shares of the particles, an
+ * azimuth, and small epicycles in r and theta, all from a hash of its number and the seed: nothing is stored. Where it is at any
+ * time t is a closed form. Angular frequencies are known in double, and their phases at t reach the device as 32-bit fractions of
+ * a turn, whose sums wrap exactly: no t is too late.
+ *
+ * Rows of the grid are steps of log r from edge to edge, columns of azimuth. The number found at a node over the number expected
+ * there multiplies the light of the smooth disk.
+ *
+ * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of Kerr),
+ *
+ *   ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
+ *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u',  u, u' in [0, 1]
+ *
+ * with dOmega/dr at constant E and L, so that nothing diverges where kappa -> 0, at the ISCO, and r - r_isco never changes sign.
+ * Pure but for the calls on a renderer. */
+#ifndef KD_RENDER_PARTICLES_H
+#define KD_RENDER_PARTICLES_H
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct kd_renderer;
+
+#define KD_PARTICLE_RADII 4096u /* at most; 35 to a row of the default grid */
+#define KD_PARTICLE_ROWS 4096u
+
+struct kd_particle_grid {
+    uint32_t count; /* of particles; 0: the disk is smooth */
+    uint32_t radii;
+    uint32_t rows, columns; /* intervals; columns a power of 2 */
+    uint32_t unit;          /* weight of one particle: what a node can hold is 16 bits */
+    uint64_t bytes;         /* on the device */
+};
+/* A valid scene's. Cells are about square, a handful of particles in each. */
+struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene);
+
+/* The guiding orbit of a particle: in order of radius, equal shares but for rounding. */
+uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particle);
+
+/* The guiding radius inside which there is the share q of the particles. */
+double kd_particle_radius(const struct kd_scene *scene, double q);
+
+/* The guiding orbit of a radius k: its radius, angular frequencies in rad/M, and the largest swings: of ln r; of phi in radians. */
+struct kd_particle_orbit {
+    double r, omega, kappa, vertical, swing_r, swing_phi;
+};
+struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k);
+
+/* Render thread only: the density at scene->top.time, ready for the transfer pass. Submits. */
+enum kd_status kd_particles_deposit(struct kd_renderer *renderer, const struct kd_scene *scene,
+                                    const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error);
+
+/* Render thread only: places of the particles first, first + stride, ..., n of them, at scene->top.time, as the device
+ * computes them: r in M, phi in turns of 2^32, latitude in radians. */
+struct kd_particle_place {
+    float r;
+    uint32_t phi;
+    float latitude;
+};
+enum kd_status kd_particles_places(struct kd_renderer *renderer, const struct kd_scene *scene, uint32_t first, uint32_t stride,
+                                   size_t n, struct kd_particle_place *out, struct kd_error *error);
+
+#endif

@@ -1,0 +1,233 @@
+/* Particles as the device computes them, against the closed form in double and against tracks: phases after long times, periods, the
+ * seed; and frames that hold them. */
+#include "render/particles.h"
+
+#include "physics/orbit_bound.h"
+#include "render_support.h"
+
+#include <math.h>
+
+static struct kd_scene particle_scene(double spin, double epicycles)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = 160;
+    scene.image.height = 90;
+    scene.spacetime.spin = spin;
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = 20000;
+    scene.disk.epicycles = epicycles;
+    return scene;
+}
+
+#define N 97 /* particles, of all radii */
+
+static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
+{
+    scene->top.time = time;
+    OK(kd_particles_places(renderer, scene, 5, 20000 / N, N, out, &error));
+}
+
+/* Of the i-th of them, about which it swings. */
+static double radius(const struct kd_scene *scene, int i)
+{
+    struct kd_particle_grid grid = kd_particle_grid(scene);
+    uint32_t guide = kd_particle_guide(&grid, 5 + (uint32_t)i * (20000 / N));
+    return kd_particle_radius(scene, (guide + 0.5) / grid.radii);
+}
+
+static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
+
+/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), worked out here in 64 bits of mantissa; r is one of the radii that hold
+ * equal shares of the disk. The float that reports r is worth 1e-7 of it, which would be 1e-4 rad after 1e4 M: the radius in
+ * double is that of the share, and the float must agree. */
+static void test_phase(void **state)
+{
+    (void)state;
+    static const double spins[] = { -0.9, 0, 0.5, 0.998 }, times[] = { 1, 1e4, -1e4, 123456.789, 1e9 };
+    struct kd_particle_place start[N], then[N];
+    double worst = 0;
+    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+        struct kd_scene scene = particle_scene(spins[s], 0);
+        places_at(&scene, 0, start);
+        for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
+            places_at(&scene, times[k], then);
+            for (int i = 0; i < N; i++) {
+                double r = radius(&scene, i);
+                assert_true(fabs(then[i].r / r - 1) < 1e-6 && then[i].latitude == 0);
+                long double x = sqrtl(r), phase = times[k] / (x * x * x + spins[s]);
+                double off = remainder((double)remainderl(phase, 2 * M_PIl) - angle(then[i].phi - start[i].phi), 2 * M_PI);
+                /* the double that holds a large phase has 1e-16 of it */
+                double bound = 1e-8 + 4e-16 * (double)fabsl(phase);
+                if (!(fabs(off) < bound))
+                    fail_msg("a = %g, r = %g, t = %g: phase off by %.2g", spins[s], r, times[k], off);
+                worst = fabs(times[k]) <= 1e4 ? fmax(worst, fabs(off)) : worst;
+            }
+        }
+    }
+    printf("orbital phase after 1e4 M: within %.2g rad\n", worst);
+}
+
+/* The mean time between upward zeros of samples that are `step` apart. */
+struct period { double first, last, before; int zeros; };
+static void sample(struct period *p, int i, double step, double value)
+{
+    if (i && p->before < 0 && value >= 0) {
+        double at = (i - value / (value - p->before)) * step;
+        if (!p->zeros++)
+            p->first = at;
+        p->last = at;
+    }
+    p->before = value;
+}
+static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
+
+/* The frequencies of small oscillations by another way: those of a bound geodesic that hardly leaves the circle, from its actions
+ * (src/physics/orbit_bound.h, which shares nothing with epicyclic.c). */
+static struct kd_orbit_frequencies frequencies(double a, double r)
+{
+    struct kd_orbit orbit;
+    OK(kd_orbit_from_shape(a, r, 1e-6, cos(1e-6), &orbit, &error));
+    struct kd_orbit_state start = kd_orbit_start(&orbit, NAN, true);
+    struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
+    return kd_orbit_frequencies_of(&bound);
+}
+
+/* Tracks of some particles: how long r and the latitude take. */
+static void test_periods(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 2500 };
+    static const double spins[] = { 0, 0.5, 0.9, 0.998 };
+    struct kd_particle_place at[N];
+    static struct period radial[N], vertical[N];
+    double worst[2] = { 0 };
+    int judged = 0;
+    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+        struct kd_scene scene = particle_scene(spins[s], 0.02);
+        scene.disk.outer = 30;
+        memset(radial, 0, sizeof radial);
+        memset(vertical, 0, sizeof vertical);
+        double step = 5.37, r[N];
+        for (int i = 0; i < N; i++)
+            r[i] = radius(&scene, i);
+        for (int k = 0; k < SAMPLES; k++) {
+            places_at(&scene, 1000 + k * step, at);
+            for (int i = 0; i < N; i++) {
+                sample(&radial[i], k, step, log(at[i].r / r[i]));
+                sample(&vertical[i], k, step, at[i].latitude);
+            }
+        }
+        for (int i = 0; i < N; i++) {
+            struct kd_orbit_frequencies f = frequencies(spins[s], r[i]);
+            /* Beside the ISCO the oscillation takes for ever and is too small for the float that reports r. */
+            if (f.r < 0.1 * f.phi)
+                continue;
+            judged++;
+            double off_r = period(&radial[i]) * f.r / (2 * M_PI) - 1, off_t = period(&vertical[i]) * f.theta / (2 * M_PI) - 1;
+            if (!(radial[i].zeros > 8 && fabs(off_r) < 1e-4 && fabs(off_t) < 1e-4))
+                fail_msg("a = %g, r = %g: periods off by %.2g (r), %.2g (theta)", spins[s], r[i], off_r, off_t);
+            worst[0] = fmax(worst[0], fabs(off_r));
+            worst[1] = fmax(worst[1], fabs(off_t));
+        }
+    }
+    printf("epicyclic periods from %d tracks: within %.2g (r), %.2g (theta)\n", judged, worst[0], worst[1]);
+    assert_true(judged > 3 * N);
+}
+
+static struct kd_frame render(const struct kd_scene *scene)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+static bool ran(const struct kd_frame *frame, const char *pass)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, pass))
+            return true;
+    return false;
+}
+
+static double difference(const struct kd_frame *a, const struct kd_frame *b)
+{
+    double sum = 0;
+    size_t n = (size_t)a->width * a->height * 3;
+    for (size_t i = 0; i < n; i++)
+        sum += fabs((double)((uint8_t *)a->pixels)[i] - ((uint8_t *)b->pixels)[i]);
+    return sum / (double)n;
+}
+
+/* Time, seed, number and azimuth are free: the lens map is kept. The same scene is the same picture, whatever came between. */
+static void test_frames(void **state)
+{
+    (void)state;
+    struct kd_scene scene = particle_scene(0.7, 0.05);
+    scene.camera.inclination_deg = 57.25;
+    scene.style.exposure = 0;
+    scene.top.time = 1e6;
+    struct kd_frame first = render(&scene);
+    assert_true(!first.lens_reused && ran(&first, "trace") && ran(&first, "particles"));
+    struct kd_scene others[5] = { scene, scene, scene, scene, scene };
+    others[0].top.time = -300;
+    others[1].disk.seed++;
+    others[2].disk.particles = 30000;
+    others[3].camera.azimuth_deg = 90;
+    others[4].disk.epicycles = 0;
+    for (int i = 0; i < 5; i++) {
+        struct kd_frame other = render(&others[i]);
+        assert_true(other.lens_reused && !ran(&other, "trace") && ran(&other, "particles"));
+        assert_true(difference(&first, &other) > 1);
+        kd_frame_finish(&other);
+    }
+    struct kd_frame again = render(&scene);
+    assert_true(again.lens_reused);
+    assert_memory_equal(first.pixels, again.pixels, 3 * 160 * 90);
+    kd_frame_finish(&first);
+    kd_frame_finish(&again);
+}
+
+/* An observer who goes round with a narrow ring sees it stand still; one who goes round the other way does not. */
+static void test_turning(void **state)
+{
+    (void)state;
+    struct kd_scene scene = particle_scene(0.5, 0);
+    scene.image.height = 160;
+    scene.camera.inclination_deg = 20;
+    scene.camera.field_m = 30;
+    scene.disk.inner = 10;
+    scene.disk.outer = 10.4;
+    scene.disk.taper = 0;
+    scene.disk.particles = 1000; /* coarse: the shear from edge to edge is half a cell */
+    scene.disk.doppler = false;
+    scene.style.exposure = 0;
+    struct kd_frame start = render(&scene);
+    double rate = 180 / M_PI / (pow(10.2, 1.5) + 0.5);
+    scene.top.time = 8;
+    struct kd_frame later = render(&scene);
+    scene.camera.azimuth_deg = 8 * rate;
+    struct kd_frame along = render(&scene);
+    scene.camera.azimuth_deg = -8 * rate;
+    struct kd_frame against = render(&scene);
+    double stood = difference(&start, &along);
+    printf("%g %g %g\n", stood, difference(&start, &later), difference(&start, &against));
+    assert_true(difference(&start, &later) > 4 * stood && difference(&start, &against) > 4 * stood);
+    kd_frame_finish(&start);
+    kd_frame_finish(&later);
+    kd_frame_finish(&along);
+    kd_frame_finish(&against);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase), cmocka_unit_test(test_periods), cmocka_unit_test(test_frames),
+                                        cmocka_unit_test(test_turning) };
+    int code = open_renderer();
+    return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
