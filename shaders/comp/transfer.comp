@@ -24,6 +24,7 @@ layout(constant_id = 9) const bool OPAQUE = true;   /* the first crossing that m
 layout(constant_id = 10) const bool RING = false;   /* rays are not on the camera's grid: the map holds alpha */
 layout(constant_id = 11) const uint ALPHA_PLANE = 0;
 layout(constant_id = 12) const bool PARTICLES = false; /* the grid of particles modulates the light */
+layout(constant_id = 13) const bool SLOW = false; /* particles as they were when the light left them */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -32,7 +33,7 @@ layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
-    float pad[KD_TRANSFER_HEADER - 14];
+    float pad[KD_TRANSFER_HEADER - 15];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
 } tr;
@@ -81,17 +82,25 @@ vec4 disk_light(float w, float energy, float momentum)
     return vec4(c.rgb * brightness, tr.opacity * fade);
 }
 
+/* The grid at a row and an azimuth in turns. What goes round with the row's Omega was at `turn` a time `ago`, and is ahead now. */
+float density_of_row(uint i, float turn, float ago)
+{
+    if (SLOW) {
+        float r = tr.r_in * exp2(float(i) / tr.rows_octave);
+        turn += ago * (0.5 / KD_PI) / (r * sqrt(r) + cam.spin);
+    }
+    float column = (turn - floor(turn)) * float(tr.columns);
+    uint j = uint(column), at = i * tr.columns;
+    return mix(density[at + (j & (tr.columns - 1))], density[at + ((j + 1) & (tr.columns - 1))], column - float(j));
+}
+
 /* Particles at w = 1/r and this azimuth over the number expected: bilinear between the nodes of the grid. */
-float density_at(float w, float phi)
+float density_at(float w, float phi, float ago)
 {
     float row = clamp(-log2(w * tr.r_in) * tr.rows_octave, 0.0, float(tr.rows));
-    float turn = (phi + tr.azimuth) * (0.5 / KD_PI), column = (turn - floor(turn)) * float(tr.columns);
-    uint i = min(uint(row), tr.rows - 1), j = uint(column), at = i * tr.columns;
-    uint left = j & (tr.columns - 1), right = (j + 1) & (tr.columns - 1);
-    float g = column - float(j);
-    float lower = mix(density[at + left], density[at + right], g);
-    float upper = mix(density[at + tr.columns + left], density[at + tr.columns + right], g);
-    return mix(lower, upper, row - float(i));
+    float turn = (phi + tr.azimuth) * (0.5 / KD_PI);
+    uint i = min(uint(row), tr.rows - 1);
+    return mix(density_of_row(i, turn, ago), density_of_row(i + 1, turn, ago), row - float(i));
 }
 
 /* A celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a fortieth of
@@ -141,8 +150,10 @@ void main()
                     if (w <= 0.0)
                         break;
                     vec4 c = disk_light(w, energy, momentum);
-                    if (PARTICLES && c.a > 0.0)
-                        c.rgb *= density_at(w, lens[at + (ORDERS + n) * cam.stride]);
+                    if (PARTICLES && c.a > 0.0) {
+                        float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
+                        c.rgb *= density_at(w, lens[at + (ORDERS + n) * cam.stride], ago);
+                    }
                     light += through * c.a * c.rgb;
                     through *= 1.0 - c.a;
                     if (OPAQUE && through <= 0.0)

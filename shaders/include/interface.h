@@ -34,7 +34,8 @@
     F(one_minus_a)                        /* 1 - spin, which a float of the spin has lost near 1 */            \
     U(pixels_x)                           /* pixels a row */                                                      \
     U(rows) U(columns)                    /* of the grid of particles */                                          \
-    F(rows_octave)                        /* rows that r doubles in */
+    F(rows_octave)                        /* rows that r doubles in */                                            \
+    F(delay)                              /* of the light that shows the grid as it is */
 
 /* Tables behind the transfer parameters, in floats. */
 #define KD_TRANSFER_HEADER 16

@@ -68,6 +68,12 @@ static void fill_azimuths(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].phi : 0;
 }
 
+static void fill_delays(const struct work *w, uint32_t order, float *to)
+{
+    for (size_t i = 0; i < w->n; i++)
+        to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
+}
+
 static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -88,6 +94,9 @@ static void fill(const struct work *w, float *planes)
     for (uint32_t k = 0; plan->phi && k < plan->orders; k++)
         fill_azimuths(w, k, planes + k * w->n);
     planes += plan->phi ? plan->orders * w->n : 0;
+    for (uint32_t k = 0; plan->delay && k < plan->orders; k++)
+        fill_delays(w, k, planes + k * w->n);
+    planes += plan->delay ? plan->orders * w->n : 0;
     for (size_t i = 0; plan->ring && i < w->n; i++)
         planes[i] = (float)w->alpha_beta[2 * i];
     planes += plan->ring ? w->n : 0;

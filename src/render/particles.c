@@ -106,15 +106,15 @@ static double rows_of(const struct kd_scene *scene, const struct kd_particle_gri
     return grid->rows / log(scene->disk.outer / inner(scene));
 }
 
-static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
+static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, const struct kd_particle_grid *grid, double time)
 {
     double rows = rows_of(scene, grid), r_in = inner(scene);
     for (uint32_t k = 0; k < grid->radii; k++) {
         struct kd_particle_orbit o = kd_particle_orbit(scene, grid->radii, k);
         out[k] = (struct kd_guide) {
-            .phi = turns(o.omega, scene->top.time),
-            .radial = turns(o.kappa, scene->top.time),
-            .vertical = turns(o.vertical, scene->top.time),
+            .phi = turns(o.omega, time),
+            .radial = turns(o.kappa, time),
+            .vertical = turns(o.vertical, time),
             .row = (float)(rows * log(o.r / r_in)),
             .swing_row = (float)(rows * o.swing_r),
             .swing_phi = (float)(o.swing_phi / (2 * M_PI)),
@@ -138,7 +138,12 @@ static void fill_expected(float *out, const struct kd_scene *scene, const struct
     }
 }
 
-static enum kd_status guides(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_particle_grid *grid,
+double kd_particle_delay(const struct kd_scene *scene)
+{
+    return scene->disk.slow_light && isfinite(scene->camera.r) ? scene->camera.r : 0;
+}
+
+static enum kd_status guides(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_particle_grid *grid, double time,
                              struct kd_error *error)
 {
     enum kd_status status = kd_store_at_least(r->vk, &r->particles.guides, GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1),
@@ -146,7 +151,7 @@ static enum kd_status guides(struct kd_renderer *r, const struct kd_scene *scene
     if (status)
         return status;
     char *to = kd_vk_buffer_map(r->particles.guides);
-    fill_guides((struct kd_guide *)to, scene, grid);
+    fill_guides((struct kd_guide *)to, scene, grid, time);
     fill_expected((float *)(to + GUIDES_BYTES), scene, grid);
     return KD_OK;
 }
@@ -195,7 +200,7 @@ enum kd_status kd_particles_deposit(struct kd_renderer *r, const struct kd_scene
 {
     uint64_t bytes = 4ull * (grid->rows + 1) * grid->columns;
     const struct kd_vk_pipeline *kernel;
-    enum kd_status status = guides(r, scene, grid, error);
+    enum kd_status status = guides(r, scene, grid, scene->top.time - kd_particle_delay(scene), error);
     if (!status)
         status = kd_store_at_least(r->vk, &r->particles.grid, bytes, KD_VK_DEVICE, "particles", error);
     if (!status)
@@ -227,7 +232,7 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
     push.first = first;
     push.stride = stride;
     push.count = (uint32_t)n;
-    enum kd_status status = guides(r, scene, &grid, error);
+    enum kd_status status = guides(r, scene, &grid, scene->top.time, error);
     if (!status)
         status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof *out, KD_VK_READBACK, "places of particles", error);
     if (!status)

@@ -49,7 +49,10 @@ struct kd_particle_orbit {
 };
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k);
 
-/* Render thread only: the density at scene->top.time, ready for the transfer pass. Submits. */
+/* How long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */
+double kd_particle_delay(const struct kd_scene *scene);
+
+/* Render thread only: the density at scene->top.time less that, ready for the transfer pass. Submits. */
 enum kd_status kd_particles_deposit(struct kd_renderer *renderer, const struct kd_scene *scene,
                                     const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error);
 

@@ -32,7 +32,9 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
         "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is");
     say(plan, particles,
         "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions");
-    say(plan, particles, "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
+    say(plan, particles && !d->slow_light,
+        "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
+    say(plan, particles && d->slow_light, "particles: over the delay of light they go round on their guiding circles");
     say(plan, disk && d->opacity < 1, "disk: opacity is a chosen number a crossing, not computed from the gas");
     say(plan, disk, "disk: image orders beyond accuracy.orders are left out");
     say(plan, disk, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
@@ -63,6 +65,7 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     key.accuracy.precision = (int32_t)plan->setting.precision + 1;
     key.accuracy.steps = (int32_t)plan->setting.steps;
     key.disk.model = plan->phi ? KD_DISK_PARTICLES : KD_DISK_NONE; /* who alone asks for azimuths */
+    key.disk.slow_light = plan->delay;
     key.sky.model = plan->sky ? KD_SKY_GRID : KD_SKY_NONE;
     return kd_scene_hash(&key, plan->lens_key);
 }
@@ -229,8 +232,12 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         by->steps = 0;
         return KD_OK;
     }
-    bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32;
+    bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32 &&
+               !plan->delay; /* which only listed rays know */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
+    if (plan->delay && !outside(scene))
+        return kd_error_field(error, "/disk/slow_light", 
+                              "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
     return map ? KD_OK : may_list(scene, error);
 }
 
@@ -243,6 +250,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.side = (uint32_t)scene->image.samples;
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     plan.phi = needs->phi;
+    plan.delay = needs->delay;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     plan.sky = needs->sky;
     plan.particles = kd_particle_grid(scene);
@@ -251,7 +259,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     enum kd_status status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.planes = plan.orders + (plan.phi ? plan.orders : 0) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
+    plan.planes = plan.orders * (1 + plan.phi + plan.delay) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
 
@@ -273,6 +281,7 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
     struct kd_needs needs = {
         .disk = scene->disk.model != KD_DISK_NONE,
         .phi = scene->disk.model == KD_DISK_PARTICLES,
+        .delay = scene->disk.model == KD_DISK_PARTICLES && scene->disk.slow_light,
         .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
     };
     return kd_plan_make_for(scene, &needs, capacity, out, error);

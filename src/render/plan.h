@@ -45,6 +45,7 @@ struct kd_plan {
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     struct kd_particle_grid particles;
+    bool delay;                     /* the lens map holds delays of light, behind its azimuths */
     bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
     uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */
@@ -68,7 +69,7 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
 
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
-    bool disk, phi, sky; /* crossing radii; their azimuths; directions of escape and fates */
+    bool disk, phi, delay, sky; /* crossing radii; their azimuths; their delays; directions of escape and fates */
 };
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);

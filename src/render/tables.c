@@ -83,6 +83,7 @@ void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, 
         .pixels_x = (uint32_t)scene->image.width,
         .rows = grid.rows,
         .columns = grid.columns,
+        .delay = (float)kd_particle_delay(scene),
         .rows_octave = (float)(grid.rows / log2(disk->outer / r_in)),
     };
 }

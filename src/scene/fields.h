@@ -75,7 +75,9 @@
          "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)") \
     REAL(disk, epicycles, 0.02, 0.0, 0.2, "1",                                                                \
          "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes at " \
-         "the ISCO (model: particles)")
+         "the ISCO (model: particles)")                                                                       \
+    BOOL(disk, slow_light, false, "each ray shows the particles where they were when its light left them, instead of all at one "  \
+         "coordinate time (model: particles)")
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     ENUM(sky, model, KD_SKY_NONE,                                                                             \

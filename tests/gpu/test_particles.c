@@ -224,10 +224,63 @@ static void test_turning(void **state)
     kd_frame_finish(&against);
 }
 
+/* Light that takes D to arrive shows the disk of D ago: a pixel of slow light is that of a fast-light picture at t - D, D being the
+ * delay of its ray, for an observer at infinity and a near one. Not to the last step, for a grid turned by a part of a cell is
+ * blurred another way. */
+static void test_slow_light(void **state)
+{
+    (void)state;
+    enum { PIXELS = 60 };
+    for (int near = 0; near < 2; near++) {
+        struct kd_scene scene = particle_scene(0.6, 0);
+        scene.disk.particles = 4000;
+        scene.disk.doppler = scene.disk.redshift = false;
+        scene.style.tone_map = KD_TONE_SRGB;
+        scene.style.exposure = -1;
+        scene.style.dither = false;
+        scene.top.time = 700;
+        scene.camera.inclination_deg = 70;
+        if (near)
+            scene.camera.r = 40;
+        struct kd_frame fast = render(&scene);
+        scene.disk.slow_light = true;
+        struct kd_frame slow = render(&scene), again = render(&scene);
+        assert_true(!slow.lens_reused && again.lens_reused);
+        kd_frame_finish(&again);
+        struct kd_capacity c;
+        struct kd_plan plan;
+        kd_renderer_capacity(renderer, &c);
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        float *planes = malloc(4 * plan.planes * plan.rays);
+        OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
+        scene.disk.slow_light = false;
+        double off_then = 0, off_now = 0;
+        int n = 0;
+        for (uint32_t at = 1000; at < 160 * 90 && n < PIXELS; at += 97) {
+            float w = planes[at];
+            if (!(w > 1 / 18.0 && w < 1 / 5.0))
+                continue;
+            scene.top.time = 700 - planes[2 * plan.orders * plan.rays + at];
+            struct kd_frame then = render(&scene);
+            const uint8_t *a = slow.pixels, *b = then.pixels, *now = fast.pixels;
+            off_then += abs(a[3 * at + 1] - b[3 * at + 1]);
+            off_now += abs(a[3 * at + 1] - now[3 * at + 1]);
+            n++;
+            kd_frame_finish(&then);
+        }
+        printf("slow light, %s: %g of 255 from the time of emission, %g from now, %d pixels\n", near ? "near" : "far", off_then / n,
+               off_now / n, n);
+        assert_true(n > 15 && off_now > 2 * off_then);
+        free(planes);
+        kd_frame_finish(&fast);
+        kd_frame_finish(&slow);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase), cmocka_unit_test(test_periods), cmocka_unit_test(test_frames),
-                                        cmocka_unit_test(test_turning) };
+                                        cmocka_unit_test(test_turning), cmocka_unit_test(test_slow_light) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
