@@ -287,7 +287,7 @@ static enum MHD_Result deliver(struct kd_request *request)
             MHD_add_response_header(response, "Content-Type", types[job->format]);
     } else {
         request->reply_bytes = job->out.size;
-        response = kd_reply_take(&job->out, types[job->format]);
+        response = kd_reply_text(request, &job->out, types[job->format]);
     }
     if (!response)
         return MHD_NO;

@@ -160,7 +160,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error);
     request->reply_bytes = job->text.size;
     struct MHD_Response *response =
-        kd_reply_take(&job->text, job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE);
+        kd_reply_text(request, &job->text, job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE);
     if (!response)
         return MHD_NO;
     snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", job->begun_ms - job->submitted_ms,

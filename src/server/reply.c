@@ -1,5 +1,8 @@
 #include "server/reply.h"
 
+#include "image/gzip.h"
+#include "server/negotiate.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +17,22 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     *body = (struct kd_buffer) { 0 };
     if (response)
         MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+/* Below, a header costs what is saved; above, the HTTP thread would be held up for more than some 20 ms. */
+enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
+
+struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
+{
+    struct kd_buffer codings = kd_reply_header_list(request, "Accept-Encoding");
+    bool packed = body->size >= PACK_LEAST && body->size <= PACK_MOST && kd_accepts_coding((const char *)codings.data, "gzip") && kd_gzip(body);
+    kd_buffer_finish(&codings);
+    struct MHD_Response *response = kd_reply_take(body, type);
+    if (response)
+        MHD_add_response_header(response, "Vary", "Accept-Encoding");
+    if (response && packed)
+        MHD_add_response_header(response, "Content-Encoding", "gzip");
     return response;
 }
 
@@ -102,7 +121,7 @@ enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status,
         kd_buffer_finish(json);
         return kd_reply_error(request, &error);
     }
-    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_take(json, type));
+    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_text(request, json, type));
 }
 
 struct joined {

@@ -10,6 +10,8 @@
 /* A response with the buffer's bytes, which it takes over (the buffer is empty afterwards, also on failure);
  * NULL on failure. */
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
+/* The same for text, which goes as gzip where the client takes that and it pays. */
+struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
 /* One with bytes that outlive it. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
 /* One for HEAD and 304, where the length of what a GET would give is not known. Closes the

@@ -61,6 +61,18 @@ class Routes(daemon.Case):
         for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/'):
             self.assertProblem(self.daemon.get(name), 404, 'not-found')
 
+    def test_long_texts_are_compressed_for_who_takes_that(self):
+        for target in ('/v1/schema', '/v1/physics/kerr?spin=0:0.9:50', '/v1/physics/kerr?spin=0:0.9:50&format=csv'):
+            plain, packed = self.daemon.get(target), self.daemon.get(target, Accept_Encoding='gzip, br')
+            self.assertEqual((plain.header('Content-Encoding'), packed.header('Content-Encoding')), (None, 'gzip'), target)
+            self.assertEqual(gzip.decompress(packed.body), plain.body)
+            self.assertLess(len(packed.body), len(plain.body) / 2)
+            self.assertIn(('Vary', 'Accept-Encoding'), packed.headers)
+        self.assertIsNone(self.daemon.get('/healthz', Accept_Encoding='gzip').header('Content-Encoding'))
+        orbit = {'orbit': {'p': 10, 'e': 0.3}, 'samples': 200}
+        plain, packed = self.daemon.post('/v1/orbits', orbit), self.daemon.post('/v1/orbits', orbit, Accept_Encoding='gzip')
+        self.assertEqual(gzip.decompress(packed.body), plain.body)
+
     def test_page_names_what_is_served(self):
         page = self.daemon.get('/').body.decode()
         loaded = re.findall(r'(?:src|href)="(web/[^"]+)"', page)
