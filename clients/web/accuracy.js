@@ -1,6 +1,6 @@
 // How wrong the picture is, where its time went, and what of it is modelled: in words.
 import { byId, el } from './dom.js';
-import { number, said, t, word } from './i18n.js';
+import { number, t, tell, word } from './i18n.js';
 
 const pass_names = {
   queue: ['waiting', 'attesa'], trace: ['rays', 'raggi'], transfer: ['light', 'luce'], expose: ['exposure', 'esposizione'],
@@ -23,14 +23,12 @@ export function showAccuracy(frame, scene) {
   byId('timings').replaceChildren(...frame.passes.map(pass => el('tr', {},
     el('th', { scope: 'row' }, pass_names[pass.name] ? t(...pass_names[pass.name]) : pass.name),
     el('td', {}, pass.reused ? t('reused', 'riusato') : number(pass.ms, 3)))));
-  byId('approximations').replaceChildren(...frame.approximations.map(sentence => {
-    const { text, lang } = said(sentence);
-    return el('li', { lang }, text);
-  }));
+  byId('approximations').replaceChildren(...frame.approximations.map(sentence => tell(el('li'), sentence)));
 }
 
 export function caption(frame) {
   const worst = frame.accuracy.sampled > 0 ? t(`, error ≤ ${number(frame.accuracy.worst, 2)}`, `, errore ≤ ${number(frame.accuracy.worst, 2)}`) : '';
   const rays = frame.samples > 1 ? t(`, ${frame.samples ** 2} rays a pixel`, `, ${frame.samples ** 2} raggi per pixel`) : '';
-  return `${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${worst}`;
+  const pace = frame.pace ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`) : '';
+  return `${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
 }

@@ -3,7 +3,7 @@
 import { byId, el } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
 import { buildControls } from './controls.js';
-import { lang, preset, said, t, translatePage } from './i18n.js';
+import { lang, preset, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { openOrbits } from './orbits.js';
 import { buildOverlays } from './overlay.js';
@@ -17,7 +17,13 @@ import { handle } from './view.js';
 
 const views = { lensing: null, orbits: openOrbits, physics: openPhysics, scale: openScale };
 const opened = new Set();
-const say = text => { byId('status').textContent = text; };
+const status = byId('status');
+
+function say(text) {
+  status.textContent = text;
+  status.removeAttribute('lang');
+}
+
 
 function goTo(name) {
   const view = name in views ? name : 'lensing';
@@ -28,7 +34,7 @@ function goTo(name) {
   }
   document.body.dataset.view = view;
   link.set('view', view === 'lensing' ? null : view);
-  if (!opened.has(view)) opened.add(view), views[view]?.().catch(error => say(error.message));
+  if (!opened.has(view)) opened.add(view), views[view]?.().catch(error => tell(status, error.message));
 }
 
 function buildLanguages() {
@@ -60,26 +66,29 @@ function windowSize(stage) {
 }
 
 function watch(scene) {
-  const stage = byId('stage'), picture = byId('picture'), complain = buildControls(byId('fields'), scene);
+  const stage = byId('stage'), complain = buildControls(byId('fields'), scene);
   const drawOverlays = buildOverlays(byId('overlays'), stage, scene), size = () => windowSize(stage);
   const showShare = share(scene, size);
-  let old = '';
+  let old = '', picture = byId('picture');
 
   const refresh = openSource(scene, size, async frame => {
     const url = URL.createObjectURL(frame.picture);
-    picture.src = url;
-    await picture.decode();
+    const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
+    next.src = url;
+    await next.decode();
+    picture.replaceWith(next);
+    picture = next;
     URL.revokeObjectURL(old);
     old = url;
     say(caption(frame));
+    if (frame.final && stage.dataset.final !== 'true') drawOverlays();
     stage.dataset.final = frame.final;
     stage.dataset.samples = frame.samples;
     complain('', '');
     showAccuracy(frame, scene);
-    if (frame.final) drawOverlays();
   }, error => {
-    const text = said(error.message).text;
-    say(complain(error.pointer, text) ? t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.') : text);
+    if (complain(error.pointer, error.message)) say(t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.'));
+    else tell(status, error.message);
   });
 
   scene.addEventListener('change', event => {
@@ -113,4 +122,4 @@ async function start() {
   await buildPresets(scene);
 }
 
-start().catch(error => say(error.message));
+start().catch(error => tell(status, error.message));

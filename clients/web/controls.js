@@ -1,6 +1,6 @@
 // Controls of a scene, made from the schema: a row a field.
 import { el } from './dom.js';
-import { named, number, section, t, unit, word } from './i18n.js';
+import { named, number, section, t, tell, unit, word } from './i18n.js';
 
 // What sliders span where the schema allows much more than anybody sweeps; the number beside takes all of it.
 const useful = {
@@ -75,7 +75,7 @@ function row(field, scene) {
   const node = el('div', { class: 'field', 'data-path': field.path },
     el('label', { for: id, class: control.inside && 'switch' }, control.inside, label, mark && el('span', { class: 'unit' }, mark)),
     control.nodes, el('p', { class: 'help', id: id + '-help', lang: helpLang }, help), fault);
-  return { node, show: control.show, path: field.path, complain(text) { fault.textContent = text; fault.hidden = !text; } };
+  return { node, show: control.show, path: field.path, complain(text) { tell(fault, text); fault.hidden = !text; } };
 }
 
 export function buildControls(root, scene) {

@@ -10,7 +10,15 @@ const words = lang === 'it' ? await import('./it.js') : null;
 // A sentence of the server: translated if it is known, else marked as English for those who have it read aloud.
 export function said(text) {
   const known = words?.sentences[text];
-  return { text: known ?? text, lang: known || lang === 'en' ? null : 'en' };
+  return { text: known ?? text, lang: known || lang === 'en' || !text ? null : 'en' };
+}
+
+// Puts it into an element.
+export function tell(node, sentence) {
+  const { text, lang: marked } = said(sentence);
+  node.textContent = text;
+  marked ? node.setAttribute('lang', marked) : node.removeAttribute('lang');
+  return node;
 }
 
 const abbreviations = { degrees: '°', pixels: 'px', 'solar masses': 'M☉', 'degrees per second': '°/s', 'M per second': 'M/s', 1: '',

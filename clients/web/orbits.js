@@ -2,7 +2,7 @@
 // its periastron advances.
 import { byId, el, latest, still, svg } from './dom.js';
 import { buildForm } from './form.js';
-import { number, said, t, word } from './i18n.js';
+import { number, t, tell, word } from './i18n.js';
 import { plot } from './plot.js';
 import { physics, postJson } from './server.js';
 
@@ -135,7 +135,7 @@ export async function openOrbits() {
       await show(answer);
       fault.textContent = '';
     } catch (error) {
-      fault.textContent = said(error.message).text;
+      tell(fault, error.message);
     }
   });
 
@@ -146,7 +146,7 @@ export async function openOrbits() {
     at = 0;
     picture.show(samples.point, horizon);
     byId('orbit-facts').replaceChildren(...facts(answer));
-    byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => el('li', { lang: said(text).lang }, said(text).text)));
+    byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => tell(el('li'), text)));
     drift.draw({ title: t('Energy error along the way', 'Errore dell’energia lungo il percorso'), x: { label: t('time t / M', 'tempo t / M') }, y: { label: 'ΔE / E' },
       series: [{ name: t('first integral less its start', 'integrale primo meno il valore iniziale'), x: samples.t, y: samples.error }], marks: [{ y: 0 }] });
     await showPotential(answer);

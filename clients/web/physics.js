@@ -1,7 +1,7 @@
 // The curves: each a few parameters, an equation, numbers of /v1/physics and what they are taken from.
 import { byId, el } from './dom.js';
 import { buildForm } from './form.js';
-import { number, said, t } from './i18n.js';
+import { number, t, tell } from './i18n.js';
 import { plot } from './plot.js';
 import { getJson, physics, physicsUrl } from './server.js';
 
@@ -9,13 +9,13 @@ const degrees = radians => radians == null ? null : radians * 180 / Math.PI;
 const spin = value => ({ name: 'spin', value, min: -0.998, max: 0.998, step: 0.002 });
 const axis = (label, more) => ({ label, ...more });
 // A range of radii from the horizon outwards.
-const outside = far => async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:241` });
+const outside = far => async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:141` });
 const radius = t('radius r / M', 'raggio r / M');
 
 const charts = [
   {
     name: 'deflection', title: t('How far light bends', 'Quanto si piega la luce'), inputs: [spin(0)],
-    query: { b: '2:20:361' },
+    query: { b: '2:20:181' },
     equation: '<mi>α</mi><mo>→</mo><mfrac><mrow><mn>4</mn><mi>M</mi></mrow><mi>b</mi></mfrac><mtext>&nbsp; (b ≫ M)</mtext>',
     show: (v, p) => ({
       note: t(`Light nearer than b = ${number(v.b_critical)} M (${number(v.b_critical_retrograde)} M against the spin) falls in; next to it, it winds round the hole before it leaves.`,
@@ -48,7 +48,7 @@ const charts = [
   {
     name: 'redshift', title: t('Redshift and brightness round a ring of gas', 'Redshift e luminosità lungo un anello di gas'),
     inputs: [spin(0.7), { name: 'inclination_deg', value: 75, min: 0, max: 89.9, step: 0.1 }, { name: 'r', value: 6, min: 1.1, max: 60, step: 0.1 }],
-    query: { phi_deg: '0:360:145' },
+    query: { phi_deg: '0:360:121' },
     equation: '<mi>g</mi><mo>=</mo><mfrac><msub><mi>ν</mi><mi>obs</mi></msub><msub><mi>ν</mi><mi>em</mi></msub></mfrac><mo>,</mo><mspace width="1em"/><msub><mi>I</mi><mi>obs</mi></msub><mo>=</mo><msup><mi>g</mi><mn>4</mn></msup><msub><mi>I</mi><mi>em</mi></msub>',
     show: (v, p) => ({
       note: t(`Brightest ${number(Math.max(...v.g4))}, dimmest ${number(Math.min(...v.g4))} of what the gas emits. Light bends on its way here; without that, g would be the dashed line.`,
@@ -60,7 +60,7 @@ const charts = [
     }),
   },
   {
-    name: 'kerr', title: t('Orbits against spin', 'Orbite e rotazione'), inputs: [], query: { spin: '0:0.999:200' },
+    name: 'kerr', title: t('Orbits against spin', 'Orbite e rotazione'), inputs: [], query: { spin: '0:0.999:112' },
     equation: '<msub><mi>r</mi><mi>ph</mi></msub><mo>=</mo><mn>2</mn><mi>M</mi><mrow><mo>[</mo><mn>1</mn><mo>+</mo><mi>cos</mi><mrow><mo>(</mo><mfrac><mn>2</mn><mn>3</mn></mfrac><mi>arccos</mi><mrow><mo>(</mo><mo>∓</mo><mi>a</mi><mo>/</mo><mi>M</mi><mo>)</mo></mrow><mo>)</mo></mrow><mo>]</mo></mrow>',
     show: (v, p) => ({
       note: t('Without spin light circles at 3 M both ways. With it, what turns with the hole comes closer, what turns against it stays off.',
@@ -75,7 +75,7 @@ const charts = [
     name: 'qnm', title: t('Ringdown', 'Ringdown: il buco che risuona'),
     inputs: [{ ...spin(0.7), min: -0.99, max: 0.99 }, { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 }, { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 }],
-    query: { t: '0:90:361' },
+    query: { t: '0:90:241' },
     equation: '<mi>h</mi><mo>=</mo><msup><mi>e</mi><mrow><msub><mi>ω</mi><mi>I</mi></msub><mi>t</mi></mrow></msup><mi>cos</mi><mo>(</mo><msub><mi>ω</mi><mi>R</mi></msub><mi>t</mi><mo>)</mo><mo>,</mo><mspace width="1em"/><mi>Q</mi><mo>=</mo><mfrac><msub><mi>ω</mi><mi>R</mi></msub><mrow><mo>−</mo><mn>2</mn><msub><mi>ω</mi><mi>I</mi></msub></mrow></mfrac>',
     show: (v, p) => ({
       note: t(`ω = ${number(v.omega_re)} ${v.omega_im < 0 ? '−' : '+'} ${number(Math.abs(v.omega_im))} i per M, by Leaver’s continued fractions. Q = ${number(v.quality)}. For this mass ${number(v.frequency_hz[0])} Hz, fading by e in ${number(v.damping_s[0])} s.`,
@@ -122,7 +122,7 @@ const charts = [
   },
   {
     name: 'inspiral', title: t('Inspiral and chirp', 'Spirale e chirp'),
-    inputs: [{ name: 'mass1_msun', value: 36, min: 0.1, max: 1e9 }, { name: 'mass2_msun', value: 29, min: 0.1, max: 1e9 }], query: { before_s: '0.5:0.005:200' },
+    inputs: [{ name: 'mass1_msun', value: 36, min: 0.1, max: 1e9 }, { name: 'mass2_msun', value: 29, min: 0.1, max: 1e9 }], query: { before_s: '0.5:0.005:100' },
     equation: '<mfrac><mrow><mi>d</mi><mi>a</mi></mrow><mrow><mi>d</mi><mi>t</mi></mrow></mfrac><mo>=</mo><mo>−</mo><mfrac><mn>64</mn><mn>5</mn></mfrac><mfrac><mrow><msub><mi>m</mi><mn>1</mn></msub><msub><mi>m</mi><mn>2</mn></msub><mo>(</mo><msub><mi>m</mi><mn>1</mn></msub><mo>+</mo><msub><mi>m</mi><mn>2</mn></msub><mo>)</mo></mrow><msup><mi>a</mi><mn>3</mn></msup></mfrac>',
     show: (v, p) => ({
       note: t(`Chirp mass ${number(v.chirp_mass)} solar masses; cut where the orbit is at 6 M, ${number(v.isco_hz)} Hz. Leading order only.`,
@@ -134,7 +134,7 @@ const charts = [
   {
     name: 'tidal', title: t('A star torn apart', 'Una stella fatta a pezzi'),
     inputs: [{ name: 'mass_msun', value: 1e6, min: 1e3, max: 1e9 }, { name: 'star_mass_msun', value: 1, min: 0.05, max: 100 }, { name: 'star_radius_rsun', value: 1, min: 0.01, max: 100 }],
-    query: { time_days: '20:1500:297' },
+    query: { time_days: '20:1500:149' },
     equation: '<mover><mi>M</mi><mo>˙</mo></mover><mo>∝</mo><msup><mi>t</mi><mrow><mo>−</mo><mn>5</mn><mo>/</mo><mn>3</mn></mrow></msup>',
     show: (v, p) => ({
       note: t(`Torn at r = ${number(v.tidal_radius)} M; the first debris is back after ${number(v.fallback_days)} days.`,
@@ -165,7 +165,7 @@ function card(chart, known) {
       sources.textContent = answer.sources.join('; ');
       fault.textContent = '';
     } catch (error) {
-      fault.textContent = said(error.message).text;
+      tell(fault, error.message);
     }
   }
 

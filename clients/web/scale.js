@@ -1,7 +1,7 @@
 // A hole in kilometres, seconds and on the sky, beside what the Event Horizon Telescope measured.
 import { byId, el, latest, svg } from './dom.js';
 import { buildForm } from './form.js';
-import { number, said, t, unit } from './i18n.js';
+import { number, t, tell, unit } from './i18n.js';
 import { physics } from './server.js';
 
 const specs = [
@@ -55,7 +55,7 @@ export async function openScale() {
       byId('scale-sources').textContent = sources.join('; ');
       fault.textContent = '';
     } catch (error) {
-      fault.textContent = said(error.message).text;
+      tell(fault, error.message);
     }
   });
   const form = buildForm(byId('scale-inputs'), 'scale', specs, load);

@@ -44,7 +44,8 @@ const visible = () => new Promise(resolve => {
 // scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
 // refresh(moving), to be called whenever the scene or the window has changed.
 export function openSource(scene, size, shown, failed) {
-  let session = null, timer = 0, phase = 'full', pulling = false;
+  let session = null, timer = 0, phase = 'full', pulling = false, recent = [];
+  const goes_on = () => scene.get('motion.azimuth_rate_deg') !== 0 || scene.get('motion.time_rate') !== 0;
 
   function wanted() {
     const { width, height } = size(), half = x => Math.max(16, x >> 1);
@@ -81,11 +82,12 @@ export function openSource(scene, size, shown, failed) {
     const get = name => answer.headers.get(name), quality = figures(get('Kerrd-Quality'));
     const whole = Number(get('Kerrd-Revision')) === from.revision && from.stage !== 'moving';
     from.frame = Number(get('Kerrd-Frame'));
+    recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
     await shown({
-      picture: await answer.blob(), ...quality, final: whole,
+      picture: await answer.blob(), ...quality, final: whole, pace: goes_on() && recent.length > 2 && recent.length / 2,
       accuracy: figures(get('Kerrd-Accuracy')), approximations: sentences(get('Kerrd-Approximations')), passes: passes(get('Server-Timing')),
     });
-    if (whole && phase === 'full') timer = setTimeout(() => { phase = 'fine'; put(); }, fine_ms);
+    if (whole && phase === 'full' && !goes_on()) timer = setTimeout(() => { phase = 'fine'; put(); }, fine_ms);
   }
 
   async function pull() {
