@@ -3,32 +3,59 @@ import { byId, el } from './dom.js';
 import { number, t, tell, word } from './i18n.js';
 
 const pass_names = {
-  queue: ['waiting', 'attesa'], trace: ['rays', 'raggi'], transfer: ['light', 'luce'], expose: ['exposure', 'esposizione'],
-  post: ['tone and colour', 'toni e colore'], readback: ['read back', 'rilettura'], audit: ['error measured', 'misura dell’errore'],
-  encode: ['PNG', 'PNG'], total: ['together', 'in tutto'],
+  queue: ['waiting', 'attesa'],
+  trace: ['rays', 'raggi'],
+  transfer: ['light', 'luce'],
+  expose: ['exposure', 'esposizione'],
+  post: ['tone and colour', 'toni e colore'],
+  readback: ['read back', 'rilettura'],
+  audit: ['error measured', 'misura dell’errore'],
+  encode: ['PNG', 'PNG'],
+  total: ['together', 'in tutto'],
 };
 
 export function showAccuracy(frame, scene) {
-  const { sampled, rays, median, worst, differ } = frame.accuracy, profile = word(scene.get('accuracy.profile'));
-  const held = scene.get('accuracy.tolerance') === 'profile' ? t(`Profile “${profile}”.`, `Profilo «${profile}».`)
-    : t(`Tolerance ${number(scene.get('accuracy.tolerance'))}.`, `Tolleranza ${number(scene.get('accuracy.tolerance'))}.`);
+  const { sampled, rays, median, worst, differ } = frame.accuracy,
+    profile = word(scene.get('accuracy.profile'));
+  const held =
+    scene.get('accuracy.tolerance') === 'profile'
+      ? t(`Profile “${profile}”.`, `Profilo «${profile}».`)
+      : t(`Tolerance ${number(scene.get('accuracy.tolerance'))}.`, `Tolleranza ${number(scene.get('accuracy.tolerance'))}.`);
   const measured = !(sampled > 0)
-    ? t('The error of this picture was not measured: no ray of it crosses the disk’s plane where it could be.',
-        'L’errore di quest’immagine non è stato misurato: nessun suo raggio attraversa il piano del disco dove si potrebbe.')
-    : t(`Radii are off by ${number(median, 2)} of themselves in the median, ${number(worst, 2)} at worst. Measured: ` +
-        `${number(sampled)} of ${number(rays)} rays were traced again in double precision` + (differ ? `, and ${differ} had another fate.` : '.'),
+    ? t(
+        'The error of this picture was not measured: no ray of it crosses the disk’s plane where it could be.',
+        'L’errore di quest’immagine non è stato misurato: nessun suo raggio attraversa il piano del disco dove si potrebbe.',
+      )
+    : t(
+        `Radii are off by ${number(median, 2)} of themselves in the median, ${number(worst, 2)} at worst. Measured: ` +
+          `${number(sampled)} of ${number(rays)} rays were traced again in double precision` +
+          (differ ? `, and ${differ} had another fate.` : '.'),
         `I raggi sul disco sono errati di ${number(median, 2)} (relativo, mediana) e di ${number(worst, 2)} nel caso peggiore. Misurato: ` +
-        `${number(sampled)} raggi su ${number(rays)} sono stati ritracciati in doppia precisione` + (differ ? `, e ${differ} hanno avuto altra sorte.` : '.'));
+          `${number(sampled)} raggi su ${number(rays)} sono stati ritracciati in doppia precisione` +
+          (differ ? `, e ${differ} hanno avuto altra sorte.` : '.'),
+      );
   byId('accuracy-words').textContent = `${held} ${measured}`;
-  byId('timings').replaceChildren(...frame.passes.map(pass => el('tr', {},
-    el('th', { scope: 'row' }, pass_names[pass.name] ? t(...pass_names[pass.name]) : pass.name),
-    el('td', {}, pass.reused ? t('reused', 'riusato') : number(pass.ms, 3)))));
+  byId('timings').replaceChildren(
+    ...frame.passes.map(pass =>
+      el(
+        'tr',
+        {},
+        el('th', { scope: 'row' }, pass_names[pass.name] ? t(...pass_names[pass.name]) : pass.name),
+        el('td', {}, pass.reused ? t('reused', 'riusato') : number(pass.ms, 3)),
+      ),
+    ),
+  );
   byId('approximations').replaceChildren(...frame.approximations.map(sentence => tell(el('li'), sentence)));
 }
 
 export function caption(frame) {
-  const worst = frame.accuracy.sampled > 0 ? t(`, error ≤ ${number(frame.accuracy.worst, 2)}`, `, errore ≤ ${number(frame.accuracy.worst, 2)}`) : '';
+  const worst =
+    frame.accuracy.sampled > 0
+      ? t(`, error ≤ ${number(frame.accuracy.worst, 2)}`, `, errore ≤ ${number(frame.accuracy.worst, 2)}`)
+      : '';
   const rays = frame.samples > 1 ? t(`, ${frame.samples ** 2} rays a pixel`, `, ${frame.samples ** 2} raggi per pixel`) : '';
-  const pace = frame.pace ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`) : '';
+  const pace = frame.pace
+    ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
+    : '';
   return `${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
 }

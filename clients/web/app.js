@@ -22,8 +22,13 @@ const status = byId('status');
 function say(text) {
   status.textContent = text;
   status.removeAttribute('lang');
+  delete status.dataset.wrong;
 }
 
+function sayWrong(text) {
+  tell(status, text);
+  status.dataset.wrong = true;
+}
 
 function goTo(name) {
   const view = name in views ? name : 'lensing';
@@ -34,7 +39,7 @@ function goTo(name) {
   }
   document.body.dataset.view = view;
   link.set('view', view === 'lensing' ? null : view);
-  if (!opened.has(view)) opened.add(view), views[view]?.().catch(error => tell(status, error.message));
+  if (!opened.has(view)) (opened.add(view), views[view]?.().catch(error => sayWrong(error.message)));
 }
 
 function buildLanguages() {
@@ -49,8 +54,13 @@ function buildLanguages() {
 }
 
 async function buildPresets(scene) {
-  const { presets } = await getJson('v1/presets'), select = byId('preset'), help = byId('preset-help');
-  select.append(el('option', { value: '' }, t('default', 'predefinita')), ...presets.map(({ name }) => el('option', { value: name }, name)));
+  const { presets } = await getJson('v1/presets'),
+    select = byId('preset'),
+    help = byId('preset-help');
+  select.append(
+    el('option', { value: '' }, t('default', 'predefinita')),
+    ...presets.map(({ name }) => el('option', { value: name }, name)),
+  );
   select.addEventListener('change', async () => {
     const chosen = presets.find(p => p.name === select.value);
     help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
@@ -61,39 +71,48 @@ async function buildPresets(scene) {
 // Device pixels of the window, no more than what small machines draw in a moment.
 function windowSize(stage) {
   const ratio = Math.min(devicePixelRatio || 1, 1600 / stage.clientWidth, 2);
-  const even = x => Math.max(2, 2 * Math.round(x * ratio / 2));
+  const even = x => Math.max(2, 2 * Math.round((x * ratio) / 2));
   return { width: even(stage.clientWidth), height: even(stage.clientHeight) };
 }
 
 function watch(scene) {
-  const stage = byId('stage'), complain = buildControls(byId('fields'), scene);
-  const drawOverlays = buildOverlays(byId('overlays'), stage, scene), size = () => windowSize(stage);
+  const stage = byId('stage'),
+    complain = buildControls(byId('fields'), scene);
+  const drawOverlays = buildOverlays(byId('overlays'), stage, scene),
+    size = () => windowSize(stage);
   const showShare = share(scene, size);
-  let old = '', picture = byId('picture');
+  let old = '',
+    picture = byId('picture');
 
-  const refresh = openSource(scene, size, async frame => {
-    const url = URL.createObjectURL(frame.picture);
-    const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
-    next.src = url;
-    await next.decode();
-    picture.replaceWith(next);
-    picture = next;
-    URL.revokeObjectURL(old);
-    old = url;
-    say(caption(frame));
-    if (frame.final && stage.dataset.final !== 'true') drawOverlays();
-    stage.dataset.final = frame.final;
-    stage.dataset.samples = frame.samples;
-    complain('', '');
-    showAccuracy(frame, scene);
-  }, error => {
-    if (complain(error.pointer, error.message)) say(t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.'));
-    else tell(status, error.message);
-  });
+  const refresh = openSource(
+    scene,
+    size,
+    async frame => {
+      const url = URL.createObjectURL(frame.picture);
+      const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
+      next.src = url;
+      await next.decode();
+      picture.replaceWith(next);
+      picture = next;
+      URL.revokeObjectURL(old);
+      old = url;
+      say(caption(frame));
+      if (frame.final && stage.dataset.final !== 'true') drawOverlays();
+      stage.dataset.final = frame.final;
+      stage.dataset.samples = frame.samples;
+      complain('', '');
+      showAccuracy(frame, scene);
+    },
+    error => {
+      if (complain(error.pointer, error.message))
+        say(t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.'));
+      else sayWrong(error.message);
+    },
+  );
 
-  scene.addEventListener('change', event => {
+  scene.addEventListener('change', () => {
     stage.dataset.final = false;
-    refresh(event.detail.moving);
+    refresh();
   });
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));
@@ -104,7 +123,8 @@ function watch(scene) {
   });
   let asked = '';
   new ResizeObserver(() => {
-    const { width, height } = size(), now = `${width}x${height}`;
+    const { width, height } = size(),
+      now = `${width}x${height}`;
     if (byId('lensing').hidden || now === asked) return;
     asked = now;
     showShare();
@@ -115,11 +135,12 @@ function watch(scene) {
 async function start() {
   translatePage();
   buildLanguages();
-  for (const button of document.querySelectorAll('nav [data-view]')) button.addEventListener('click', () => goTo(button.dataset.view));
+  for (const button of document.querySelectorAll('nav [data-view]'))
+    button.addEventListener('click', () => goTo(button.dataset.view));
   goTo(link.get('view'));
   const scene = await Scene.load();
   watch(scene);
   await buildPresets(scene);
 }
 
-start().catch(error => tell(status, error.message));
+start().catch(error => sayWrong(error.message));

@@ -4,16 +4,35 @@ import { named, number, section, t, tell, unit, word } from './i18n.js';
 
 // What sliders span where the schema allows much more than anybody sweeps; the number beside takes all of it.
 const useful = {
-  'spacetime.spin': [-0.998, 0.998], 'spacetime.mass_msun': [1, 1e10], 'camera.r': [2.1, 1000], 'camera.field_m': [4, 400],
-  'camera.fov_deg': [2, 120], 'camera.azimuth_deg': [-180, 180], 'camera.centre_alpha': [-50, 50], 'camera.centre_beta': [-50, 50],
-  'camera.roll_deg': [-180, 180], 'disk.inner': [1, 50], 'disk.outer': [3, 200], 'disk.peak_temperature_k': [1000, 1e5],
-  'disk.mdot_edd': [1e-3, 10], 'sky.brightness': [0, 5], 'style.exposure': [-10, 10], 'accuracy.tolerance': [1e-12, 1e-2],
-  time: [-1000, 1000], 'motion.time_rate': [-100, 100],
+  'spacetime.spin': [-0.998, 0.998],
+  'spacetime.mass_msun': [1, 1e10],
+  'camera.r': [2.1, 1000],
+  'camera.field_m': [4, 400],
+  'camera.fov_deg': [2, 120],
+  'camera.azimuth_deg': [-180, 180],
+  'camera.centre_alpha': [-50, 50],
+  'camera.centre_beta': [-50, 50],
+  'camera.roll_deg': [-180, 180],
+  'disk.inner': [1, 50],
+  'disk.outer': [3, 200],
+  'disk.peak_temperature_k': [1000, 1e5],
+  'disk.mdot_edd': [1e-3, 10],
+  'sky.brightness': [0, 5],
+  'style.exposure': [-10, 10],
+  'accuracy.tolerance': [1e-12, 1e-2],
+  'disk.seed': [0, 1000],
+  time: [-1000, 1000],
+  'motion.time_rate': [-100, 100],
 };
 const first = { 'camera.r': 60, 'disk.inner': 6, 'style.exposure': 0, 'accuracy.tolerance': 1e-6 }; // when a word is given up
-const only = { // fields that mean something in one projection alone
-  'camera.field_m': 'plane', 'camera.centre_alpha': 'plane', 'camera.centre_beta': 'plane', 'camera.fov_deg': 'pinhole', 'camera.yaw_deg': 'pinhole',
-  'camera.pitch_deg': 'pinhole', 'camera.observer': 'pinhole', 'camera.ring_decades_max': 'ring', 'camera.ring_decades_min': 'ring',
+const only = {
+  // fields that mean something with one choice alone
+  projection: {
+    plane: ['field_m', 'centre_alpha', 'centre_beta'],
+    pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
+    ring: ['ring_decades_max', 'ring_decades_min'],
+  },
+  model: { particles: ['particles', 'seed', 'density_index', 'epicycles'] },
 };
 const open = ['spacetime', 'camera'];
 const left_out = ['image.width', 'image.height']; // the window's
@@ -23,26 +42,38 @@ function scale([low, high]) {
   const log = low > 0 && high / low > 30;
   return {
     to: x => Math.round(1000 * (log ? Math.log(x / low) / Math.log(high / low) : (x - low) / (high - low))),
-    from: s => Number((log ? low * (high / low) ** (s / 1000) : low + (high - low) * s / 1000).toPrecision(4)),
+    from: s => Number((log ? low * (high / low) ** (s / 1000) : low + ((high - low) * s) / 1000).toPrecision(4)),
   };
 }
 
 function numberRow(field, scene, id, hint) {
   const { minimum, maximum, word: special, type } = field;
-  const s = scale(useful[field.path] ?? [minimum, maximum]), whole = type === 'integer';
+  const s = scale(useful[field.path] ?? [minimum, maximum]),
+    whole = type === 'integer';
   const short = whole && maximum - minimum <= 64;
-  const slider = el('input', { type: 'range', id, min: short ? minimum : 0, max: short ? maximum : 1000, 'aria-describedby': hint });
+  const slider = el('input', {
+    type: 'range',
+    id,
+    min: short ? minimum : 0,
+    max: short ? maximum : 1000,
+    'aria-describedby': hint,
+  });
   const box = el('input', { type: 'number', min: minimum, max: maximum, step: whole ? 1 : 'any', 'aria-describedby': hint });
-  const give = (value, moving) => scene.change({ [field.path]: value }, moving);
+  const give = value => scene.change({ [field.path]: value });
   slider.addEventListener('input', () => {
     const value = short ? slider.valueAsNumber : s.from(slider.valueAsNumber);
-    give(whole ? Math.round(value) : value, true);
+    give(whole ? Math.round(value) : value);
   });
-  box.addEventListener('change', () => { if (box.value !== '' && box.validity.valid) give(box.valueAsNumber); else show(); });
-  const check = special && el('input', { type: 'checkbox',
-    onchange: () => give(check.checked ? special : first[field.path] ?? field.minimum) });
+  box.addEventListener('change', () => {
+    if (box.value !== '' && box.validity.valid) give(box.valueAsNumber);
+    else show();
+  });
+  const check =
+    special &&
+    el('input', { type: 'checkbox', onchange: () => give(check.checked ? special : (first[field.path] ?? field.minimum)) });
   function show() {
-    const value = scene.get(field.path), given = value !== special;
+    const value = scene.get(field.path),
+      given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
     box.value = !given ? '' : value >= 1e6 ? value.toExponential() : value;
@@ -55,27 +86,60 @@ function numberRow(field, scene, id, hint) {
 }
 
 function choiceRow(field, scene, id, hint) {
-  const select = el('select', { id, 'aria-describedby': hint, onchange: () => scene.change({ [field.path]: select.value }) },
-    field.choices.map(choice => el('option', { value: choice }, word(choice))));
-  return { nodes: [select], show: () => { select.value = scene.get(field.path); } };
+  const select = el(
+    'select',
+    { id, 'aria-describedby': hint, onchange: () => scene.change({ [field.path]: select.value }) },
+    field.choices.map(choice => el('option', { value: choice }, word(choice))),
+  );
+  return {
+    nodes: [select],
+    show: () => {
+      select.value = scene.get(field.path);
+    },
+  };
 }
 
 function switchRow(field, scene, id, hint) {
-  const box = el('input', { type: 'checkbox', id, 'aria-describedby': hint,
-    onchange: () => scene.change({ [field.path]: box.checked }) });
-  return { inside: box, nodes: [], show: () => { box.checked = scene.get(field.path); } };
+  const box = el('input', {
+    type: 'checkbox',
+    id,
+    'aria-describedby': hint,
+    onchange: () => scene.change({ [field.path]: box.checked }),
+  });
+  return {
+    inside: box,
+    nodes: [],
+    show: () => {
+      box.checked = scene.get(field.path);
+    },
+  };
 }
 
 function row(field, scene) {
-  const id = 'field-' + field.path, { label, help, helpLang } = named(field.path, field.help), mark = unit(field.unit);
+  const id = 'field-' + field.path,
+    { label, help, helpLang } = named(field.path, field.help),
+    mark = unit(field.unit);
   const make = { choice: choiceRow, switch: switchRow }[field.type] ?? numberRow;
   const control = make(field, scene, id, id + '-help');
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true });
-  const node = el('div', { class: 'field', 'data-path': field.path },
+  const node = el(
+    'div',
+    { class: 'field', 'data-path': field.path },
     el('label', { for: id, class: control.inside && 'switch' }, control.inside, label, mark && el('span', { class: 'unit' }, mark)),
-    control.nodes, el('p', { class: 'help', id: id + '-help', lang: helpLang }, help), fault);
-  return { node, show: control.show, path: field.path, complain(text) { tell(fault, text); fault.hidden = !text; } };
+    control.nodes,
+    el('p', { class: 'help', id: id + '-help', lang: helpLang }, help),
+    fault,
+  );
+  return {
+    node,
+    show: control.show,
+    path: field.path,
+    complain(text) {
+      tell(fault, text);
+      fault.hidden = !text;
+    },
+  };
 }
 
 export function buildControls(root, scene) {
@@ -84,11 +148,25 @@ export function buildControls(root, scene) {
   for (const { name, help } of groups) {
     const own = rows.filter(r => r.path.split('.')[0] === name);
     if (own.length)
-      root.append(el('details', { open: open.includes(name), class: 'group' }, el('summary', {}, section(name, help)), own.map(r => r.node)));
+      root.append(
+        el(
+          'details',
+          { open: open.includes(name), class: 'group' },
+          el('summary', {}, section(name, help)),
+          own.map(r => r.node),
+        ),
+      );
   }
+  function means_something(path) {
+    const [section, name] = path.split('.'),
+      projection = scene.get('camera.projection');
+    const seen = projection !== 'auto' ? projection : scene.get('camera.r') === 'infinity' ? 'plane' : 'pinhole';
+    const [choices, chosen] = { camera: [only.projection, seen], disk: [only.model, scene.get('disk.model')] }[section] ?? [{}];
+    return Object.entries(choices).every(([choice, names]) => choice === chosen || !names.includes(name));
+  }
+
   function show() {
-    const chosen = scene.get('camera.projection'), projection = chosen !== 'auto' ? chosen : scene.get('camera.r') === 'infinity' ? 'plane' : 'pinhole';
-    for (const r of rows) r.node.hidden = (only[r.path] ?? projection) !== projection, r.show();
+    for (const r of rows) ((r.node.hidden = !means_something(r.path)), r.show());
   }
   scene.addEventListener('change', show);
   show();
@@ -98,7 +176,7 @@ export function buildControls(root, scene) {
     const path = (pointer ?? '').slice(1).replaceAll('/', '.');
     for (const r of rows) r.complain(r.path === path ? text : '');
     const at = rows.find(r => r.path === path);
-    if (at && text) at.node.hidden = false, at.node.closest('details').open = true;
+    if (at && text) ((at.node.hidden = false), (at.node.closest('details').open = true));
     return Boolean(at);
   };
 }

@@ -21,7 +21,8 @@ export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
 // Runs a task that may take a while: one at a time, and of those asked for meanwhile only the newest.
 export function latest(task) {
-  let busy = false, next = null;
+  let busy = false,
+    next = null;
   return async function run(...what) {
     if (busy) {
       next = what;

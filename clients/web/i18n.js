@@ -3,7 +3,7 @@
 import * as link from './link.js';
 
 export const lang = (link.get('lang') ?? navigator.language).startsWith('it') ? 'it' : 'en';
-export const t = (en, it) => lang === 'it' ? it : en;
+export const t = (en, it) => (lang === 'it' ? it : en);
 
 const words = lang === 'it' ? await import('./it.js') : null;
 
@@ -21,9 +21,23 @@ export function tell(node, sentence) {
   return node;
 }
 
-const abbreviations = { degrees: '°', pixels: 'px', 'solar masses': 'M☉', 'degrees per second': '°/s', 'M per second': 'M/s', 1: '',
-  microarcseconds: 'µas', 'solar radii': 'R☉', 'solar masses a year': 'M☉/yr', 'solar luminosities': 'L☉', 'c^2': 'c²', 'M^2': 'M²',
-  '1/M^2': '1/M²', 'W/m^2': 'W/m²', radians: 'rad' };
+const abbreviations = {
+  degrees: '°',
+  pixels: 'px',
+  'solar masses': 'M☉',
+  'degrees per second': '°/s',
+  'M per second': 'M/s',
+  1: '',
+  microarcseconds: 'µas',
+  'solar radii': 'R☉',
+  'solar masses a year': 'M☉/yr',
+  'solar luminosities': 'L☉',
+  'c^2': 'c²',
+  'M^2': 'M²',
+  '1/M^2': '1/M²',
+  'W/m^2': 'W/m²',
+  radians: 'rad',
+};
 
 export function unit(name) {
   return words?.units[name] ?? abbreviations[name] ?? name ?? '';
@@ -31,11 +45,28 @@ export function unit(name) {
 
 // Where the name of a field is too short to be a label.
 const labels = {
-  'camera.r': 'Distance', 'camera.field_m': 'Field', 'camera.fov_deg': 'Field of view', 'camera.centre_alpha': 'Centre α', 'camera.centre_beta': 'Centre β',
-  'disk.inner': 'Inner edge', 'disk.outer': 'Outer edge', 'disk.mdot_edd': 'Accretion rate', 'sky.grid_deg': 'Grid spacing', 'disk.colour': 'Temperature scale',
-  r: 'Radius', mdot_edd: 'Accretion rate', mass1_msun: 'First mass', mass2_msun: 'Second mass', star_mass_msun: 'Mass of the star',
-  star_radius_rsun: 'Radius of the star', p: 'p, semi-latus rectum', e: 'e, eccentricity', periods: 'Radial periods', l: 'L, angular momentum',
-  'motion.azimuth_rate_deg': 'Going round', 'motion.time_rate': 'Time goes on',
+  'camera.r': 'Distance',
+  'camera.field_m': 'Field',
+  'camera.fov_deg': 'Field of view',
+  'camera.centre_alpha': 'Centre α',
+  'camera.centre_beta': 'Centre β',
+  'disk.inner': 'Inner edge',
+  'disk.outer': 'Outer edge',
+  'disk.mdot_edd': 'Accretion rate',
+  'sky.grid_deg': 'Grid spacing',
+  'disk.colour': 'Temperature scale',
+  r: 'Radius',
+  mdot_edd: 'Accretion rate',
+  mass1_msun: 'First mass',
+  mass2_msun: 'Second mass',
+  star_mass_msun: 'Mass of the star',
+  star_radius_rsun: 'Radius of the star',
+  p: 'p, semi-latus rectum',
+  e: 'e, eccentricity',
+  periods: 'Radial periods',
+  l: 'L, angular momentum',
+  'motion.azimuth_rate_deg': 'Going round',
+  'motion.time_rate': 'Time goes on',
 };
 
 const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
@@ -44,7 +75,10 @@ const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|u
 export function named(path, help) {
   const it = words?.fields[path];
   const short = path.split('.').pop();
-  return { label: (lang === 'it' ? it?.[0] ?? words.fields[short]?.[0] : labels[path] ?? labels[short]) ?? spell(short), ...(it?.[1] ? { help: it[1] } : helpOf(help)) };
+  return {
+    label: (lang === 'it' ? (it?.[0] ?? words.fields[short]?.[0]) : (labels[path] ?? labels[short])) ?? spell(short),
+    ...(it?.[1] ? { help: it[1] } : helpOf(help)),
+  };
 }
 
 function helpOf(help) {
@@ -56,13 +90,14 @@ export const section = (name, help) => words?.fields[name]?.[0] ?? spell(help.le
 export const word = value => words?.values[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title;
 
-const raised = text => [...text].map(c => c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c]).join('');
+const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
 
 // 0.0123, 12 300, 1.6 × 10⁻⁷.
 export function number(x, digits = 4) {
   if (x == null || Number.isNaN(x)) return '–';
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '−∞';
-  const size = Math.abs(x), show = (v, options) => v.toLocaleString(lang, options).replace('-', '−');
+  const size = Math.abs(x),
+    show = (v, options) => v.toLocaleString(lang, options).replace('-', '−');
   if (size && (size < 1e-3 || size >= 1e6)) {
     const [mantissa, power] = x.toExponential(digits - 1).split('e');
     const front = show(Number(mantissa), { maximumSignificantDigits: digits });

@@ -21,7 +21,7 @@ export function set(key, value) {
 }
 
 export function flush() {
-  if (timer) clearTimeout(timer), write();
+  if (timer) (clearTimeout(timer), write());
 }
 
 addEventListener('hashchange', () => location.reload());

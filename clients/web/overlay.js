@@ -11,22 +11,29 @@ const dragged_for = 10; // M, time for which the lines of the Flamm grid are dra
 // From numbers to pixels of a window of the given size, by the camera of src/render/camera.c: `plane` takes alpha and beta,
 // `direction` components towards -r, +phi and -theta.
 function camera(scene, width, height) {
-  const get = name => scene.get('camera.' + name), roll = get('roll_deg') * radians;
-  const rolled = (x, y, unit) => [width / 2 + (x * Math.cos(roll) - y * Math.sin(roll)) * unit,
-    height / 2 - (x * Math.sin(roll) + y * Math.cos(roll)) * unit];
-  const yaw = get('yaw_deg') * radians, pitch = get('pitch_deg') * radians;
+  const get = name => scene.get('camera.' + name),
+    roll = get('roll_deg') * radians;
+  const rolled = (x, y, unit) => [
+    width / 2 + (x * Math.cos(roll) - y * Math.sin(roll)) * unit,
+    height / 2 - (x * Math.sin(roll) + y * Math.cos(roll)) * unit,
+  ];
+  const yaw = get('yaw_deg') * radians,
+    pitch = get('pitch_deg') * radians;
   return {
     plane: (alpha, beta) => rolled(alpha - get('centre_alpha'), beta - get('centre_beta'), width / get('field_m')),
     direction(inwards, right, up) {
-      const level = inwards * Math.cos(yaw) + right * Math.sin(yaw), side = right * Math.cos(yaw) - inwards * Math.sin(yaw);
-      const ahead = level * Math.cos(pitch) + up * Math.sin(pitch), upward = up * Math.cos(pitch) - level * Math.sin(pitch);
-      return ahead > 0.02 ? rolled(side / ahead, upward / ahead, width / 2 / Math.tan(get('fov_deg') / 2 * radians)) : null;
+      const level = inwards * Math.cos(yaw) + right * Math.sin(yaw),
+        side = right * Math.cos(yaw) - inwards * Math.sin(yaw);
+      const ahead = level * Math.cos(pitch) + up * Math.sin(pitch),
+        upward = up * Math.cos(pitch) - level * Math.sin(pitch);
+      return ahead > 0.02 ? rolled(side / ahead, upward / ahead, width / 2 / Math.tan((get('fov_deg') / 2) * radians)) : null;
     },
   };
 }
 
 const path = (points, closed) => {
-  let pen = 'M', text = '';
+  let pen = 'M',
+    text = '';
   for (const point of points) {
     if (point?.every(Number.isFinite)) text += `${pen}${point[0].toFixed(1)} ${point[1].toFixed(1)}`;
     pen = point?.every(Number.isFinite) ? 'L' : 'M';
@@ -39,14 +46,22 @@ const hole = scene => ({ spin: scene.get('spacetime.spin'), inclination_deg: sce
 
 async function shadow(scene, look) {
   const far = at_infinity(scene);
-  const { values: v } = await physics('shadow', { ...hole(scene), angle_deg: '0:358:180',
-    ...(far ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer') }) });
-  const points = far ? v.alpha.map((alpha, i) => look.plane(alpha, v.beta[i]))
+  const { values: v } = await physics('shadow', {
+    ...hole(scene),
+    angle_deg: '0:358:180',
+    ...(far ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer') }),
+  });
+  const points = far
+    ? v.alpha.map((alpha, i) => look.plane(alpha, v.beta[i]))
     : v.right.map((right, i) => look.direction(v.inwards[i], right, v.up[i]));
-  const size = x => far ? `${number(x)} M` : `${number(x / radians)}°`;
-  return { lines: [path(points, true)],
-    words: t(`${size(v.width)} wide, ${size(v.height)} high, ${size(v.displacement)} off the middle`,
-      `larga ${size(v.width)}, alta ${size(v.height)}, spostata di ${size(v.displacement)}`) };
+  const size = x => (far ? `${number(x)} M` : `${number(x / radians)}°`);
+  return {
+    lines: [path(points, true)],
+    words: t(
+      `${size(v.width)} wide, ${size(v.height)} high, ${size(v.displacement)} off the middle`,
+      `larga ${size(v.width)}, alta ${size(v.height)}, spostata di ${size(v.displacement)}`,
+    ),
+  };
 }
 
 // The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is seen far spread, more points are asked for.
@@ -57,9 +72,11 @@ async function circle(scene, look, r, order = 0) {
     const [alpha, beta] = order ? [v.alpha_1, v.beta_1] : [v.alpha, v.beta];
     return alpha.map((a, i) => ({ phi: parameters.phi_deg[i], at: a == null ? null : look.plane(a, beta[i]) }));
   };
-  const rough = await ask('0:360:121'), fine = [];
+  const rough = await ask('0:360:121'),
+    fine = [];
   for (const [i, here] of rough.entries()) {
-    const next = rough[i + 1], gap = here.at && next?.at ? Math.hypot(next.at[0] - here.at[0], next.at[1] - here.at[1]) : 0;
+    const next = rough[i + 1],
+      gap = here.at && next?.at ? Math.hypot(next.at[0] - here.at[0], next.at[1] - here.at[1]) : 0;
     fine.push(...(gap > 12 ? (await ask(`${here.phi}:${next.phi}:${Math.min(Math.ceil(gap / 6), 40)}`)).slice(0, -1) : [here]));
   }
   return path(fine.map(point => point.at));
@@ -71,8 +88,13 @@ async function photons(scene, look) {
   const { photon_prograde: one, photon_retrograde: other } = await radii(scene);
   const lines = [await circle(scene, look, one)];
   if (Math.abs(one - other) > 1e-3) lines.push(await circle(scene, look, other));
-  return { lines, words: t(`r = ${number(one)} M with the disk’s turning, ${number(other)} M against it`,
-    `r = ${number(one)} M nel verso del disco, ${number(other)} M nel verso opposto`) };
+  return {
+    lines,
+    words: t(
+      `r = ${number(one)} M with the disk’s turning, ${number(other)} M against it`,
+      `r = ${number(one)} M nel verso del disco, ${number(other)} M nel verso opposto`,
+    ),
+  };
 }
 
 async function isco(scene, look) {
@@ -82,35 +104,65 @@ async function isco(scene, look) {
 async function ergosphere(scene, look) {
   const { ergosphere: edge, horizon } = await radii(scene);
   if (!scene.get('spacetime.spin')) return { lines: [], words: t('none without spin', 'assente senza rotazione') };
-  return { lines: [await circle(scene, look, edge)], words: t(`its edge in the equatorial plane, r = ${number(edge)} M; horizon ${number(horizon)} M`,
-    `il suo bordo nel piano equatoriale, r = ${number(edge)} M; orizzonte ${number(horizon)} M`) };
+  return {
+    lines: [await circle(scene, look, edge)],
+    words: t(
+      `its edge in the equatorial plane, r = ${number(edge)} M; horizon ${number(horizon)} M`,
+      `il suo bordo nel piano equatoriale, r = ${number(edge)} M; orizzonte ${number(horizon)} M`,
+    ),
+  };
 }
 
 async function orders(scene, look) {
-  const edges = [scene.get('disk.inner'), scene.get('disk.outer')], lines = [];
+  const edges = [scene.get('disk.inner'), scene.get('disk.outer')],
+    lines = [];
   for (const edge of edges) for (const order of [0, 1]) lines.push(await circle(scene, look, edge, order));
-  return { lines, words: t('both edges of the disk, seen directly (order 0) and past the far side (order 1)',
-    'i due bordi del disco, visti direttamente (ordine 0) e oltre il lato opposto (ordine 1)') };
+  return {
+    lines,
+    words: t(
+      'both edges of the disk, seen directly (order 0) and past the far side (order 1)',
+      'i due bordi del disco, visti direttamente (ordine 0) e oltre il lato opposto (ordine 1)',
+    ),
+  };
 }
 
 // The grid in space, looked at along straight lines from where the camera is.
 async function flamm(scene, look) {
-  const spin = scene.get('spacetime.spin'), { horizon } = await radii(scene), outer = Math.max(scene.get('disk.outer'), 12);
+  const spin = scene.get('spacetime.spin'),
+    { horizon } = await radii(scene),
+    outer = Math.max(scene.get('disk.outer'), 12);
   const range = `${horizon}:${outer}:129`;
-  const [surface, dragging] = await Promise.all([physics('flamm', { spin, r: range }), physics('frame-dragging', { spin, r: range })]);
-  const { radius, z } = surface.values, depth = z.at(-1), turn = dragging.values.omega.map(omega => omega * dragged_for);
-  const tilt = scene.get('camera.inclination_deg') * radians, azimuth = scene.get('camera.azimuth_deg') * radians;
-  const [c, s] = [Math.cos(tilt), Math.sin(tilt)], far = at_infinity(scene), distance = far ? 0 : scene.get('camera.r');
+  const [surface, dragging] = await Promise.all([
+    physics('flamm', { spin, r: range }),
+    physics('frame-dragging', { spin, r: range }),
+  ]);
+  const { radius, z } = surface.values,
+    depth = z.at(-1),
+    turn = dragging.values.omega.map(omega => omega * dragged_for);
+  const tilt = scene.get('camera.inclination_deg') * radians,
+    azimuth = scene.get('camera.azimuth_deg') * radians;
+  const [c, s] = [Math.cos(tilt), Math.sin(tilt)],
+    far = at_infinity(scene),
+    distance = far ? 0 : scene.get('camera.r');
   const place = (i, phi) => {
-    const p = phi + turn[i] - azimuth, x = radius[i] * Math.cos(p), right = radius[i] * Math.sin(p), height = z[i] - depth;
+    const p = phi + turn[i] - azimuth,
+      x = radius[i] * Math.cos(p),
+      right = radius[i] * Math.sin(p),
+      height = z[i] - depth;
     const up = height * s - x * c;
     return far ? look.plane(right, up) : look.direction(distance - x * s - height * c, right, up);
   };
-  const around = [...Array(73).keys()].map(k => k * 5 * radians), lines = [];
+  const around = [...Array(73).keys()].map(k => k * 5 * radians),
+    lines = [];
   for (let i = 0; i < radius.length; i += i < 16 ? 8 : 16) lines.push(path(around.map(phi => place(i, phi))));
   for (let k = 0; k < 72; k += 3) lines.push(path(radius.map((_, i) => place(i, around[k]))));
-  return { lines, words: t(`the equatorial plane embedded in flat space, its spokes dragged for ${dragged_for} M; straight lines of sight`,
-    `il piano equatoriale immerso nello spazio piatto, coi raggi trascinati per ${dragged_for} M; linee di vista diritte`) };
+  return {
+    lines,
+    words: t(
+      `the equatorial plane embedded in flat space, its spokes dragged for ${dragged_for} M; straight lines of sight`,
+      `il piano equatoriale immerso nello spazio piatto, coi raggi trascinati per ${dragged_for} M; linee di vista diritte`,
+    ),
+  };
 }
 
 const overlays = [
@@ -123,17 +175,27 @@ const overlays = [
 ];
 
 export function buildOverlays(root, stage, scene) {
-  const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)), layer = byId('overlay'), notes = new Map();
+  const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)),
+    layer = byId('overlay'),
+    notes = new Map();
 
   const draw = latest(async () => {
-    const { clientWidth: width, clientHeight: height } = stage, look = camera(scene, width, height), groups = [];
+    const { clientWidth: width, clientHeight: height } = stage,
+      look = camera(scene, width, height),
+      groups = [];
     for (const [name, make] of overlays) {
       notes.get(name).textContent = '';
       if (!chosen.has(name)) continue;
       try {
         if (scene.get('camera.projection') === 'ring') throw new Error(t('not in this projection', 'non in questa proiezione'));
         const { lines, words } = await make(scene, look);
-        groups.push(svg('g', { class: 'over-' + name }, lines.map(d => svg('path', { d }))));
+        groups.push(
+          svg(
+            'g',
+            { class: 'over-' + name },
+            lines.map(d => svg('path', { d })),
+          ),
+        );
         notes.get(name).textContent = words;
       } catch (error) {
         notes.get(name).textContent = error.message;
@@ -145,15 +207,27 @@ export function buildOverlays(root, stage, scene) {
   });
 
   for (const [name, , en, it] of overlays) {
-    const box = el('input', { type: 'checkbox', id: 'over-' + name, 'aria-describedby': `over-${name}-words`, onchange: () => {
-      box.checked ? chosen.add(name) : chosen.delete(name);
-      link.set('over', [...chosen].join(','));
-      draw();
-    } });
+    const box = el('input', {
+      type: 'checkbox',
+      id: 'over-' + name,
+      'aria-describedby': `over-${name}-words`,
+      onchange: () => {
+        box.checked ? chosen.add(name) : chosen.delete(name);
+        link.set('over', [...chosen].join(','));
+        draw();
+      },
+    });
     box.checked = chosen.has(name);
     const note = el('p', { class: 'help', id: `over-${name}-words` });
     notes.set(name, note);
-    root.append(el('div', {}, el('label', { for: box.id, class: 'switch' }, box, el('span', { class: 'swatch over-' + name }), t(en, it)), note));
+    root.append(
+      el(
+        'div',
+        {},
+        el('label', { for: box.id, class: 'switch' }, box, el('span', { class: 'swatch over-' + name }), t(en, it)),
+        note,
+      ),
+    );
   }
   scene.addEventListener('change', () => layer.classList.add('late')); // until the picture has come to rest
   return draw;

@@ -5,7 +5,12 @@ import { number, t, tell, unit } from './i18n.js';
 import { physics } from './server.js';
 
 const specs = [
-  { name: 'hole', value: 'm87', choices: ['m87', 'sgra', 'none'], words: { m87: 'M87*', sgra: 'Sgr A*', none: t('of your choice', 'a tua scelta') } },
+  {
+    name: 'hole',
+    value: 'm87',
+    choices: ['m87', 'sgra', 'none'],
+    words: { m87: 'M87*', sgra: 'Sgr A*', none: t('of your choice', 'a tua scelta') },
+  },
   { name: 'mass_msun', unit: 'solar masses', value: 10, min: 0.001, max: 1e12 },
   { name: 'distance_pc', unit: 'pc', value: 1000, min: 0.001, max: 1e11 },
   { name: 'spin', unit: 'M', value: 0.9, min: -0.998, max: 0.998, step: 0.002 },
@@ -13,45 +18,81 @@ const specs = [
 ];
 
 const shown = [
-  ['shadow_uas', 'Shadow, a = 0', 'Ombra, a = 0'], ['ring_uas', 'Ring as measured', 'Anello misurato'], ['ring_error_uas', 'its error', 'suo errore'],
-  ['ring_over_shadow', 'measured over computed', 'misurato su calcolato'], ['m_uas', 'M on the sky', 'M sul cielo'], ['m_km', 'M as a length', 'M come lunghezza'],
-  ['m_s', 'M as a time', 'M come tempo'], ['horizon_km', 'Radius of the horizon', 'Raggio dell’orizzonte'], ['horizon_au', 'the same', 'lo stesso'],
+  ['shadow_uas', 'Shadow, a = 0', 'Ombra, a = 0'],
+  ['ring_uas', 'Ring as measured', 'Anello misurato'],
+  ['ring_error_uas', 'its error', 'suo errore'],
+  ['ring_over_shadow', 'measured over computed', 'misurato su calcolato'],
+  ['m_uas', 'M on the sky', 'M sul cielo'],
+  ['m_km', 'M as a length', 'M come lunghezza'],
+  ['m_s', 'M as a time', 'M come tempo'],
+  ['horizon_km', 'Radius of the horizon', 'Raggio dell’orizzonte'],
+  ['horizon_au', 'the same', 'lo stesso'],
   ['light_crossing_s', 'Light crosses the horizon’s diameter in', 'La luce attraversa il diametro dell’orizzonte in'],
-  ['isco_period_s', 'Period at the ISCO', 'Periodo all’ISCO'], ['photon_period_s', 'Period of the photon orbit', 'Periodo dell’orbita dei fotoni'],
-  ['fall_s', 'From horizon to singularity, from rest far away, a = 0', 'Dall’orizzonte alla singolarità, da fermo all’infinito, a = 0'],
+  ['isco_period_s', 'Period at the ISCO', 'Periodo all’ISCO'],
+  ['photon_period_s', 'Period of the photon orbit', 'Periodo dell’orbita dei fotoni'],
+  [
+    'fall_s',
+    'From horizon to singularity, from rest far away, a = 0',
+    'Dall’orizzonte alla singolarità, da fermo all’infinito, a = 0',
+  ],
   ['fall_longest_s', 'the longest there is, a = 0', 'il massimo possibile, a = 0'],
 ];
 
 // The shadow's edge and the measured ring, to scale, with a bar in microarcseconds.
 function draw(v, edge) {
-  const uas = v.m_uas, points = edge.alpha.map((a, i) => [a * uas, -edge.beta[i] * uas]);
-  const reach = Math.max(...points.map(p => Math.hypot(...p)), (v.ring_uas ?? 0) / 2 + (v.ring_error_uas ?? 0)) * 1.3, k = 100 / reach;
-  const bar = [1, 2, 5].map(m => m * 10 ** Math.floor(Math.log10(reach / 2.2))).filter(x => x < reach * 0.8).at(-1) ?? 10 ** Math.floor(Math.log10(reach * 0.7));
+  const uas = v.m_uas,
+    points = edge.alpha.map((a, i) => [a * uas, -edge.beta[i] * uas]);
+  const reach = Math.max(...points.map(p => Math.hypot(...p)), (v.ring_uas ?? 0) / 2 + (v.ring_error_uas ?? 0)) * 1.3,
+    k = 100 / reach;
+  const bar =
+    [1, 2, 5]
+      .map(m => m * 10 ** Math.floor(Math.log10(reach / 2.2)))
+      .filter(x => x < reach * 0.8)
+      .at(-1) ?? 10 ** Math.floor(Math.log10(reach * 0.7));
   const picture = byId('scale-picture');
   picture.setAttribute('viewBox', '-100 -100 200 200');
   picture.replaceChildren(
     svg('path', { class: 'sky-shadow', d: 'M' + points.map(p => p.map(x => (x * k).toFixed(2)).join(' ')).join('L') + 'Z' }),
-    ...(v.ring_uas ? [svg('circle', { class: 'sky-ring-width', r: v.ring_uas / 2 * k, 'stroke-width': 2 * v.ring_error_uas / 2 * k }),
-      svg('circle', { class: 'sky-ring', r: v.ring_uas / 2 * k })] : []),
-    svg('path', { class: 'bar', d: `M${-bar * k / 2} 88H${bar * k / 2}` }),
-    svg('text', { class: 'axis', x: 0, y: 97, 'text-anchor': 'middle' }, `${number(bar)} µas`));
+    ...(v.ring_uas
+      ? [
+          svg('circle', { class: 'sky-ring-width', r: (v.ring_uas / 2) * k, 'stroke-width': ((2 * v.ring_error_uas) / 2) * k }),
+          svg('circle', { class: 'sky-ring', r: (v.ring_uas / 2) * k }),
+        ]
+      : []),
+    svg('path', { class: 'bar', d: `M${(-bar * k) / 2} 88H${(bar * k) / 2}` }),
+    svg('text', { class: 'axis', x: 0, y: 97, 'text-anchor': 'middle' }, `${number(bar)} µas`),
+  );
 }
 
 export async function openScale() {
   const fault = byId('scale-fault');
   const load = latest(async () => {
-    const { hole, mass_msun, distance_pc, ...rest } = form.values(), any = hole === 'none';
+    const { hole, mass_msun, distance_pc, ...rest } = form.values(),
+      any = hole === 'none';
     for (const name of ['mass_msun', 'distance_pc']) form.input(name).disabled = !any;
     try {
-      const [{ values, units, sources }, edge] = await Promise.all([physics('scale', { hole, ...rest, ...(any ? { mass_msun, distance_pc } : {}) }),
-        physics('shadow', { ...rest, angle_deg: '0:358:180' })]);
+      const [{ values, units, sources }, edge] = await Promise.all([
+        physics('scale', { hole, ...rest, ...(any ? { mass_msun, distance_pc } : {}) }),
+        physics('shadow', { ...rest, angle_deg: '0:358:180' }),
+      ]);
       draw(values, edge.values);
-      if (!any) for (const [name, value] of [['mass_msun', values.mass], ['distance_pc', values.distance]]) form.input(name).value = value;
-      byId('scale-rows').replaceChildren(...shown.filter(([name]) => values[name] != null).map(([name, en, it]) => el('tr', {},
-        el('th', { scope: 'row' }, t(en, it)), el('td', {}, `${number(values[name])} ${unit(units[name])}`))));
+      if (!any)
+        for (const [name, value] of [
+          ['mass_msun', values.mass],
+          ['distance_pc', values.distance],
+        ])
+          form.input(name).value = value;
+      byId('scale-rows').replaceChildren(
+        ...shown
+          .filter(([name]) => values[name] != null)
+          .map(([name, en, it]) =>
+            el('tr', {}, el('th', { scope: 'row' }, t(en, it)), el('td', {}, `${number(values[name])} ${unit(units[name])}`)),
+          ),
+      );
       byId('scale-words').textContent = t(
         `With this spin and inclination the edge of the shadow is ${number(edge.values.width * values.m_uas)} µas wide and ${number(edge.values.height * values.m_uas)} µas high.`,
-        `Con questo spin e questa inclinazione il bordo dell’ombra è largo ${number(edge.values.width * values.m_uas)} µas e alto ${number(edge.values.height * values.m_uas)} µas.`);
+        `Con questo spin e questa inclinazione il bordo dell’ombra è largo ${number(edge.values.width * values.m_uas)} µas e alto ${number(edge.values.height * values.m_uas)} µas.`,
+      );
       byId('scale-sources').textContent = sources.join('; ');
       fault.textContent = '';
     } catch (error) {

@@ -5,7 +5,8 @@ import * as link from './link.js';
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.properties) yield* flatten(spec, name + '.');
-    else if (!('const' in spec)) yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description };
+    else if (!('const' in spec))
+      yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description };
   }
 }
 
@@ -28,11 +29,11 @@ export class Scene extends EventTarget {
   static async load() {
     const scene = new Scene();
     const schema = await getJson('v1/schema');
-    scene.sections = Object.entries(schema.properties).filter(([, spec]) => spec.properties)
+    scene.sections = Object.entries(schema.properties)
+      .filter(([, spec]) => spec.properties)
       .map(([name, spec]) => ({ name, help: spec.description }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
-    for (const [path, field] of scene.fields)
-      if (link.get(path) != null) scene.#put(path, parse(field, link.get(path)));
+    for (const [path, field] of scene.fields) if (link.get(path) != null) scene.#put(path, parse(field, link.get(path)));
     return scene;
   }
 
@@ -46,10 +47,10 @@ export class Scene extends EventTarget {
     return this.#values.get(path) ?? this.fields.get(path)?.default;
   }
 
-  // The changes: { 'camera.r': 30 }; null is the default. What listens is told with whether more are about to come.
-  change(values, moving = false) {
+  // The changes: { 'camera.r': 30 }; null is the default.
+  change(values) {
     for (const [path, value] of Object.entries(values)) this.#put(path, value);
-    this.dispatchEvent(new CustomEvent('change', { detail: { paths: Object.keys(values), moving } }));
+    this.dispatchEvent(new Event('change'));
   }
 
   // All of a document, whatever was there before; the picture's size is the page's affair.

@@ -15,9 +15,14 @@ export async function ask(url, options) {
 
 export const getJson = async url => (await ask(url)).json();
 
-export const postJson = async (url, body) => (await ask(url, {
-  method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body),
-})).json();
+export const postJson = async (url, body) =>
+  (
+    await ask(url, {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json' },
+      body: JSON.stringify(body),
+    })
+  ).json();
 
 // Numbers of /v1/physics are asked for once: most of what is drawn asks again for what it had.
 const kept = new Map();

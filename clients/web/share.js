@@ -6,7 +6,9 @@ import * as link from './link.js';
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
 
 export function share(scene, size) {
-  const box = byId('scene-text'), form = byId('scene-form'), sizes = byId('save-size');
+  const box = byId('scene-text'),
+    form = byId('scene-form'),
+    sizes = byId('save-size');
 
   function picked() {
     const [width, height] = sizes.value === 'window' ? [size().width, size().height] : sizes.value.split('x').map(Number);
@@ -16,8 +18,10 @@ export function share(scene, size) {
   function show() {
     const json = scene.document(picked());
     byId('save').href = 'v1/render?' + scene.query(picked());
-    box.value = form.value === 'json' ? JSON.stringify(json, null, 2)
-      : `curl -H 'Content-Type: application/json' -o kerrd.png \\\n  ${new URL('v1/render', location.href)} \\\n  -d ${shell(JSON.stringify(json))}`;
+    box.value =
+      form.value === 'json'
+        ? JSON.stringify(json, null, 2)
+        : `curl -H 'Content-Type: application/json' -o kerrd.png \\\n  ${new URL('v1/render', location.href)} \\\n  -d ${shell(JSON.stringify(json))}`;
   }
 
   async function copy(text, from) {
@@ -27,7 +31,8 @@ export function share(scene, size) {
       done.textContent = t('Copied.', 'Copiato.');
     } catch {
       from?.select();
-      done.textContent = from ? t('Selected: copy it with your keyboard.', 'Selezionato: copialo con la tastiera.')
+      done.textContent = from
+        ? t('Selected: copy it with your keyboard.', 'Selezionato: copialo con la tastiera.')
         : t('Copy the address from the address bar.', 'Copia l’indirizzo dalla barra del browser.');
     }
   }

@@ -1,75 +1,92 @@
 // Pictures of the scene from a live session. The scene goes to the session as it changes, one patch at a time and the latest
 // wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or a slow line never
-// falls behind. While the scene moves the picture has half the pixels each way, at rest all of them, and after a while several
-// rays a pixel.
+// falls behind. How fine each picture is while the scene changes is the server's affair; at rest it has all pixels of the window
+// and several rays for each.
 import { latest } from './dom.js';
 import { ask, Problem } from './server.js';
 
-const rest_ms = 150; // without a change, after which the picture in full is asked for
-const fine_ms = 500; // with the picture in full, after which the finer one is
-const fine_samples = 2;
+const least_samples = 2;
 const again_ms = 3000; // after a failure that is nobody's fault
 
 // "width=640 height=360 ..." as numbers.
-const figures = header => Object.fromEntries((header ?? '').split(' ').filter(Boolean).map(pair => {
-  const [name, value] = pair.split('=');
-  return [name, Number(value)];
-}));
+const figures = header =>
+  Object.fromEntries(
+    (header ?? '')
+      .split(' ')
+      .filter(Boolean)
+      .map(pair => {
+        const [name, value] = pair.split('=');
+        return [name, Number(value)];
+      }),
+  );
 
 const sentences = header => [...(header ?? '').matchAll(/"([^"]*)"/g)].map(m => decodeURIComponent(m[1]));
 
-const passes = header => (header ?? '').split(',').filter(Boolean).map(entry => ({
-  name: entry.trim().split(';')[0],
-  reused: /desc="?reused/.test(entry),
-  ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
-}));
+const passes = header =>
+  (header ?? '')
+    .split(',')
+    .filter(Boolean)
+    .map(entry => ({
+      name: entry.trim().split(';')[0],
+      reused: /desc="?reused/.test(entry),
+      ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
+    }));
 
 // RFC 7396, from one document to another.
 function mergePatch(before, after) {
   const patch = {};
   for (const key of new Set([...Object.keys(before), ...Object.keys(after)])) {
     const [old, now] = [before[key], after[key]];
-    const inner = old && now && typeof now === 'object' ? mergePatch(old, now) : now ?? null;
+    const inner = old && now && typeof now === 'object' ? mergePatch(old, now) : (now ?? null);
     if (inner && typeof inner === 'object' ? Object.keys(inner).length : old !== now) patch[key] = inner;
   }
   return patch;
 }
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
-const visible = () => new Promise(resolve => {
-  if (!document.hidden) resolve();
-  else document.addEventListener('visibilitychange', resolve, { once: true });
-});
+const visible = () =>
+  new Promise(resolve => {
+    if (!document.hidden) resolve();
+    else document.addEventListener('visibilitychange', resolve, { once: true });
+  });
 
-// scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
-// refresh(moving), to be called whenever the scene or the window has changed.
+// scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns refresh(),
+// to be called whenever the scene or the window has changed.
 export function openSource(scene, size, shown, failed) {
-  let session = null, timer = 0, phase = 'full', pulling = false, recent = [];
+  let session = null,
+    timer = 0,
+    pulling = false,
+    recent = [];
   const goes_on = () => scene.get('motion.azimuth_rate_deg') !== 0 || scene.get('motion.time_rate') !== 0;
 
   function wanted() {
-    const { width, height } = size(), half = x => Math.max(16, x >> 1);
-    if (phase === 'moving') return scene.document({ 'image.width': half(width), 'image.height': half(height) });
-    const samples = Math.max(scene.get('image.samples'), phase === 'fine' ? fine_samples : 1);
-    return scene.document({ 'image.width': width, 'image.height': height, ...(samples > 1 ? { 'image.samples': samples } : {}) });
+    const { width, height } = size();
+    return scene.document({
+      'image.width': width,
+      'image.height': height,
+      'image.samples': Math.max(scene.get('image.samples'), least_samples),
+    });
   }
 
   const headers = () => ({ 'Content-Type': 'application/json', ...(session ? { Authorization: `Bearer ${session.token}` } : {}) });
 
   // A session that has ended is opened anew: it lives for a minute without anybody who watches.
   async function send() {
-    const document = wanted(), stage = phase;
+    const document = wanted();
     try {
       const patch = session && mergePatch(session.document, document);
       if (patch && !Object.keys(patch).length) return;
-      const answer = await ask(session?.url ?? 'v1/sessions',
-        { method: session ? 'PATCH' : 'POST', headers: headers(), body: JSON.stringify(patch ?? document) });
+      const answer = await ask(session?.url ?? 'v1/sessions', {
+        method: session ? 'PATCH' : 'POST',
+        headers: headers(),
+        body: JSON.stringify(patch ?? document),
+      });
       const { id, token, revision } = await answer.json();
       session ??= { url: 'v1/sessions/' + id, token, frame: 0 };
-      Object.assign(session, { document, revision, stage });
+      Object.assign(session, { document, revision });
       if (!pulling) pull();
     } catch (error) {
-      if (error.status === 404 && session) return session = null, send();
+      if (error.status === 404 && session) return ((session = null), send());
       failed(error);
       if (!(error instanceof Problem) || error.status >= 500) timer = setTimeout(put, again_ms);
     }
@@ -79,15 +96,20 @@ export function openSource(scene, size, shown, failed) {
   async function next(from) {
     const answer = await ask(`${from.url}/frame.png?after=${from.frame}`);
     if (answer.status === 204) return;
-    const get = name => answer.headers.get(name), quality = figures(get('Kerrd-Quality'));
-    const whole = Number(get('Kerrd-Revision')) === from.revision && from.stage !== 'moving';
+    const get = name => answer.headers.get(name),
+      quality = figures(get('Kerrd-Quality'));
+    const final = quality.final === 1 && Number(get('Kerrd-Revision')) === from.revision;
     from.frame = Number(get('Kerrd-Frame'));
     recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
     await shown({
-      picture: await answer.blob(), ...quality, final: whole, pace: goes_on() && recent.length > 2 && recent.length / 2,
-      accuracy: figures(get('Kerrd-Accuracy')), approximations: sentences(get('Kerrd-Approximations')), passes: passes(get('Server-Timing')),
+      picture: await answer.blob(),
+      ...quality,
+      final,
+      pace: goes_on() && recent.length > 2 && recent.length / 2,
+      accuracy: figures(get('Kerrd-Accuracy')),
+      approximations: sentences(get('Kerrd-Approximations')),
+      passes: passes(get('Server-Timing')),
     });
-    if (whole && phase === 'full' && !goes_on()) timer = setTimeout(() => { phase = 'fine'; put(); }, fine_ms);
   }
 
   async function pull() {
@@ -99,7 +121,7 @@ export function openSource(scene, size, shown, failed) {
         await next(from);
       } catch (error) {
         if (error.status !== 404) failed(error);
-        else if (session === from) session = null, put();
+        else if (session === from) ((session = null), put());
         await pause(error.status === 404 ? 0 : again_ms);
       }
     }
@@ -110,12 +132,12 @@ export function openSource(scene, size, shown, failed) {
     if (session) fetch(session.url, { method: 'DELETE', headers: headers(), keepalive: true });
     session = null;
   });
-  addEventListener('pageshow', event => { if (event.persisted) put(); });
+  addEventListener('pageshow', event => {
+    if (event.persisted) put();
+  });
 
-  return function refresh(moving = false) {
+  return function refresh() {
     clearTimeout(timer);
-    phase = moving ? 'moving' : 'full';
-    if (moving) timer = setTimeout(refresh, rest_ms);
     put();
   };
 }

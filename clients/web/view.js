@@ -12,23 +12,29 @@ export function handle(stage, scene) {
 
   // At infinity the field narrows, elsewhere the camera comes nearer; it stops outside every static limit (r = 2).
   function zoom(factor, from) {
-    if (far()) scene.change({ 'camera.field_m': round(clamp((from ?? scene.get('camera.field_m')) * factor, 0.5, 1e4), 3) }, true);
-    else scene.change({ 'camera.r': round(clamp((from ?? scene.get('camera.r')) * factor, 2.1, 1e5), 3) }, true);
+    if (far()) scene.change({ 'camera.field_m': round(clamp((from ?? scene.get('camera.field_m')) * factor, 0.5, 1e4), 3) });
+    else scene.change({ 'camera.r': round(clamp((from ?? scene.get('camera.r')) * factor, 2.1, 1e5), 3) });
   }
 
   function go(right_deg, up_deg, from = { azimuth: scene.get('camera.azimuth_deg'), tilt: scene.get('camera.inclination_deg') }) {
     scene.change({
-      'camera.azimuth_deg': round(turn(from.azimuth + right_deg), 2), 'camera.inclination_deg': round(tilt(from.tilt - up_deg), 2),
-    }, true);
+      'camera.azimuth_deg': round(turn(from.azimuth + right_deg), 2),
+      'camera.inclination_deg': round(tilt(from.tilt - up_deg), 2),
+    });
   }
 
   function note() {
     const at = [...pointers.values()];
-    begin = at.length ? {
-      x: at[0].x, y: at[0].y, gap: at.length > 1 ? Math.hypot(at[0].x - at[1].x, at[0].y - at[1].y) : 0,
-      azimuth: scene.get('camera.azimuth_deg'), tilt: scene.get('camera.inclination_deg'),
-      reach: scene.get(far() ? 'camera.field_m' : 'camera.r'),
-    } : null;
+    begin = at.length
+      ? {
+          x: at[0].x,
+          y: at[0].y,
+          gap: at.length > 1 ? Math.hypot(at[0].x - at[1].x, at[0].y - at[1].y) : 0,
+          azimuth: scene.get('camera.azimuth_deg'),
+          tilt: scene.get('camera.inclination_deg'),
+          reach: scene.get(far() ? 'camera.field_m' : 'camera.r'),
+        }
+      : null;
   }
 
   stage.addEventListener('pointerdown', event => {
@@ -42,19 +48,31 @@ export function handle(stage, scene) {
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     const [one, two] = [...pointers.values()];
     if (two && begin.gap) zoom(begin.gap / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 1), begin.reach);
-    else go((begin.x - one.x) * 180 / stage.clientWidth, (one.y - begin.y) * 180 / stage.clientHeight, begin);
+    else go(((begin.x - one.x) * 180) / stage.clientWidth, ((one.y - begin.y) * 180) / stage.clientHeight, begin);
   });
   for (const end of ['pointerup', 'pointercancel'])
-    stage.addEventListener(end, event => { if (pointers.delete(event.pointerId)) note(); });
+    stage.addEventListener(end, event => {
+      if (pointers.delete(event.pointerId)) note();
+    });
 
-  stage.addEventListener('wheel', event => {
-    event.preventDefault();
-    zoom(Math.exp(clamp(event.deltaY * (event.deltaMode ? 20 : 1), -200, 200) * 0.0015));
-  }, { passive: false });
+  stage.addEventListener(
+    'wheel',
+    event => {
+      event.preventDefault();
+      zoom(Math.exp(clamp(event.deltaY * (event.deltaMode ? 20 : 1), -200, 200) * 0.0015));
+    },
+    { passive: false },
+  );
 
   const keys = {
-    ArrowUp: step => go(0, step), ArrowDown: step => go(0, -step), ArrowLeft: step => go(-step, 0), ArrowRight: step => go(step, 0),
-    '+': () => zoom(1 / 1.1), '=': () => zoom(1 / 1.1), '-': () => zoom(1.1), '_': () => zoom(1.1),
+    ArrowUp: step => go(0, step),
+    ArrowDown: step => go(0, -step),
+    ArrowLeft: step => go(-step, 0),
+    ArrowRight: step => go(step, 0),
+    '+': () => zoom(1 / 1.1),
+    '=': () => zoom(1 / 1.1),
+    '-': () => zoom(1.1),
+    _: () => zoom(1.1),
   };
   stage.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target !== stage || !keys[event.key]) return;

@@ -128,6 +128,14 @@ class Page(unittest.TestCase):
         self.drag(page, 60, 0)
         self.assertNotEqual(float(self.field(page, 'camera.azimuth_deg')), 0)
 
+    def test_a_picture_at_rest_costs_nothing(self):
+        for width in (1280, 1000, 900, 700):
+            page = self.open(wait=FINE, viewport={'width': width, 'height': 700})
+            page.wait_for_timeout(500)
+            before = len(self.requests)
+            page.wait_for_timeout(1500)
+            self.assertEqual([r.url for r in self.requests[before:]], [], width)
+
     def test_wheel_keys_and_buttons(self):
         page = self.open()
         page.hover('#stage')
