@@ -16,6 +16,9 @@
 
 struct job {
     struct kd_renderer *r;
+    struct kd_store *store;
+    struct kd_particles *particles;
+    bool aside; /* progress may render */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     struct kd_camera_push camera;
@@ -38,6 +41,11 @@ double kd_render_now_ms(void)
 static enum kd_status report(struct job *j, double rows)
 {
     j->done += rows;
+    if (j->aside) { /* what others measure must not hold what is under way here */
+        enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
+        if (status)
+            return status;
+    }
     if (j->progress && !j->progress(j->user, fmin(j->done / j->weight, 1)))
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
     return KD_OK;
@@ -73,7 +81,7 @@ static enum kd_status trace_kernel(struct job *j, const struct kd_vk_pipeline **
     if (p->path == KD_LENS_RADIUS)
         return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, (uint32_t[]){ p->orders }, 1, out,
                               j->error);
-    enum kd_status status = kd_vk_fill(j->r->vk, j->r->store.undecided, 0, 16, 0, j->error);
+    enum kd_status status = kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error);
     if (status)
         return status;
     const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
@@ -154,7 +162,7 @@ static enum kd_status trace_band(struct job *j, uint32_t band, const struct kd_v
         return list_band(j, band);
     struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, band), 0, 0, true } }, NULL, { 0 } };
     if (p->path == KD_LENS_MAP)
-        d.bindings[1] = (struct kd_vk_binding) { j->r->store.undecided, 0, 0, true };
+        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
     return run_band(j, band, &d, true, p->trace_ns);
 }
 
@@ -164,9 +172,9 @@ static enum kd_status transfer_band(struct job *j, uint32_t band, const struct k
         "transfer",
         pipeline,
         { { lens_buffer(j, band), 0, 0, false },
-          { j->r->store.transfer, 0, 0, false },
-          { j->r->store.radiance.buffers[band], 0, 0, true },
-          { j->plan->particles.count ? j->r->particles.density : j->r->store.transfer, 0, 0, false } },
+          { j->store->transfer, 0, 0, false },
+          { j->store->radiance.buffers[band], 0, 0, true },
+          { j->plan->particles.count ? j->particles->density : j->store->transfer, 0, 0, false } },
         NULL,
         { 0 },
     };
@@ -194,7 +202,7 @@ static enum kd_status trace_and_transfer(struct job *j, bool reused, const struc
 static enum kd_status measure(struct job *j)
 {
     struct kd_vk *vk = j->r->vk;
-    struct kd_store *s = &j->r->store;
+    struct kd_store *s = j->store;
     const struct kd_vk_pipeline *expose;
     enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error);
     if (!status)
@@ -249,7 +257,7 @@ static double auto_exposure(const uint32_t *counts, int tone_map)
 static enum kd_status finish_pixels(struct job *j, struct kd_frame *frame)
 {
     struct kd_vk *vk = j->r->vk;
-    struct kd_store *s = &j->r->store;
+    struct kd_store *s = j->store;
     const struct kd_scene *scene = j->scene;
     const struct kd_vk_pipeline *post;
     bool wide = frame->bit_depth == 16;
@@ -314,7 +322,7 @@ static void collect_timings(const struct job *j, struct kd_frame *frame, double 
 /* Rays of the whole map that were given up. */
 static enum kd_status count_undecided(struct job *j, uint64_t *out)
 {
-    struct kd_store *s = &j->r->store;
+    struct kd_store *s = j->store;
     struct kd_vk *vk = j->r->vk;
     *out = j->undecided;
     if (j->plan->path != KD_LENS_MAP || !j->plan->sky)
@@ -335,27 +343,27 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     struct kd_capacity c;
     bool reused = false;
     kd_renderer_capacity(r, &c);
-    enum kd_status status = kd_store_lens_map(&r->store, j->plan, &j->lens, &reused, j->error);
+    enum kd_status status = kd_store_lens_map(j->store, j->plan, &j->lens, &reused, j->error);
     if (!status)
-        status = kd_store_frame(&r->store, j->plan, frame->bit_depth, j->error);
+        status = kd_store_frame(j->store, j->plan, frame->bit_depth, j->error);
     if (status)
         return status;
 
     kd_tables_fill(r->tables, j->scene, !r->tables_ready);
     r->tables_ready = true;
-    memcpy(kd_vk_buffer_map(r->store.transfer), r->tables, sizeof *r->tables);
+    memcpy(kd_vk_buffer_map(j->store->transfer), r->tables, sizeof *r->tables);
 
     frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (reused ? 2 : 3);
     if (j->plan->particles.count)
-        status = kd_particles_deposit(r, j->scene, &j->plan->particles, c.ns_per_particle, j->error);
+        status = kd_particles_deposit(r, j->particles, j->scene, &j->plan->particles, c.ns_per_particle, j->error);
     if (!status)
         status = trace_and_transfer(j, reused, &c);
     frame->exposure = j->scene->style.exposure;
     if (!status && isinf(frame->exposure)) {
         status = measure(j);
         if (!status)
-            frame->exposure = auto_exposure(kd_vk_buffer_map(r->store.counts), j->scene->style.tone_map);
+            frame->exposure = auto_exposure(kd_vk_buffer_map(j->store->counts), j->scene->style.tone_map);
     }
     if (!status)
         status = finish_pixels(j, frame);
@@ -367,8 +375,27 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     if (!status && !reused)
         status = count_undecided(j, &j->lens->accuracy.undecided);
     if (!status && !reused)
-        kd_store_commit(&r->store, j->lens, j->plan);
+        kd_store_commit(j->store, j->lens, j->plan);
     frame->accuracy = j->lens->accuracy;
+    return status;
+}
+
+static enum kd_status render(struct job *job, struct kd_frame *out)
+{
+    const struct kd_plan *plan = job->plan;
+    struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = job->scene->image.bit_depth };
+    frame.pixels = malloc(plan->host_bytes);
+    if (!frame.pixels)
+        return kd_error_set(job->error, KD_ENOMEM, "out of memory for %llu bytes of pixels", (unsigned long long)plan->host_bytes);
+    enum kd_status status = run(job, &frame);
+    if (!status) {
+        *out = frame;
+        return KD_OK;
+    }
+    kd_vk_discard(job->r->vk);
+    if (status != KD_EDEVICE)
+        kd_vk_wait(job->r->vk, 0, NULL);
+    kd_frame_finish(&frame);
     return status;
 }
 
@@ -376,28 +403,31 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
     double start = kd_render_now_ms();
-    struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = scene->image.bit_depth };
     struct job job = {
-        .r = renderer, .scene = scene, .plan = plan, .camera = kd_camera_push(scene),
-        .progress = progress, .user = user, .error = error,
+        .r = renderer, .store = &renderer->store, .particles = &renderer->particles, .scene = scene, .plan = plan,
+        .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
     };
-    frame.pixels = malloc(plan->host_bytes);
-    if (!frame.pixels)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for %llu bytes of pixels",
-                            (unsigned long long)plan->host_bytes);
     kd_vk_times_reset(renderer->vk);
-    enum kd_status status = run(&job, &frame);
-    if (status) {
-        kd_vk_discard(renderer->vk);
-        if (status != KD_EDEVICE)
-            kd_vk_wait(renderer->vk, 0, NULL);
-        kd_frame_finish(&frame);
+    enum kd_status status = render(&job, out);
+    if (status)
         return status;
-    }
-    collect_timings(&job, &frame, kd_render_now_ms() - start);
-    kd_renderer_learn(renderer, plan, &frame);
-    *out = frame;
+    collect_timings(&job, out, kd_render_now_ms() - start);
+    kd_renderer_learn(renderer, plan, out);
     return KD_OK;
+}
+
+enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+{
+    double start = kd_render_now_ms();
+    struct job job = {
+        .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true, .scene = scene, .plan = plan,
+        .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
+    };
+    enum kd_status status = render(&job, out);
+    if (!status)
+        add_timing(out, "total", kd_render_now_ms() - start);
+    return status;
 }
 
 /* Copy one band of the lens map to its place in each plane. */
@@ -423,7 +453,8 @@ static enum kd_status read_band(struct job *j, uint32_t band, struct kd_vk_buffe
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               float *planes, double *trace_ms, struct kd_error *error)
 {
-    struct job job = { .r = renderer, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1, .error = error };
+    struct job job = { .r = renderer, .store = &renderer->store, .particles = &renderer->particles, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
+                       .error = error };
     const struct kd_vk_pipeline *trace;
     struct kd_vk_buffer *host = NULL;
     bool reused;

@@ -17,8 +17,8 @@ struct kd_particles {
 struct kd_renderer {
     struct kd_vk *vk;
     struct kd_kernels kernels;
-    struct kd_store store;
-    struct kd_particles particles;
+    struct kd_store store, aside; /* aside: kd_render_aside's */
+    struct kd_particles particles, particles_aside;
     struct kd_vk_buffer *rays[3];    /* a list, its ends, and those on the host: rays_device.c's, kept for the next list */
     struct kd_transfer_data *tables; /* staging; its colour table is filled once */
     bool tables_ready;

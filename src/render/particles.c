@@ -143,14 +143,14 @@ double kd_particle_delay(const struct kd_scene *scene)
     return scene->disk.slow_light && isfinite(scene->camera.r) ? scene->camera.r : 0;
 }
 
-static enum kd_status guides(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_particle_grid *grid, double time,
-                             struct kd_error *error)
+static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
+                             const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
-    enum kd_status status = kd_store_at_least(r->vk, &r->particles.guides, GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1),
+    enum kd_status status = kd_store_at_least(r->vk, &p->guides, GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1),
                                               KD_VK_UPLOAD, "orbits of particles", error);
     if (status)
         return status;
-    char *to = kd_vk_buffer_map(r->particles.guides);
+    char *to = kd_vk_buffer_map(p->guides);
     fill_guides((struct kd_guide *)to, scene, grid, time);
     fill_expected((float *)(to + GUIDES_BYTES), scene, grid);
     return KD_OK;
@@ -171,21 +171,21 @@ static struct kd_particles_push push_of(const struct kd_scene *scene, const stru
 
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
-static enum kd_status share_out(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_particle_grid *grid,
-                                double ns_per_particle, struct kd_error *error)
+static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
+                                const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
 {
     const struct kd_vk_pipeline *kernel;
     const uint32_t constants[] = { scene->disk.epicycles > 0, false };
     enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 2, &kernel, error);
     if (!status)
-        status = kd_vk_fill(r->vk, r->particles.grid, 0, 4ull * (grid->rows + 1) * grid->columns, 0, error);
+        status = kd_vk_fill(r->vk, p->grid, 0, 4ull * (grid->rows + 1) * grid->columns, 0, error);
     struct kd_particles_push push = push_of(scene, grid);
     double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)GROUPS_MAX * KD_GROUP_SIZE));
     for (; push.first < grid->count && !status; push.first += push.count) {
         uint32_t left = grid->count - push.first;
         push.count = left < slice ? left : (uint32_t)slice;
         const struct kd_vk_dispatch d = {
-            "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.grid, 0, 0, true } }, &push,
+            "particles", kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, &push,
             { groups(push.count) },
         };
         status = kd_vk_dispatch(r->vk, &d, error);
@@ -195,27 +195,27 @@ static enum kd_status share_out(struct kd_renderer *r, const struct kd_scene *sc
     return status;
 }
 
-enum kd_status kd_particles_deposit(struct kd_renderer *r, const struct kd_scene *scene,
+enum kd_status kd_particles_deposit(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
                                     const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
 {
     uint64_t bytes = 4ull * (grid->rows + 1) * grid->columns;
     const struct kd_vk_pipeline *kernel;
-    enum kd_status status = guides(r, scene, grid, scene->top.time - kd_particle_delay(scene), error);
+    enum kd_status status = guides(r, p, scene, grid, scene->top.time - kd_particle_delay(scene), error);
     if (!status)
-        status = kd_store_at_least(r->vk, &r->particles.grid, bytes, KD_VK_DEVICE, "particles", error);
+        status = kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error);
     if (!status)
-        status = kd_store_at_least(r->vk, &r->particles.density, bytes, KD_VK_DEVICE, "density of particles", error);
+        status = kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error);
     if (!status)
-        status = share_out(r, scene, grid, ns_per_particle, error);
+        status = share_out(r, p, scene, grid, ns_per_particle, error);
     if (!status)
         status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_DENSITY, NULL, 0, &kernel, error);
     if (status)
         return status;
     const struct kd_vk_dispatch d = {
         "particles", kernel,
-        { { r->particles.grid, 0, 0, false },
-          { r->particles.guides, GUIDES_BYTES, 0, false },
-          { r->particles.density, 0, 0, true } },
+        { { p->grid, 0, 0, false },
+          { p->guides, GUIDES_BYTES, 0, false },
+          { p->density, 0, 0, true } },
         &grid->columns, { groups(grid->columns), grid->rows + 1 },
     };
     status = kd_vk_dispatch(r->vk, &d, error);
@@ -232,7 +232,7 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
     push.first = first;
     push.stride = stride;
     push.count = (uint32_t)n;
-    enum kd_status status = guides(r, scene, &grid, scene->top.time, error);
+    enum kd_status status = guides(r, &r->particles, scene, &grid, scene->top.time, error);
     if (!status)
         status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof *out, KD_VK_READBACK, "places of particles", error);
     if (!status)

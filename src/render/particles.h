@@ -23,6 +23,7 @@
 #include <stdint.h>
 
 struct kd_renderer;
+struct kd_particles; /* buffers: render/internal.h */
 
 #define KD_PARTICLE_RADII 4096u /* at most; 35 to a row of the default grid */
 #define KD_PARTICLE_ROWS 4096u
@@ -52,8 +53,8 @@ struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_
 /* How long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
-/* Render thread only: the density at scene->top.time less that, ready for the transfer pass. Submits. */
-enum kd_status kd_particles_deposit(struct kd_renderer *renderer, const struct kd_scene *scene,
+/* Render thread only: the density at scene->top.time less that, in the buffers given, ready for the transfer pass. Submits. */
+enum kd_status kd_particles_deposit(struct kd_renderer *renderer, struct kd_particles *particles, const struct kd_scene *scene,
                                     const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error);
 
 /* Render thread only: places of the particles first, first + stride, ..., n of them, at scene->top.time, as the device

@@ -63,6 +63,12 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          const struct kd_plan *plan, kd_progress_fn progress, void *user,
                          struct kd_frame *out, struct kd_error *error);
 
+/* The same with buffers of its own, at most half of the memory: plan must be made with a capacity of that. progress, called at least
+ * every 100 ms or so, may use the renderer for anything but this, and the picture stays the same to the byte. Of timings only "total",
+ * with what progress took; the capacity learns nothing from it. */
+enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
+
 /* The lens map alone: plan->planes planes of plan->rays floats each, rows from the top, in the order that
  * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,

@@ -65,8 +65,9 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     }
     const struct kd_vk_info *info = kd_vk_info(r->vk);
     r->capacity = guess(info, params->memory_bytes);
-    r->store.vk = r->vk;
+    r->store.vk = r->aside.vk = r->vk;
     r->store.memory_bytes = r->capacity.memory_bytes;
+    r->aside.memory_bytes = r->capacity.memory_bytes / 2;
     load_accuracy(r);
     if (!r->capacity.accuracy) {
         kd_renderer_destroy(r);
@@ -85,7 +86,9 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
         kd_vk_wait(renderer->vk, 0, NULL);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);
+        kd_store_finish(&renderer->aside);
         kd_particles_finish(&renderer->particles, renderer->vk);
+        kd_particles_finish(&renderer->particles_aside, renderer->vk);
         for (size_t i = 0; i < sizeof renderer->rays / sizeof *renderer->rays; i++)
             kd_vk_buffer_destroy(renderer->vk, renderer->rays[i]);
         kd_vk_destroy(renderer->vk);

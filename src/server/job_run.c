@@ -19,6 +19,13 @@ static void rendered(struct kd_render_job *render);
 static void done(struct kd_render_job *render);
 static void progress(struct kd_render_job *render, double fraction);
 
+/* The other half of the memory is for those who are rendered in between: kd_render_aside. */
+static void capacity_of(const struct kd_jobs *all, struct kd_capacity *out)
+{
+    kd_render_queue_capacity(all->params.renders, out);
+    out->memory_bytes /= 2;
+}
+
 static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number,
                                  const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
@@ -52,7 +59,7 @@ static bool begin(struct kd_job *job)
     if (job->next == job->frames)
         return false;
     struct kd_job_frame *frame = calloc(1, sizeof *frame);
-    kd_render_queue_capacity(all->params.renders, &capacity);
+    capacity_of(all, &capacity);
     if (!frame || plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)) {
         kd_job_end(job, KD_JOB_FAILED, frame ? error.message : "out of memory for a frame");
         free(frame);
@@ -168,7 +175,7 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, const struct kd_job_spec
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
-    kd_render_queue_capacity(all->params.renders, &capacity);
+    capacity_of(all, &capacity);
     *ms = 0;
     for (unsigned i = 0; i < spec->frames; i++) {
         enum kd_status status = plan_frame(all, spec, i, &capacity, &scene, &plan, error);

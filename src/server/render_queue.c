@@ -6,11 +6,14 @@
 #include "server/clock.h"
 #include "server/connections.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
 #define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it */
+
+#define OTHERS 10.0 /* times as long as a slice of what is in the background may what goes before it take */
 
 struct list {
     struct kd_render_job *first, **end;
@@ -29,6 +32,7 @@ struct kd_render_queue {
     struct list waiting, encoding;
     unsigned limit, n_waiting, unfinished;
     size_t frame_bytes;
+    double resumed_ms;             /* when what is in the background went on */
     double waiting_ms, running_ms; /* estimates: of the waiting jobs, and what is left of the running one */
     bool lost;
     struct kd_error lost_error;
@@ -78,7 +82,7 @@ static struct kd_render_job *take_next(struct list *list)
 {
     double now = kd_clock_ms();
     for (struct kd_render_job **link = &list->first; *link; link = &(*link)->next)
-        if ((*link)->background && now - (*link)->submitted_ms > KD_BACKGROUND_MS + 10 * (*link)->plan.estimate_ms)
+        if ((*link)->background && now - (*link)->submitted_ms > fmin(KD_BACKGROUND_MS, OTHERS * (*link)->plan.estimate_ms))
             return take(list, link);
     return take_first(list);
 }
@@ -112,6 +116,19 @@ static bool unwanted(struct kd_render_queue *queue, struct kd_render_job *job)
     return atomic_load(&queue->cancel) || atomic_load(&job->drop) || kd_socket_abandoned(job->socket);
 }
 
+static void render_one(struct kd_render_queue *queue, struct kd_render_job *job);
+
+/* Between two slices of what is in the background: those that wait, as long as they may. Locked. */
+static void make_way(struct kd_render_queue *queue)
+{
+    double now = kd_clock_ms(), until = now + OTHERS * (now - queue->resumed_ms), left_ms = queue->running_ms;
+    while (queue->waiting.first && rank(queue->waiting.first) < 2 && queue->frame_bytes <= FRAME_BYTES && !queue->lost && kd_clock_ms() < until)
+        render_one(queue, take_first(&queue->waiting));
+    queue->running = true;
+    queue->running_ms = left_ms;
+    queue->resumed_ms = kd_clock_ms();
+}
+
 static bool progress(void *user, double fraction)
 {
     struct kd_render_job *job = user;
@@ -119,6 +136,8 @@ static bool progress(void *user, double fraction)
 
     pthread_mutex_lock(&queue->lock);
     queue->running_ms = job->plan.estimate_ms * (1 - fraction);
+    if (job->background)
+        make_way(queue);
     pthread_mutex_unlock(&queue->lock);
     if (job->progress)
         job->progress(job, fraction);
@@ -163,9 +182,10 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
         return false;
     }
+    queue->resumed_ms = job->background ? kd_clock_ms() : queue->resumed_ms;
     job->status = job->run ? job->run(job, queue->renderer, progress, job)
-                           : kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame,
-                                       &job->error);
+                           : (job->background ? kd_render_aside : kd_render)(queue->renderer, &job->scene, &job->plan, progress, job,
+                                                                             &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
         mark_lost(queue, &job->error);
     else
@@ -188,9 +208,9 @@ static void open_renderer(struct kd_render_queue *queue)
     pthread_mutex_unlock(&queue->lock);
 }
 
-static void render_one(struct kd_render_queue *queue) /* locked; unlocks while it works */
+/* No longer in the list. Locked; unlocks while it works. */
+static void render_one(struct kd_render_queue *queue, struct kd_render_job *job)
 {
-    struct kd_render_job *job = take_next(&queue->waiting);
     size_t bytes = frame_bytes(job);
     leave(queue, job);
     queue->running = true;
@@ -222,7 +242,7 @@ static void *render_main(void *user)
         pthread_mutex_lock(&queue->lock);
         while (!queue->closing || queue->waiting.first) {
             if (queue->waiting.first && queue->frame_bytes <= FRAME_BYTES)
-                render_one(queue);
+                render_one(queue, take_next(&queue->waiting));
             else
                 pthread_cond_wait(&queue->changed, &queue->lock);
         }

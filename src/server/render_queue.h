@@ -27,8 +27,8 @@ struct kd_render_job {
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
     bool live; /* before all that is not, and not counted among what may wait */
-    /* Behind all that is not, unless it has waited for KD_BACKGROUND_MS and ten times as long as it should take: others cannot stop
-     * it for good, nor it them. Not counted either. */
+    /* Behind all that is not, which also goes between its slices; but it begins after KD_BACKGROUND_MS at the latest, and has a tenth of the
+     * time: others cannot stop it for good. A picture, and not counted either. */
     bool background;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */

@@ -120,6 +120,12 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     return KD_OK;
 }
 
+enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+{
+    return kd_render(renderer, scene, plan, progress, user, out, error);
+}
+
 void kd_frame_finish(struct kd_frame *frame)
 {
     free(frame->pixels);

@@ -1,5 +1,7 @@
 """The program itself, in front of a Vulkan device; skipped where there is none."""
 import concurrent.futures
+import json
+import random
 import struct
 import subprocess
 import sys
@@ -102,6 +104,28 @@ class Kerrd(unittest.TestCase):
                 self.assertLess(abs(one['g'] / other['g'] - 1), 30 * bound)
                 inside += one['r'] < 4.2
         self.assertGreater(inside, 50)  # where the redshift depends on which way the light left
+
+    def interrupt(self):
+        spin = random.randrange(8) / 10
+        one = self.daemon.get(f'/v1/render?image.width=200&image.height=100&sky.model=grid&disk.model=particles&spacetime.spin={spin}')
+        ray = self.daemon.post('/v1/rays', {'spin': spin, 'rays': [[7, 1]], 'accuracy': {'engine': 'mino-rkn6'}})
+        self.assertEqual((one.status, ray.status), (200, 200))
+
+    def test_a_job_that_others_interrupt_is_the_same_picture(self):
+        for scene in ({'image': {'width': 1600, 'height': 900, 'samples': 2}}, {'image': {'width': 1280, 'height': 720}, 'sky': {'model': 'grid'}},
+                      {'image': {'width': 640, 'height': 360}, 'camera': {'r': 30}, 'accuracy': {'precision': 'f64'}},
+                      {'image': {'width': 1280, 'height': 720, 'samples': 2}, 'disk': {'model': 'particles'}, 'time': 300}):
+            with self.subTest(scene):
+                job, between = self.daemon.post('/v1/jobs', {'scene': scene}).json(), 0
+                while (status := self.daemon.get('/v1/jobs/' + job['id']).json())['state'] == 'running':
+                    self.interrupt()
+                    between += 0 < status['fraction'] < 1
+                self.assertEqual(status['state'], 'done', status)
+                self.assertGreater(between, 0)
+                # The command line renders it in one go, and writes files as jobs do.
+                alone = subprocess.run([daemon.COMMAND[0], 'render', '-', '-o', '-'], input=json.dumps(scene).encode(), capture_output=True,
+                                       timeout=60, check=True).stdout
+                self.assertEqual(self.daemon.get('/v1/jobs/' + job['id'] + '/result').body, alone)
 
     def test_a_vanished_client_stops_its_render(self):
         for _ in range(3):
