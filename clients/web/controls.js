@@ -32,7 +32,7 @@ const only = {
     pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
     ring: ['ring_decades_max', 'ring_decades_min'],
   },
-  model: { particles: ['particles', 'seed', 'density_index', 'epicycles'] },
+  model: { particles: ['particles', 'seed', 'density_index', 'epicycles', 'slow_light'] },
 };
 const open = ['spacetime', 'camera'];
 const left_out = ['image.width', 'image.height']; // the window's

@@ -111,6 +111,10 @@ export const fields = {
     'Epicicli',
     'Massime oscillazioni in latitudine, in radianti, e in r su r, queste ultime per (κ/Ω)², che si annulla all’ISCO (modello: particelle)',
   ],
+  'disk.slow_light': [
+    'Luce lenta',
+    'Ogni raggio mostra le particelle dov’erano quando la luce le lasciò, invece che tutte a un solo tempo coordinato (modello: particelle)',
+  ],
   'disk.hardening': ['Indurimento', 'Temperatura di colore su temperatura efficace'],
   'disk.band': ['Banda', 'Luminosità bolometrica, g⁴ F, oppure visibile: lo spettro di Planck come lo pesa l’occhio'],
   'disk.doppler': ['Doppler', 'Spostamento Doppler e concentrazione della luce del gas in orbita'],
@@ -197,6 +201,8 @@ export const sentences = {
     'particelle: epicicli al primo ordine attorno a orbite circolari, in numero scelto per raggio; niente pressione, niente urti',
   "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay":
     'particelle: luce veloce: tutto il disco è mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
+  'particles: over the delay of light they go round on their guiding circles':
+    'particelle: nel ritardo della luce girano sui loro cerchi guida',
   'colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance':
     'colore: i corpi neri fuori dal gamut sRGB sono portati al suo bordo a pari luminanza',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
