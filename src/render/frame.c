@@ -421,8 +421,8 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
 {
     double start = kd_render_now_ms();
     struct job job = {
-        .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true, .scene = scene, .plan = plan,
-        .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
+        .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true,
+        .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
     };
     enum kd_status status = render(&job, out);
     if (!status)
@@ -453,7 +453,7 @@ static enum kd_status read_band(struct job *j, uint32_t band, struct kd_vk_buffe
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               float *planes, double *trace_ms, struct kd_error *error)
 {
-    struct job job = { .r = renderer, .store = &renderer->store, .particles = &renderer->particles, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
+    struct job job = { .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
                        .error = error };
     const struct kd_vk_pipeline *trace;
     struct kd_vk_buffer *host = NULL;

@@ -42,8 +42,9 @@ static bool open_zip(struct frames *f)
 {
     f->zip = archive_write_new();
     f->entry = archive_entry_new();
-    return f->zip && f->entry && archive_write_set_format_zip(f->zip) == ARCHIVE_OK && archive_write_zip_set_compression_store(f->zip) == ARCHIVE_OK &&
-           archive_write_set_bytes_per_block(f->zip, 0) == ARCHIVE_OK && archive_write_open(f->zip, f, NULL, keep, NULL) == ARCHIVE_OK;
+    return f->zip && f->entry && archive_write_set_format_zip(f->zip) == ARCHIVE_OK &&
+           archive_write_zip_set_compression_store(f->zip) == ARCHIVE_OK && archive_write_set_bytes_per_block(f->zip, 0) == ARCHIVE_OK &&
+           archive_write_open(f->zip, f, NULL, keep, NULL) == ARCHIVE_OK;
 }
 
 static void put_le32(unsigned char *out, uint32_t value)

@@ -122,7 +122,8 @@ static void render_one(struct kd_render_queue *queue, struct kd_render_job *job)
 static void make_way(struct kd_render_queue *queue)
 {
     double now = kd_clock_ms(), until = now + OTHERS * (now - queue->resumed_ms), left_ms = queue->running_ms;
-    while (queue->waiting.first && rank(queue->waiting.first) < 2 && queue->frame_bytes <= FRAME_BYTES && !queue->lost && kd_clock_ms() < until)
+    while (queue->waiting.first && rank(queue->waiting.first) < 2 && queue->frame_bytes <= FRAME_BYTES && !queue->lost &&
+           kd_clock_ms() < until)
         render_one(queue, take_first(&queue->waiting));
     queue->running = true;
     queue->running_ms = left_ms;
