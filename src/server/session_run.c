@@ -1,0 +1,158 @@
+/* The frames of sessions, through the render queue. */
+#include "server/clock.h"
+#include "server/session_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ENCODING_MAX 2 /* frames of a session behind the renderer: one is traced while one is encoded */
+
+struct kd_session_frame {
+    struct kd_render_job job; /* first: the queue's pointer is ours */
+    struct kd_session *session;
+    uint64_t number;
+    unsigned revision;
+    struct kd_turn turn;
+    bool rendered;
+};
+
+/* Locked where nothing else is said. */
+
+static enum kd_status encode(struct kd_render_job *job, unsigned encoder);
+static void rendered(struct kd_render_job *job);
+static void done(struct kd_render_job *job);
+
+static void fail(struct kd_session *s, const struct kd_error *error)
+{
+    s->failed = error->status ? error->status : KD_EDEVICE;
+    s->error = *error;
+    kd_session_wake(s);
+}
+
+void kd_session_pump(struct kd_session *s)
+{
+    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s))
+        return;
+    double now = kd_clock_ms();
+    const struct kd_scene scene = kd_session_scene(s, now);
+    if (kd_scene_moves(&scene))
+        kd_governor_changed(&s->governor, now, &scene, false);
+    const struct kd_turn turn = kd_governor_turn(&s->governor, now);
+    if (turn.wait_ms > 0)
+        return; /* the sweep comes back */
+    struct kd_session_frame *live = calloc(1, sizeof *live);
+    struct kd_capacity capacity;
+    struct kd_error error = { 0 };
+    if (!live) {
+        kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
+        fail(s, &error);
+        return;
+    }
+    live->session = s;
+    live->turn = turn;
+    live->job = (struct kd_render_job) { .live = true, .socket = -1, .encode = encode, .rendered = rendered, .done = done };
+    kd_quality_apply(&turn.quality, &scene, &live->job.scene);
+    live->job.scene.image.bit_depth = 8;
+    kd_render_queue_capacity(s->all->params.renders, &capacity);
+    enum kd_status status = kd_plan_make(&live->job.scene, &capacity, &live->job.plan, &error);
+    if (status) {
+        free(live);
+        fail(s, &error);
+        return;
+    }
+    live->number = ++s->begun;
+    live->revision = s->revision;
+    s->rendering = live;
+    s->references++;
+    kd_render_queue_push(s->all->params.renders, &live->job);
+}
+
+void kd_session_drop_refinement(struct kd_session *s)
+{
+    if (s->rendering && s->rendering->turn.refining)
+        atomic_store(&s->rendering->job.drop, true);
+}
+
+/* On an encoder's thread, unlocked. */
+static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
+{
+    const struct kd_session_frame *live = (const struct kd_session_frame *)job;
+    return kd_png_live_encode(live->session->all->encoders[encoder], job->frame.width, job->frame.height, job->frame.pixels, &job->png,
+                              &job->error);
+}
+
+/* Encoding is left out: it overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
+static struct kd_frame_cost cost_of(const struct kd_frame *frame)
+{
+    struct kd_frame_cost cost = { .lens_reused = frame->lens_reused };
+    for (size_t i = 0; i < frame->n_timings; i++) {
+        const struct kd_timing *t = &frame->timings[i];
+        if (!strcmp(t->name, "trace") || !strcmp(t->name, "audit") || !strcmp(t->name, "transfer"))
+            cost.rays_ms += t->ms;
+        else if (!strcmp(t->name, "expose") || !strcmp(t->name, "post") || !strcmp(t->name, "readback"))
+            cost.pixels_ms += t->ms;
+        else if (!strcmp(t->name, "total"))
+            cost.total_ms = t->ms;
+    }
+    return cost;
+}
+
+/* On the render thread, unlocked: the next frame may be traced while this one is encoded. */
+static void rendered(struct kd_render_job *job)
+{
+    struct kd_session_frame *live = (struct kd_session_frame *)job;
+    struct kd_session *s = live->session;
+    struct kd_sessions *all = s->all;
+    pthread_mutex_lock(&all->lock);
+    live->rendered = true;
+    s->rendering = NULL;
+    s->encoding++;
+    const struct kd_frame_cost cost = cost_of(&job->frame);
+    kd_governor_frame(&s->governor, kd_clock_ms(), &live->turn, &cost);
+    kd_session_pump(s);
+    pthread_mutex_unlock(&all->lock);
+}
+
+static void publish(struct kd_session *s, struct kd_session_frame *live)
+{
+    double now = kd_clock_ms();
+    if (s->latest && s->latest->number > live->number)
+        return; /* overtaken */
+    if (s->shown_ms > 0 && now - s->shown_ms < 1000)
+        s->interval_ms += (s->interval_ms > 0 ? 0.2 : 1) * (now - s->shown_ms - s->interval_ms);
+    else
+        s->interval_ms = 0;
+    s->shown_ms = now;
+    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
+    struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
+    if (!frame)
+        return; /* the next one may have more luck */
+    kd_live_frame_release(s->latest);
+    s->latest = frame;
+    s->all->frames++;
+    kd_session_wake(s);
+}
+
+/* On a thread of the queue, unlocked. */
+static void done(struct kd_render_job *job)
+{
+    struct kd_session_frame *live = (struct kd_session_frame *)job;
+    struct kd_session *s = live->session;
+    struct kd_sessions *all = s->all;
+    pthread_mutex_lock(&all->lock);
+    if (live->rendered)
+        s->encoding--;
+    else
+        s->rendering = NULL;
+    job->error.status = job->status;
+    if (!job->status)
+        publish(s, live);
+    else if (job->status != KD_ECANCELLED)
+        fail(s, &job->error);
+    kd_session_pump(s);
+    kd_session_let_go(s);
+    pthread_mutex_unlock(&all->lock);
+    kd_buffer_finish(&job->png);
+    kd_frame_finish(&job->frame);
+    free(live);
+}
