@@ -353,7 +353,7 @@ class Page(unittest.TestCase):
         self.assertEqual((len(gone), len(opened())), (1, 2))
 
     def test_a_scene_that_goes_on(self):
-        page = self.open('lang=en&sky.model=grid&motion.azimuth_rate_deg=30')
+        page = self.open('lang=en&sky.model=grid&motion.azimuth_rate_deg=30', '#stage[data-final]') # it may never be at rest
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5, 20))
         self.assertIn('pictures a second', page.inner_text('#status'))
