@@ -8,6 +8,8 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <strings.h>
 
 #define COMPRESSION 6 /* a file is written once and kept */
 
@@ -23,6 +25,16 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
+/* A picture of another kind would be a PNG under a name that says otherwise. */
+static void check_name(const char *path, const struct argp_state *state)
+{
+    static const char *const others[] = { ".jpg", ".jpeg", ".gif", ".webp", ".tif", ".tiff", ".bmp", ".exr", ".hdr", ".fits", ".pdf", ".svg" };
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++)
+        if (!strcasecmp(dot, others[i]))
+            argp_error(state, "output is \"%s\", allowed is a PNG file: a name that does not end in %s", path, others[i]);
+}
+
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
@@ -36,6 +48,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the picture go?");
+        else
+            check_name(arguments->output, state);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
