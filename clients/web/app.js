@@ -5,17 +5,20 @@ import { caption, showAccuracy } from './accuracy.js';
 import { buildControls } from './controls.js';
 import { lang, preset, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
-import { openOrbits } from './orbits.js';
 import { buildOverlays } from './overlay.js';
-import { openPhysics } from './physics.js';
-import { openScale } from './scale.js';
 import { Scene } from './scene.js';
 import { getJson } from './server.js';
 import { share } from './share.js';
 import { openSource } from './source.js';
 import { handle } from './view.js';
 
-const views = { lensing: null, orbits: openOrbits, physics: openPhysics, scale: openScale };
+// What a view needs is loaded when it is opened.
+const views = {
+  lensing: null,
+  orbits: async () => (await import('./orbits.js')).openOrbits(),
+  physics: async () => (await import('./physics.js')).openPhysics(),
+  scale: async () => (await import('./scale.js')).openScale(),
+};
 const opened = new Set();
 const status = byId('status');
 

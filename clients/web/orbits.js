@@ -183,7 +183,7 @@ export async function openOrbits() {
     try {
       const answer = await postJson('v1/orbits', {
         ...(shaped ? { spin: Number(v.spin) } : {}),
-        samples: 1200,
+        samples: Math.min(Math.max(60 * Number(v.periods), 600), 3000), // 90 bytes each on the wire
         method: v.method,
         duration: { periods: Number(v.periods) },
         orbit: shaped ? { p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) } : { case: v.orbit },

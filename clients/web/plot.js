@@ -1,70 +1,55 @@
-// Line charts as SVG: axes, ticks, legend, a reading under the pointer, and the numbers as a table beside each.
+// Line charts by uPlot. What is added here: curves that do not share their x, marks, a legend that hides curves and says their
+// values, reading by keyboard, and the numbers as a table beside each.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
+import uPlot from './vendor/uplot/uPlot.esm.js';
 
-const size = { width: 560, height: 330, left: 62, right: 14, top: 14, bottom: 46 };
+document.head.append(el('link', { rel: 'stylesheet', href: new URL('vendor/uplot/uPlot.min.css', import.meta.url) }));
+
+const font = 'system-ui, sans-serif';
+const strokes = [
+  ['--glow', []],
+  ['--blue', [9, 3]],
+  ['--green', [2, 3]],
+  ['--rose', [9, 3, 2, 3]],
+];
 let count = 0;
 
-function ticks(low, high, log) {
-  if (log) {
-    const out = [],
-      span = Math.log10(high / low);
-    for (let p = Math.floor(Math.log10(low)); p <= Math.ceil(Math.log10(high)); p += Math.max(1, Math.ceil(span / 6)))
-      for (const m of span < 2 ? [1, 2, 5] : [1])
-        if (m * 10 ** p >= low * 0.999 && m * 10 ** p <= high * 1.001) out.push(m * 10 ** p);
-    return out;
-  }
-  const raw = (high - low) / 5,
-    power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 2.5, 5, 10].find(m => m * power >= raw) * power,
-    out = [];
-  for (let x = Math.ceil(low / step - 1e-9) * step; x <= high + step * 1e-9; x += step) out.push(Math.abs(x) < step * 1e-9 ? 0 : x);
-  return out;
-}
-
+const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const finite = x => x != null && Number.isFinite(x);
 
-function extent(given, values, log) {
-  const all = values.filter(v => finite(v) && (!log || v > 0));
-  let low = given.min ?? Math.min(...all),
-    high = given.max ?? Math.max(...all);
+function extent(given, values) {
+  const all = values.filter(v => finite(v) && (!given.log || v > 0));
+  let low = given.min ?? all.reduce((a, b) => Math.min(a, b), Infinity),
+    high = given.max ?? all.reduce((a, b) => Math.max(a, b), -Infinity);
+  if (!Number.isFinite(high - low)) [low, high] = given.log ? [1, 10] : [0, 1];
   if (!(high > low)) [low, high] = [low - (Math.abs(low) || 1) * 0.5, low + (Math.abs(low) || 1) * 0.5];
-  const room = log ? 0 : (high - low) * 0.05;
+  const room = given.log ? 0 : (high - low) * 0.05;
   return [given.min ?? low - room, given.max ?? high + room];
 }
 
-function axis(given, values, from, to) {
-  const [low, high] = extent(given, values, given.log);
-  const f = given.log ? Math.log : x => x;
-  return { low, high, ticks: ticks(low, high, given.log), at: x => from + ((f(x) - f(low)) / (f(high) - f(low))) * (to - from) };
-}
-
 // Ticks far from 1 are written without their common power of ten, which goes to the label.
-function power(ticks, log) {
-  const p = Math.floor(Math.log10(Math.max(...ticks.map(Math.abs)) || 1));
+function power([low, high], log) {
+  const p = Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high))));
   return log || (p > -3 && p < 6) ? 0 : p;
 }
 
-function line(series, x, y, limits) {
-  let pen = 'M',
-    text = '';
-  series.x.forEach((value, i) => {
-    const h = series.y[i];
-    if (!finite(h) || !finite(value) || (y.log && h <= 0)) {
-      pen = 'M';
-      return;
-    }
-    text += `${pen}${x.at(value).toFixed(1)} ${Math.min(Math.max(y.at(h), -limits), 2 * limits).toFixed(1)}`;
-    pen = 'L';
+const shown = (value, given) => (finite(value) && !(given.log && value <= 0) ? value : null);
+const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
+
+// One column of x and one of y for each curve, as uPlot takes them.
+function columns(spec) {
+  const tables = spec.series.map(({ x, y }) => {
+    const rows = x.map((value, i) => [value, shown(y[i], spec.y)]).filter(([value]) => shown(value, spec.x) != null);
+    return [rows.map(row => row[0]), rows.map(row => row[1])];
   });
-  return text;
+  return shared(spec) ? [tables[0][0], ...tables.map(table => table[1])] : uPlot.join(tables);
 }
 
 function table(spec) {
   const n = spec.series[0]?.x.length ?? 0,
-    every = Math.max(1, Math.ceil(n / 24)),
-    same = spec.series.every(s => s.x === spec.series[0].x);
-  const list = same ? [spec.series] : spec.series.map(s => [s]);
+    every = Math.max(1, Math.ceil(n / 24));
+  const list = shared(spec) ? [spec.series] : spec.series.map(s => [s]);
   return list.map(group =>
     el(
       'table',
@@ -96,101 +81,171 @@ function table(spec) {
   );
 }
 
-// spec: { title, note, csv, x: { label, min, max, log }, y: likewise, series: [{ name, x, y }], marks: [{ x or y, label }] }.
+function drawMarks(u, marks) {
+  const { ctx, bbox } = u,
+    ratio = devicePixelRatio;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.font = `${12 * ratio}px ${font}`;
+  marks.forEach((mark, i) => {
+    const upright = finite(mark.x),
+      at = Math.round(upright ? u.valToPos(mark.x, 'x', true) : u.valToPos(mark.y, 'y', true));
+    ctx.strokeStyle = colour('--edge');
+    ctx.lineWidth = ratio;
+    ctx.setLineDash([3 * ratio, 3 * ratio]);
+    ctx.beginPath();
+    if (upright) (ctx.moveTo(at, bbox.top), ctx.lineTo(at, bbox.top + bbox.height));
+    else (ctx.moveTo(bbox.left, at), ctx.lineTo(bbox.left + bbox.width, at));
+    ctx.stroke();
+    ctx.fillStyle = colour('--ink');
+    ctx.textAlign = upright ? 'left' : 'right';
+    const above = at - bbox.top > 16 * ratio ? -4 : 14;
+    const place = upright ? [at + 4 * ratio, bbox.top + (12 + 14 * (i % 4)) * ratio] : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
+    ctx.fillText(mark.label ?? '', ...place);
+  });
+  ctx.restore();
+}
+
+function axis(label, values, more) {
+  return {
+    label,
+    values,
+    font: `12px ${font}`,
+    labelFont: `13px ${font}`,
+    labelSize: 22,
+    labelGap: 2,
+    gap: 6,
+    stroke: colour('--dim'),
+    grid: { stroke: colour('--rule'), width: 1 },
+    ticks: { show: false },
+    ...more,
+  };
+}
+
+// As wide as the longest number beside it.
+const room = (u, values) => 12 + 7 * Math.max(2, ...(values ?? []).map(text => text.length));
+
+function key(style) {
+  return svg('svg', { viewBox: '0 0 26 8', class: 'key', 'aria-hidden': 'true' }, svg('path', { class: `line line-${style}`, d: 'M0 4H26' }));
+}
+
+// spec: { title, note, csv, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label }] }.
 // Returns the figure, with a method draw(spec) that puts other numbers into it.
 export function plot(first) {
   const id = 'plot-' + ++count,
-    { width, height, left, right, top, bottom } = size;
-  const caption = el('figcaption', { id });
-  const chart = svg('svg', { viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-labelledby': id });
-  const legend = el('ul', { class: 'legend', 'aria-hidden': 'true' }),
-    note = el('p', { class: 'help' });
+    caption = el('figcaption', { id });
+  const chart = el('div', { class: 'chart', role: 'slider', tabindex: 0, 'aria-labelledby': id });
+  const legend = el('ul', { class: 'legend', 'aria-label': t('Curves: press to hide or show', 'Curve: premi per nasconderle o mostrarle') });
   const numbers = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
+    note = el('p', { class: 'help' }),
     links = el('p', {});
   const details = el('details', {}, el('summary', {}, t('The numbers', 'I numeri')), numbers, links);
   const figure = el('figure', { class: 'plot' }, caption, chart, legend, note, details);
-  const cross = svg('line', { class: 'cross', y1: top, y2: height - bottom });
-  let spec, x, y;
+  let spec = null,
+    made = '',
+    u = null,
+    limits = null;
+  const hidden = new Set(); // names of curves that somebody switched off
+
+  const label = () => spec.y.label + (power(limits.y, spec.y.log) ? ` / ${number(10 ** power(limits.y, spec.y.log))}` : '');
+  const size = () => ({ width: chart.clientWidth, height: Math.round(Math.min(Math.max(chart.clientWidth * 0.6, 200), 340)) });
+
+  // The values at the cursor: in the legend, and as what the slider that the chart is stands at.
+  function read() {
+    const at = u.cursor.idx ?? 0,
+      on = u.cursor.idx != null;
+    const values = spec.series.map((_, i) => u.data[i + 1][u.cursor.idxs?.[i + 1] ?? at]);
+    [...legend.children].forEach((item, i) => {
+      item.querySelector('b').textContent = on ? number(values[i]) : '';
+    });
+    chart.setAttribute('aria-valuenow', u.data[0][at] ?? 0);
+    chart.setAttribute(
+      'aria-valuetext',
+      [`${spec.x.label}: ${number(u.data[0][at])}`, ...spec.series.map((s, i) => `${s.name}: ${number(values[i])}`)].join('; '),
+    );
+  }
+
+  function build() {
+    const scale = (name, given) => ({ time: false, distr: given.log ? 3 : 1, range: () => limits[name] });
+    const ticks = shift => (_, splits) => splits.map(v => (v == null ? '' : number(v / 10 ** shift())));
+    u?.destroy();
+    u = new uPlot(
+      {
+        ...size(),
+        legend: { show: false },
+        cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
+        scales: { x: scale('x', spec.x), y: scale('y', spec.y) },
+        axes: [
+          axis(
+            () => spec.x.label,
+            ticks(() => 0),
+            { size: 28, space: 60 },
+          ),
+          axis(
+            label,
+            ticks(() => power(limits.y, spec.y.log)),
+            { size: room, space: 36 },
+          ),
+        ],
+        series: [
+          {},
+          ...spec.series.map((s, i) => {
+            const [stroke, dash] = s.style === 'dim' ? ['--dim', [5, 4]] : strokes[i % strokes.length];
+            return { stroke: colour(stroke), dash, width: s.style === 'dim' ? 1.5 : 2, show: !hidden.has(s.name), pxAlign: 0, points: { show: false } };
+          }),
+        ],
+        hooks: { draw: [() => drawMarks(u, spec.marks ?? [])], setCursor: [() => u && read()] },
+      },
+      columns(spec),
+      chart,
+    );
+    legend.replaceChildren(...spec.series.map((s, i) => el('li', {}, toggle(s, i))));
+  }
+
+  function toggle(s, i) {
+    const name = el('span', {}, s.name);
+    const button = el('button', { type: 'button', 'aria-pressed': !hidden.has(s.name) }, key(s.style ?? i % strokes.length), name, el('b', {}));
+    button.addEventListener('click', () => {
+      const called = spec.series[i].name;
+      if (!hidden.delete(called)) hidden.add(called);
+      u.setSeries(i + 1, { show: !hidden.has(called) });
+      button.setAttribute('aria-pressed', !hidden.has(called));
+    });
+    return button;
+  }
+
+  // What stays the same from one draw to the next keeps its chart; a window without width gets one when it has it.
+  function render() {
+    if (!spec || !chart.clientWidth) return;
+    const now = JSON.stringify([spec.series.map(s => s.style), spec.x.log, spec.y.log]);
+    if (now !== made) build();
+    else {
+      u.setData(columns(spec));
+      [...legend.querySelectorAll('span')].forEach((name, i) => (name.textContent = spec.series[i].name));
+    }
+    made = now;
+    read();
+  }
 
   function draw(next) {
     spec = next;
     caption.textContent = spec.title;
     note.textContent = spec.note ?? '';
-    x = axis(
-      spec.x,
-      spec.series.flatMap(s => s.x),
-      left,
-      width - right,
-    );
-    y = {
-      ...axis(
+    limits = {
+      x: extent(
+        spec.x,
+        spec.series.flatMap(s => s.x),
+      ),
+      y: extent(
         spec.y,
         spec.series.flatMap(s => s.y),
-        height - bottom,
-        top,
       ),
-      log: spec.y.log,
     };
-    const shift = power(y.ticks, spec.y.log);
-    const clip = id + '-clip';
-    chart.replaceChildren(
-      svg('clipPath', { id: clip }, svg('rect', { x: left, y: top, width: width - left - right, height: height - top - bottom })),
-      ...x.ticks.map(v =>
-        svg(
-          'g',
-          {},
-          svg('line', { class: 'grid', x1: x.at(v), x2: x.at(v), y1: top, y2: height - bottom }),
-          svg('text', { x: x.at(v), y: height - bottom + 18, 'text-anchor': 'middle' }, number(v)),
-        ),
-      ),
-      ...y.ticks.map(v =>
-        svg(
-          'g',
-          {},
-          svg('line', { class: 'grid', x1: left, x2: width - right, y1: y.at(v), y2: y.at(v) }),
-          svg('text', { x: left - 7, y: y.at(v) + 4, 'text-anchor': 'end' }, number(v / 10 ** shift)),
-        ),
-      ),
-      svg('text', { class: 'axis', x: (left + width - right) / 2, y: height - 8, 'text-anchor': 'middle' }, spec.x.label),
-      svg(
-        'text',
-        { class: 'axis', transform: `translate(14 ${(top + height - bottom) / 2}) rotate(-90)`, 'text-anchor': 'middle' },
-        spec.y.label + (shift ? ` / ${number(10 ** shift)}` : ''),
-      ),
-      svg(
-        'g',
-        { 'clip-path': `url(#${clip})` },
-        ...(spec.marks ?? []).map(mark =>
-          svg('line', {
-            class: 'mark',
-            ...(finite(mark.x)
-              ? { x1: x.at(mark.x), x2: x.at(mark.x), y1: top, y2: height - bottom }
-              : { x1: left, x2: width - right, y1: y.at(mark.y), y2: y.at(mark.y) }),
-          }),
-        ),
-        ...spec.series.map((s, i) => svg('path', { class: `line line-${s.style ?? i}`, d: line(s, x, y, height) })),
-      ),
-      ...(spec.marks ?? [])
-        .filter(mark => mark.label)
-        .map((mark, i) =>
-          finite(mark.x)
-            ? svg('text', { class: 'label', x: x.at(mark.x) + 4, y: top + 12 + 14 * (i % 4) }, mark.label)
-            : svg('text', { class: 'label', x: width - right - 4, y: y.at(mark.y) - 4, 'text-anchor': 'end' }, mark.label),
-        ),
-      cross,
-    );
-    cross.setAttribute('class', 'cross hidden');
-    legend.replaceChildren(
-      ...spec.series.map((s, i) =>
-        el(
-          'li',
-          {},
-          svg('svg', { viewBox: '0 0 26 8', class: 'key' }, svg('path', { class: `line line-${s.style ?? i}`, d: 'M0 4H26' })),
-          s.name,
-          el('b', {}),
-        ),
-      ),
-    );
+    chart.setAttribute('aria-valuemin', limits.x[0]);
+    chart.setAttribute('aria-valuemax', limits.x[1]);
+    render();
     details.ontoggle = () => {
       if (details.open) numbers.replaceChildren(...table(spec));
     };
@@ -200,22 +255,17 @@ export function plot(first) {
     );
   }
 
-  // Under the pointer: the values of every curve at the nearest of its points.
-  chart.addEventListener('pointermove', event => {
-    const box = chart.getBoundingClientRect(),
-      px = ((event.clientX - box.left) * width) / box.width;
-    cross.setAttribute('class', 'cross');
-    cross.setAttribute('x1', px);
-    cross.setAttribute('x2', px);
-    spec.series.forEach((s, i) => {
-      let best = 0;
-      s.x.forEach((v, k) => {
-        if (Math.abs(x.at(v) - px) < Math.abs(x.at(s.x[best]) - px)) best = k;
-      });
-      legend.children[i].querySelector('b').textContent = ` ${number(s.y[best])}`;
-    });
+  const moves = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10, Home: -Infinity, End: Infinity };
+  chart.addEventListener('keydown', event => {
+    if (!u || !(event.key in moves) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const end = u.data[0].length - 1,
+      at = Math.min(Math.max((u.cursor.idx ?? -1) + moves[event.key], 0), end);
+    u.setCursor({ left: u.valToPos(u.data[0][at], 'x'), top: 0 });
   });
-  chart.addEventListener('pointerleave', () => draw(spec));
+  chart.addEventListener('blur', () => u?.setCursor({ left: -10, top: -10 }));
+  new ResizeObserver(() => (u && chart.clientWidth ? u.setSize(size()) : render())).observe(chart);
+
   if (first) draw(first);
   figure.draw = draw;
   return figure;

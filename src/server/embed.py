@@ -1,11 +1,11 @@
-"""Files as C arrays, as they are and as gzip: embed.py OUTPUT FILE..."""
+"""Files as C arrays, as they are and as gzip: embed.py OUTPUT FILE..., named as seen from the first one's folder"""
 import gzip
 import hashlib
 import pathlib
 import sys
 
 TYPES = {'.html': 'text/html; charset=utf-8', '.js': 'text/javascript; charset=utf-8',
-         '.css': 'text/css; charset=utf-8', '.svg': 'image/svg+xml'}
+         '.css': 'text/css; charset=utf-8', '.svg': 'image/svg+xml', '': 'text/plain; charset=utf-8'}
 output, files = pathlib.Path(sys.argv[1]), [pathlib.Path(f) for f in sys.argv[2:]]
 lines = ['#include "server/assets.h"', '']
 rows = []
@@ -20,7 +20,7 @@ def form(name, data):
 
 for i, file in enumerate(files):
     data = file.read_bytes()
-    rows.append(f'    {{ "{file.name}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
+    rows.append(f'    {{ "{file.relative_to(files[0].parent).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
                 f'      {form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))} }},')
 lines += ['const struct kd_asset kd_assets[] = {', *rows, '};',
           'const size_t kd_n_assets = sizeof kd_assets / sizeof *kd_assets;']

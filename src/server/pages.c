@@ -14,11 +14,11 @@ static const struct kd_asset *find(const char *name)
     return NULL;
 }
 
-/* "/" and "/web/NAME". A page is small and may change with the next version of the program: it is asked for again each time, and
+/* "/" and what lies below "/web/". A page is small and may change with the next version of the program: it is asked for again each time, and
  * 304 says that it has not. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
-    const struct kd_asset *asset = find(strcmp(request->route->path, "/") ? request->rest : "index.html");
+    const struct kd_asset *asset = find(strcmp(request->route->path, "/") ? request->target.text + strlen("/web/") : "index.html");
     if (!asset)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND });
     struct kd_buffer encodings = kd_reply_header_list(request, "Accept-Encoding");

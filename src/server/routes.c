@@ -9,6 +9,7 @@
 const struct kd_route kd_routes[] = {
     { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page: a live view, its controls and what is computed" },
     { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads" },
+    { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots" },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives" },
     { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down" },
     { "/metrics", KD_GET, kd_handle_metrics, "text/plain; version=0.0.4; charset=utf-8", "Counters and gauges for Prometheus" },

@@ -8,6 +8,7 @@ import daemon
 
 GETS = {
     '/': 'text/html; charset=utf-8', '/web/app.js': 'text/javascript; charset=utf-8',
+    '/web/vendor/uplot/uPlot.esm.js': 'text/javascript; charset=utf-8', '/web/vendor/uplot/LICENSE': 'text/plain; charset=utf-8',
     '/web/style.css': 'text/css; charset=utf-8', '/web/icon.svg': 'image/svg+xml', '/healthz': 'application/json', '/readyz': 'application/json',
     '/metrics': 'text/plain; version=0.0.4; charset=utf-8', '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
     '/v1/presets/gargantua': 'application/json', '/v1/schema': 'application/schema+json',
@@ -58,7 +59,8 @@ class Routes(daemon.Case):
         self.assertNotEqual(packed.header('ETag'), plain.header('ETag'))
         for tag, status in ((plain.header('ETag'), 304), (packed.header('ETag'), 200), ('"x"', 200)):
             self.assertEqual(self.daemon.get('/web/app.js', If_None_Match=tag).status, status)
-        for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/'):
+        for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/', '/web/vendor/uplot/app.js', '/web/uPlot.esm.js',
+                     '/web/vendor/uplot/../../app.js', '/web/vendor/uplot/'):
             self.assertProblem(self.daemon.get(name), 404, 'not-found')
 
     def test_long_texts_are_compressed_for_who_takes_that(self):
@@ -77,11 +79,16 @@ class Routes(daemon.Case):
         page = self.daemon.get('/').body.decode()
         loaded = re.findall(r'(?:src|href)="(web/[^"]+)"', page)
         self.assertGreater(len(loaded), 2)
-        for name in loaded:
+        seen = set()
+        while loaded:
+            name = loaded.pop()
+            seen.add(name)
             text = self.daemon.get('/' + name)
             self.assertEqual(text.status, 200, name)
-            for other in re.findall(r"(?:from |import\()'\./([^']+)'", text.body.decode()):
-                self.assertEqual(self.daemon.get('/web/' + other).status, 200, other)
+            others = {'web/' + other for other in re.findall(r"(?:from |import\(|new URL\()'(?:\./)?([^']+)'", text.body.decode())}
+            loaded.extend(other for other in others if '.' in other and other not in seen)
+        self.assertIn('web/vendor/uplot/uPlot.esm.js', seen)
+        self.assertIn('web/vendor/uplot/uPlot.min.css', seen)
 
     def test_presets_are_scenes(self):
         for preset in self.daemon.get('/v1/presets').json()['presets']:

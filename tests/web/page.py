@@ -74,6 +74,20 @@ class Page(unittest.TestCase):
             return `${width}x${height} ` + [...new Uint8Array(hash)].map(b => b.toString(16).padStart(2, '0')).join('');
         }''')
 
+    def drawn(self, page, canvas):
+        return page.locator(canvas).evaluate('''canvas => {
+            const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+            copy.drawImage(canvas, 0, 0);
+            const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+            let coloured = 0, hash = 0;
+            for (let i = 0; i < data.length; i += 4) {
+                const [r, g, b] = data.slice(i, i + 3), most = Math.max(r, g, b);
+                coloured += most - Math.min(r, g, b) > 50;
+                hash = (hash * 31 + r + 7 * g + 13 * b) % 1000003;
+            }
+            return { coloured, hash };
+        }''')
+
     def field(self, page, path):
         return page.locator(f'[data-path="{path}"] input[type=number]').input_value()
 
@@ -269,7 +283,9 @@ class Page(unittest.TestCase):
 
     def test_orbits(self):
         page = self.open('lang=en&view=orbits', '#orbit-picture .front')
-        page.wait_for_selector('#orbit-plots .line >> nth=1', state='attached')
+        page.wait_for_selector('#orbit-plots canvas >> nth=1', state='attached')
+        for plot in range(2):
+            self.assertGreater(self.drawn(page, f'#orbit-plots canvas >> nth={plot}')['coloured'], 300, plot)
         self.assertIn('Advance of the periastron', page.inner_text('#orbit-facts'))
         self.assertNotEqual(page.inner_text('#orbit-live'), '')
         self.shot(page, 'orbits', full_page=True)
@@ -282,23 +298,43 @@ class Page(unittest.TestCase):
         self.assertEqual(page.inner_text('#orbit-fault'), '')
 
     def test_physics(self):
-        page = self.open('lang=en&view=physics', '#curves .card:last-child .line')
+        page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
         cards = page.locator('.card')
         self.assertGreaterEqual(cards.count(), 9)
         for i in range(cards.count()):
-            self.assertGreater(cards.nth(i).locator('path.line[d^=M]').count(), 0, cards.nth(i).get_attribute('id'))
+            name = cards.nth(i).get_attribute('id')
+            self.assertGreater(self.drawn(page, f'#{name} canvas')['coloured'], 300, name)
+            page.click(f'#{name} summary >> nth=0')
+            page.wait_for_selector(f'#{name} tbody tr', timeout=2000)
+            self.assertGreater(page.locator(f'#{name} tbody tr').count(), 10, name)
             self.assertEqual(cards.nth(i).locator('.fault').inner_text(), '')
             self.assertEqual(cards.nth(i).locator('math').count(), 1)
         self.shot(page, 'physics', full_page=True)
-        page.click('#curve-kerr summary >> nth=0')
         last = page.locator('#curve-kerr tbody tr').first.inner_text().split()
         self.assertEqual(last, ['0', '3', '3', '6', '6', '2'])
-        before = page.get_attribute('#curve-qnm path.line >> nth=0', 'd')
+        before = self.drawn(page, '#curve-qnm canvas')
         page.fill('#in-qnm-spin', '0.95')
         page.keyboard.press('Tab')
         page.wait_for_timeout(800)
-        self.assertNotEqual(page.get_attribute('#curve-qnm path.line >> nth=0', 'd'), before)
+        self.assertNotEqual(self.drawn(page, '#curve-qnm canvas')['hash'], before['hash'])
         self.assertIn('qnm.spin=0.95', page.url)
+
+    def test_plots_are_read_by_keyboard(self):
+        page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
+        chart = page.locator('#curve-kerr .chart')
+        chart.focus()
+        page.keyboard.press('Home')
+        self.assertEqual(page.locator('#curve-kerr .legend b').all_inner_texts(), ['3', '3', '6', '6', '2'])
+        self.assertTrue(chart.get_attribute('aria-valuetext').startswith('spin a / M: 0; photon, with the spin: 3;'))
+        page.keyboard.press('ArrowRight')
+        page.keyboard.press('PageUp')
+        self.assertAlmostEqual(float(chart.get_attribute('aria-valuenow')), 11 * 0.999 / 111, places=12)
+        before = self.drawn(page, '#curve-kerr canvas')
+        button = page.locator('#curve-kerr .legend button').first
+        button.focus()
+        page.keyboard.press('Space')
+        self.assertEqual(button.get_attribute('aria-pressed'), 'false')
+        self.assertLess(self.drawn(page, '#curve-kerr canvas')['coloured'], before['coloured'] - 200)
 
     def test_real_scale(self):
         page = self.open('lang=en&view=scale', '#scale-rows tr')
@@ -317,7 +353,7 @@ class Page(unittest.TestCase):
         for view in VIEWS:
             with self.subTest(view):
                 page = self.open(f'lang=it&view={view}', {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'scale': '#scale-rows tr',
-                                                         'physics': '#curves .card:last-child .line'}[view], **phone)
+                                                         'physics': '#curves .card:last-child canvas'}[view], **phone)
                 self.open_groups(page)
                 self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 390)
                 small = page.evaluate('''() => [...document.querySelectorAll('button, a.button, select, summary, input:not([type=range]):not([type=checkbox])')]
@@ -326,7 +362,7 @@ class Page(unittest.TestCase):
                 self.shot(page, 'phone-' + view)
 
     def test_narrow(self):
-        for view, ready in (('lensing', AT_REST), ('physics', '#curves .card:last-child .line'), ('orbits', '#orbit-picture .front')):
+        for view, ready in (('lensing', AT_REST), ('physics', '#curves .card:last-child canvas'), ('orbits', '#orbit-picture .front')):
             page = self.open(f'lang=it&view={view}', ready, viewport={'width': 320, 'height': 640})
             self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 320, view)
 
@@ -359,7 +395,7 @@ class Page(unittest.TestCase):
         self.assertIn('pictures a second', page.inner_text('#status'))
 
     def test_reduced_motion(self):
-        page = self.open('lang=en&view=orbits', '#orbit-picture .front', reduced_motion='reduce')
+        page = self.open('lang=en&view=orbits', '#orbit-picture .body[cx]', reduced_motion='reduce')
         self.assertEqual(page.inner_text('#orbit-play'), 'Play')
         before = page.get_attribute('#orbit-picture .body', 'cx')
         page.wait_for_timeout(600)
@@ -370,7 +406,7 @@ class Page(unittest.TestCase):
             from axe_playwright_python.sync_playwright import Axe
         except ImportError:
             self.skipTest('axe-playwright-python is not installed')
-        ready = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'physics': '#curves .card:last-child .line', 'scale': '#scale-rows tr'}
+        ready = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
         for view in VIEWS:
             for lang in ('en', 'it'):
                 with self.subTest(view=view, lang=lang):
