@@ -49,6 +49,20 @@ export const values = {
   unbound: 'non legata',
 };
 
+// The three spots have the same fields.
+const spot = name => ({
+  [name]: [`Macchia ${name.slice(-1)}`],
+  [`${name}.brightness`]: [
+    'Brillanza',
+    'Brillanza al centro nel riferimento del gas, in unità della massima del disco; 0: la macchia non c’è',
+  ],
+  [`${name}.r`]: ['Raggio', 'Raggio dell’orbita circolare su cui gira il centro; mai dentro l’ISCO'],
+  [`${name}.phase_deg`]: ['Fase', 'Azimut del centro al tempo 0'],
+  [`${name}.size`]: ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
+  [`${name}.index`]: ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
+  [`${name}.temperature_k`]: ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
+});
+
 // path or name: [label, help]; help may be left out.
 export const fields = {
   spacetime: ['Il buco'],
@@ -113,12 +127,15 @@ export const fields = {
   ],
   'disk.slow_light': [
     'Luce lenta',
-    'Ogni raggio mostra le particelle dov’erano quando la luce le lasciò, invece che tutte a un solo tempo coordinato (modello: particelle)',
+    'Ogni raggio mostra particelle e macchie dov’erano quando la luce le lasciò, invece che tutte a un solo tempo coordinato',
   ],
   'disk.hardening': ['Indurimento', 'Temperatura di colore su temperatura efficace'],
   'disk.band': ['Banda', 'Luminosità bolometrica, g⁴ F, oppure visibile: lo spettro di Planck come lo pesa l’occhio'],
   'disk.doppler': ['Doppler', 'Spostamento Doppler e concentrazione della luce del gas in orbita'],
   'disk.redshift': ['Redshift', 'Redshift gravitazionale e dilatazione del tempo del gas in orbita'],
+  ...spot('spot1'),
+  ...spot('spot2'),
+  ...spot('spot3'),
   'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla, o un reticolo celeste che mostra la lente'],
   'sky.brightness': ['Luminosità', 'Luminosità del cielo in unità della massima brillanza del disco a g = 1'],
   'sky.grid_deg': ['Passo del reticolo', 'Spaziatura del reticolo celeste'],
@@ -172,6 +189,8 @@ export const presets = {
   'face-on': 'Il disco visto dal suo polo',
   'living-disk':
     'Un disco di 300 000 particelle sulle loro orbite, con la lente in ogni ordine d’immagine; in una sessione dal vivo girano',
+  'hot-spot':
+    'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',
   'photon-rings':
     'Sei anelli di fotoni, uno sopra l’altro: in orizzontale l’angolo attorno al bordo dell’ombra, in verticale la distanza da quel bordo, per nove decadi e mezza',
 };
@@ -192,6 +211,14 @@ export const sentences = {
   'disk: gravitational redshift and time dilation of the gas are switched off':
     'disco: il redshift gravitazionale e la dilatazione del tempo del gas sono disattivati',
   'disk: the outer edge fades out over a chosen range': 'disco: il bordo esterno sfuma su un tratto scelto',
+  "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place":
+    'macchie: gaussiane disegnate in r e φ, che girano con l’orbita del loro centro e non si stirano; splendono nel piano equatoriale, solo fuori dall’ISCO, come una legge di potenza con il g del gas in ogni luogo',
+  'spots: their brightness and colour are chosen, not computed; they absorb nothing':
+    'macchie: la loro brillanza e il loro colore sono scelti, non calcolati; non assorbono nulla',
+  'spots: the Doppler shift or the gravitational redshift of the gas is switched off':
+    'macchie: lo spostamento Doppler o il redshift gravitazionale del gas è disattivato',
+  "spots: fast light: shown where they are at one coordinate time, whatever the light's delay":
+    'macchie: luce veloce: mostrate dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'disk: opacity is a chosen number a crossing, not computed from the gas':
     'disco: l’opacità è un numero scelto per attraversamento, non calcolata dal gas',
   'disk: image orders beyond accuracy.orders are left out': 'disco: gli ordini d’immagine oltre accuracy.orders sono tralasciati',

@@ -24,16 +24,19 @@ layout(constant_id = 9) const bool OPAQUE = true;   /* the first crossing that m
 layout(constant_id = 10) const bool RING = false;   /* rays are not on the camera's grid: the map holds alpha */
 layout(constant_id = 11) const uint ALPHA_PLANE = 0;
 layout(constant_id = 12) const bool PARTICLES = false; /* the grid of particles modulates the light */
-layout(constant_id = 13) const bool SLOW = false; /* particles as they were when the light left them */
+layout(constant_id = 13) const bool SLOW = false; /* particles and spots as they were when the light left them */
+layout(constant_id = 14) const uint SPOTS = 0;    /* hot spots that are on */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
 #define U(name) uint name;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+struct kd_spot { KD_SPOT_FIELDS_(F, U) };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
     float pad[KD_TRANSFER_HEADER - 15];
+    kd_spot spots[KD_SPOT_MAX];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
 } tr;
@@ -43,6 +46,31 @@ layout(set = 0, binding = 3) readonly buffer Density { float density[]; };
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */
 const vec3 UNDECIDED = vec3(1.0, 0.0, 1.0);
+
+/* g of gas on the circular orbit at r = 1/w, outside the ISCO, for the ray's constants. */
+float shift(float w, float energy, float momentum)
+{
+    /* 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3 with x = sqrt(r): near the ISCO of a fast hole the left-hand
+     * side has no digits left. */
+    float r = 1.0 / w, g = 1.0, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0));
+    if (REDSHIFT)
+        g *= sqrt(max((d * d * (x + 2.0) - 2.0 * tr.one_minus_a) * x3, 0.0)) / (x3 + cam.spin);
+    if (DOPPLER)
+        g /= energy - momentum / (x3 + cam.spin);
+    else if (FINITE)
+        g /= energy;
+    return g;
+}
+
+/* Of a black body at this log2 of its temperature: linear sRGB of luminance 1, and log2 of the luminous fraction over its value
+ * at T_peak. */
+vec4 colour(float log_t)
+{
+    float place = (log_t - KD_COLOUR_LOG_MIN) * (float(KD_COLOUR_TABLE - 1) / (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN));
+    place = clamp(place, 0.0, float(KD_COLOUR_TABLE - 1));
+    uint k = min(uint(place), KD_COLOUR_TABLE - 2);
+    return mix(tr.colour_table[k], tr.colour_table[k + 1], place - float(k));
+}
 
 /* Emitted light of the disk at w = 1/r, seen with the ray's constants; alpha: its opacity here. */
 vec4 disk_light(float w, float energy, float momentum)
@@ -56,24 +84,9 @@ vec4 disk_light(float w, float energy, float momentum)
     float w34 = sqrt(w * sqrt(w));
     t *= w34;
 
-    /* 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3 with x = sqrt(r): near the ISCO of a fast hole the left-hand
-     * side has no digits left. */
-    float g = 1.0, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0));
-    if (REDSHIFT)
-        g *= sqrt(max((d * d * (x + 2.0) - 2.0 * tr.one_minus_a) * x3, 0.0)) / (x3 + cam.spin);
-    if (DOPPLER)
-        g /= energy - momentum / (x3 + cam.spin);
-    else if (FINITE)
-        g /= energy;
-    t *= g;
-
-    float place = (tr.log_t_peak + log2(max(t, 1e-20)) - KD_COLOUR_LOG_MIN) *
-              (float(KD_COLOUR_TABLE - 1) / (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN));
-    place = clamp(place, 0.0, float(KD_COLOUR_TABLE - 1));
-    uint k = min(uint(place), KD_COLOUR_TABLE - 2);
-    vec4 c = mix(tr.colour_table[k], tr.colour_table[k + 1], place - float(k));
+    t *= shift(w, energy, momentum);
+    vec4 c = colour(tr.log_t_peak + log2(max(t, 1e-20)));
     float t4 = t * t * t * t;
-    /* The fourth component is log2 of the luminous fraction over its value at T_peak. */
     float brightness = VISIBLE ? t4 * exp2(c.w) : t4;
 
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
@@ -103,6 +116,29 @@ float density_at(float w, float phi, float ago)
     return mix(density_of_row(i, turn, ago), density_of_row(i + 1, turn, ago), row - float(i));
 }
 
+/* Hot spots at w = 1/r and this azimuth, whose light left them so long before that which shows spots[].phi; alpha: its luminance.
+ * The gas of each place shines, with the g of its own orbit: the figure goes round with its centre, what it is made of shears.
+ * I_nu/nu^3 is constant along the ray: I_nu ~ nu^-index is seen times g^(3 + index). Such spots, but as spheres in a hot flow:
+ * A. E. Broderick & A. Loeb 2006, MNRAS 367, 905. */
+vec4 spot_light(float w, float phi, float ago, float energy, float momentum)
+{
+    vec4 sum = vec4(0.0);
+    float r = 1.0 / w;
+    if (r < tr.r_isco)
+        return sum;
+    for (uint i = 0; i < SPOTS; i++) {
+        kd_spot spot = tr.spots[i];
+        float s = kd_cos_sin(0.5 * (phi - spot.phi + (SLOW ? spot.omega * ago : 0.0))).s;
+        float off = (r - spot.r) * (r - spot.r) + 4.0 * r * spot.r * s * s;
+        if (off > spot.reach)
+            continue;
+        float log_g = log2(shift(w, energy, momentum));
+        float light = spot.brightness * exp2(spot.power * log_g - spot.sharp * off);
+        sum += light * vec4(colour(spot.log_t + log_g).rgb, 1.0);
+    }
+    return sum;
+}
+
 /* A celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a fortieth of
  * the spacing. */
 vec3 sky_light(uint at)
@@ -128,19 +164,20 @@ void main()
     if (px >= tr.pixels_x)
         return;
     vec3 sum = vec3(0.0);
+    float spots = 0.0;
     for (uint j = 0; j < SIDE; j++) {
         for (uint i = 0; i < SIDE; i++) {
             uint x = px * SIDE + i, row = py * SIDE + j;
             uint at = (row - cam.band0) * cam.width + x;
             float energy = 1.0, momentum = 0.0;
-            if (DISK && (DOPPLER || FINITE)) {
+            if ((DISK || SPOTS > 0) && (DOPPLER || FINITE)) {
                 kd_ray ray = kd_camera_ray(x, row);
                 energy = ray.e;
                 momentum = (RING ? -lens[at + ALPHA_PLANE * cam.stride] : ray.l) * cam.s;
             }
             vec3 light = vec3(0.0);
             float through = 1.0; /* what the gas in front lets pass */
-            if (DISK) {
+            if (DISK || SPOTS > 0) {
                 for (uint n = 0; n < ORDERS; n++) {
                     float w = lens[at + n * cam.stride];
                     if (w < 0.0) { /* given up here */
@@ -149,12 +186,17 @@ void main()
                     }
                     if (w <= 0.0)
                         break;
-                    vec4 c = disk_light(w, energy, momentum);
-                    if (PARTICLES && c.a > 0.0) {
-                        float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
-                        c.rgb *= density_at(w, lens[at + (ORDERS + n) * cam.stride], ago);
-                    }
+                    vec4 c = DISK ? disk_light(w, energy, momentum) : vec4(0.0);
+                    float phi = PARTICLES || SPOTS > 0 ? lens[at + (ORDERS + n) * cam.stride] : 0.0;
+                    float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
+                    if (PARTICLES && c.a > 0.0)
+                        c.rgb *= density_at(w, phi, ago);
                     light += through * c.a * c.rgb;
+                    if (SPOTS > 0) { /* in the gas: its own element does not hide it */
+                        vec4 spot = through * spot_light(w, phi, ago, energy, momentum);
+                        light += spot.rgb;
+                        spots += spot.a;
+                    }
                     through *= 1.0 - c.a;
                     if (OPAQUE && through <= 0.0)
                         break;
@@ -165,9 +207,11 @@ void main()
             sum += light;
         }
     }
-    sum *= 1.0 / float(SIDE * SIDE);
-    uint o = 3 * ((py - cam.band0 / SIDE) * tr.pixels_x + px);
-    radiance[o] = sum.r;
-    radiance[o + 1] = sum.g;
-    radiance[o + 2] = sum.b;
+    float share = 1.0 / float(SIDE * SIDE);
+    uint o = (py - cam.band0 / SIDE) * tr.pixels_x + px;
+    radiance[3 * o] = share * sum.r;
+    radiance[3 * o + 1] = share * sum.g;
+    radiance[3 * o + 2] = share * sum.b;
+    if (SPOTS > 0) /* behind the band's pixels */
+        radiance[3 * (cam.stride / (SIDE * SIDE)) + o] = share * spots;
 }

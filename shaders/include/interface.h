@@ -37,8 +37,17 @@
     F(rows_octave)                        /* rows that r doubles in */                                            \
     F(delay)                              /* of the light that shows the grid as it is */
 
+/* A hot spot, KD_SPOT_MAX of them behind the header. */
+#define KD_SPOT_FIELDS_(F, U)                                                                                  \
+    F(r) F(phi)              /* of its centre; its azimuth less the observer's at the time that the picture shows, radians */ \
+    F(omega)                 /* by which phi was less for each M that light was longer on its way */            \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); the square of the distance beyond which there is none of it */ \
+    F(brightness) F(power)   /* at the centre; that of g */                                                    \
+    F(log_t)                 /* log2 K */
+#define KD_SPOT_MAX 3
+
 /* Tables behind the transfer parameters, in floats. */
-#define KD_TRANSFER_HEADER 16
+#define KD_TRANSFER_HEADER 32
 #define KD_DISK_TABLE 1024    /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
 #define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
 #define KD_COLOUR_LOG_MIN 6.0 /* 64 K */

@@ -12,6 +12,12 @@ static void say(struct kd_plan *plan, bool condition, const char *sentence)
         plan->approximations[plan->n_approximations++] = sentence;
 }
 
+static uint32_t spots_of(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    return (uint32_t)kd_scene_spots(scene, on);
+}
+
 static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
 {
     const struct kd_disk *d = &scene->disk;
@@ -35,9 +41,15 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, particles && !d->slow_light,
         "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
     say(plan, particles && d->slow_light, "particles: over the delay of light they go round on their guiding circles");
+    say(plan, plan->spots, "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
+                           "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place");
+    say(plan, plan->spots, "spots: their brightness and colour are chosen, not computed; they absorb nothing");
+    say(plan, plan->spots && !disk && (!d->doppler || !d->redshift),
+        "spots: the Doppler shift or the gravitational redshift of the gas is switched off");
+    say(plan, plan->spots && !d->slow_light, "spots: fast light: shown where they are at one coordinate time, whatever the light's delay");
     say(plan, disk && d->opacity < 1, "disk: opacity is a chosen number a crossing, not computed from the gas");
-    say(plan, disk, "disk: image orders beyond accuracy.orders are left out");
-    say(plan, disk, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
+    say(plan, disk || plan->spots, "disk: image orders beyond accuracy.orders are left out");
+    say(plan, disk || plan->spots, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
     say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
     say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
     say(plan, plan->ring,
@@ -130,7 +142,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
                             struct kd_error *error)
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    uint64_t row_light = 12ull * plan->width, row_out = (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     uint64_t rows = (c->max_binding_bytes - 64) / widest;
     if (rows < 1)
@@ -254,6 +266,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     plan.sky = needs->sky;
     plan.particles = kd_particle_grid(scene);
+    plan.spots = spots_of(scene);
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
     enum kd_status status = choose(&plan, scene, capacity, error);
@@ -278,10 +291,11 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
                             struct kd_error *error)
 {
+    bool lumps = scene->disk.model == KD_DISK_PARTICLES || spots_of(scene);
     struct kd_needs needs = {
         .disk = scene->disk.model != KD_DISK_NONE,
-        .phi = scene->disk.model == KD_DISK_PARTICLES,
-        .delay = scene->disk.model == KD_DISK_PARTICLES && scene->disk.slow_light,
+        .phi = lumps,
+        .delay = lumps && scene->disk.slow_light,
         .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
     };
     return kd_plan_make_for(scene, &needs, capacity, out, error);

@@ -15,7 +15,7 @@
 
 #define KD_PLAN_MAX_PASSES 8
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
-#define KD_PLAN_MAX_APPROXIMATIONS 24
+#define KD_PLAN_MAX_APPROXIMATIONS 32
 
 /* What the device allows and how fast it has been measured to be. */
 struct kd_capacity {
@@ -45,6 +45,7 @@ struct kd_plan {
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     struct kd_particle_grid particles;
+    uint32_t spots;                 /* that are on: their own luminance is kept beside the radiance */
     bool delay;                     /* the lens map holds delays of light, behind its azimuths */
     bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
     uint32_t orders;                /* crossings a ray */
@@ -66,6 +67,9 @@ struct kd_plan {
  * engine, precision or tolerance that this device or this camera cannot have. */
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
                             struct kd_plan *out, struct kd_error *error);
+
+/* Of linear light, a pixel. */
+static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->spots ? 16 : 12; }
 
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {

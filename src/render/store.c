@@ -114,7 +114,7 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     uint64_t pixels = (uint64_t)plan->width * plan->band_rows;
     /* The last invocation of post.comp writes four whole pixels. */
     uint64_t words = (pixels + 3) / 4 * (bit_depth == 16 ? 24 : 12);
-    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, 12 * pixels, "radiance", error);
+    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, kd_plan_pixel_bytes(plan) * pixels, "radiance", error);
     if (!status)
         status = kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
     if (!status)

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+_Static_assert(KD_SPOT_MAX == KD_SPOTS, "those of a scene");
+
 static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
 {
     return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne;
@@ -55,6 +57,30 @@ static void fill_luminous(float (*table)[4], double peak)
     }
 }
 
+/* Beyond this many sizes there is less than 1e-9 of the peak. */
+#define SPOT_REACH 6.44
+
+static void fill_spots(struct kd_spot_block *out, const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    size_t n = kd_scene_spots(scene, on);
+    double degrees = M_PI / 180, time = scene->top.time - kd_particle_delay(scene);
+    for (size_t i = 0; i < n; i++) {
+        double omega = kd_kerr_omega(scene->spacetime.spin, on[i]->r), size = on[i]->size;
+        double phase = remainder(omega * time, 2 * M_PI) + (on[i]->phase_deg - scene->camera.azimuth_deg) * degrees;
+        out[i] = (struct kd_spot_block) {
+            .r = (float)on[i]->r,
+            .phi = (float)remainder(phase, 2 * M_PI),
+            .omega = (float)omega,
+            .sharp = (float)(M_LOG2E / (2 * size * size)),
+            .reach = (float)(SPOT_REACH * SPOT_REACH * size * size),
+            .brightness = (float)on[i]->brightness,
+            .power = (float)(3 + on[i]->index),
+            .log_t = (float)log2(on[i]->temperature_k),
+        };
+    }
+}
+
 void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, bool fill_colour)
 {
     const struct kd_disk *disk = &scene->disk;
@@ -68,6 +94,7 @@ void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, 
         if (disk->band == KD_BAND_VISIBLE)
             fill_luminous(out->colour, peak);
     }
+    fill_spots(out->spots, scene);
     const struct kd_particle_grid grid = kd_particle_grid(scene);
     out->block = (struct kd_transfer_block){
         .r_isco = (float)isco,

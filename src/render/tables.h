@@ -11,6 +11,7 @@ struct kd_transfer_data {
         struct kd_transfer_block block;
         float header[KD_TRANSFER_HEADER];
     };
+    struct kd_spot_block spots[KD_SPOT_MAX];
     float disk[KD_DISK_TABLE];
     float colour[KD_COLOUR_TABLE][4];
 };

@@ -76,8 +76,21 @@
     REAL(disk, epicycles, 0.02, 0.0, 0.2, "1",                                                                \
          "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes at " \
          "the ISCO (model: particles)")                                                                       \
-    BOOL(disk, slow_light, false, "each ray shows the particles where they were when its light left them, instead of all at one "  \
-         "coordinate time (model: particles)")
+    BOOL(disk, slow_light, false, "each ray shows particles and spots where they were when its light left them, instead of all at " \
+         "one coordinate time")
+
+/* The same rows for each spot. */
+#define KD_SPOT_FIELDS(spot, REAL)                                                                            \
+    REAL(spot, brightness, 0.0, 0.0, 1e6, "1",                                                                \
+         "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot")  \
+    REAL(spot, r, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO")  \
+    REAL(spot, phase_deg, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0")                   \
+    REAL(spot, size, 1.0, 1e-3, 1e5, "M", "distance from the centre at which the Gaussian has fallen to exp(-1/2)")  \
+    REAL(spot, index, 1.0, -4.0, 6.0, "1", "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen")  \
+    REAL(spot, temperature_k, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
+#define KD_SPOT1_FIELDS(REAL, WORD, INT, BOOL, ENUM) KD_SPOT_FIELDS(spot1, REAL)
+#define KD_SPOT2_FIELDS(REAL, WORD, INT, BOOL, ENUM) KD_SPOT_FIELDS(spot2, REAL)
+#define KD_SPOT3_FIELDS(REAL, WORD, INT, BOOL, ENUM) KD_SPOT_FIELDS(spot3, REAL)
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     ENUM(sky, model, KD_SKY_NONE,                                                                             \
@@ -125,6 +138,9 @@
     SECTION(spacetime, KD_SPACETIME_FIELDS, "the hole")                                                       \
     SECTION(camera, KD_CAMERA_FIELDS, "where the observer is and what it looks at")                           \
     SECTION(disk, KD_DISK_FIELDS, "the accretion disk in the equatorial plane, turning towards +phi")         \
+    SECTION(spot1, KD_SPOT1_FIELDS, "a hot spot: a Gaussian in the equatorial plane that goes round with the gas") \
+    SECTION(spot2, KD_SPOT2_FIELDS, "another one")                                                            \
+    SECTION(spot3, KD_SPOT3_FIELDS, "and another")                                                            \
     SECTION(sky, KD_SKY_FIELDS, "what lies at infinity")                                                      \
     SECTION(image, KD_IMAGE_FIELDS, "the size of the picture")                                                \
     SECTION(style, KD_STYLE_FIELDS, "from brightness to the colours of the file")                             \

@@ -139,6 +139,21 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
         show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
+static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_spot *all[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
+    double least = kd_kerr_isco(scene->spacetime.spin);
+    for (int i = 0; i < KD_SPOTS; i++) {
+        char pointer[] = "/spot1/r";
+        if (all[i]->brightness == 0 || all[i]->r >= least)
+            continue;
+        pointer[sizeof "/spot" - 1] = (char)('1' + i);
+        return kd_error_field(error, pointer, "spot%d.r is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s", i + 1,
+                              show(all[i]->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
+    }
+    return KD_OK;
+}
+
 /* The rest of what accuracy.* may not say together depends on the device: render/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -160,6 +175,7 @@ const struct kd_rule kd_rules[] = {
     { "A static observer is outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i).", ergosphere },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
+    { "`spot1.r`, `spot2.r` and `spot3.r` are not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`accuracy.steps` is a multiple of 4.", steps },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

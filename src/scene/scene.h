@@ -24,6 +24,7 @@ struct kd_scene {
     struct kd_spacetime { KD_M(KD_SPACETIME_FIELDS) } spacetime;
     struct kd_camera { KD_M(KD_CAMERA_FIELDS) } camera;
     struct kd_disk { KD_M(KD_DISK_FIELDS) } disk;
+    struct kd_spot { KD_M(KD_SPOT1_FIELDS) } spot1, spot2, spot3;
     struct kd_sky { KD_M(KD_SKY_FIELDS) } sky;
     struct kd_image { KD_M(KD_IMAGE_FIELDS) } image;
     struct kd_style { KD_M(KD_STYLE_FIELDS) } style;
@@ -64,6 +65,10 @@ enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *
 /* What goes on by itself in a live session, azimuth and time, after so many seconds; and whether any of it can be seen. */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 bool kd_scene_moves(const struct kd_scene *scene);
+
+/* The spots that are on, in order. */
+#define KD_SPOTS 3
+size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 
 /* The canonical document: every field, in table order, shortest numbers that read back exactly, no spaces. */
 enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out);

@@ -32,6 +32,12 @@ static const struct shot {
     { "face-on", "face-on", "{" SIZE "}" },
     { "photon-rings", "photon-rings", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
+    { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
+    { "spots", NULL,
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_light\":true},"
+      "\"spot1\":{\"brightness\":1,\"r\":3,\"size\":0.5,\"phase_deg\":200,\"temperature_k\":4000},"
+      "\"spot2\":{\"brightness\":0.5,\"r\":7,\"size\":1.5,\"phase_deg\":100},"
+      "\"spot3\":{\"brightness\":0.3,\"r\":12,\"phase_deg\":-20,\"index\":-1},\"time\":70,\"style\":{\"exposure\":0}," SIZE "}" },
     { "retrograde", NULL, "{\"spacetime\":{\"spin\":-0.9}," SIZE "}" },
     { "zamo", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,"

@@ -156,6 +156,11 @@ static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
 static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
 #undef F
 #undef U
+#define F(name) { #name, offsetof(struct kd_spot_block, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_spot_block, name), OP_TYPE_INT },
+static const struct field spot_fields[] = { KD_SPOT_FIELDS_(F, U) };
+#undef F
+#undef U
 #define F(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_INT },
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
@@ -191,12 +196,15 @@ static void particles_kernel(void **state)
 static void transfer_buffer(void **state)
 {
     (void)state;
-    same(&transfer, "Transfer", transfer_fields, COUNT(transfer_fields), 3); /* padding and two tables */
+    same(&transfer, "Transfer", transfer_fields, COUNT(transfer_fields), 4); /* padding, spots and two tables */
+    same(&transfer, "kd_spot", spot_fields, COUNT(spot_fields), 0);
+    assert_int_equal(sizeof(struct kd_spot_block), 4 * COUNT(spot_fields));
     const struct {
         const char *name;
         size_t offset;
         uint32_t stride;
     } tables[] = {
+        { "spots", offsetof(struct kd_transfer_data, spots), sizeof(struct kd_spot_block) },
         { "disk_table", offsetof(struct kd_transfer_data, disk), sizeof(float) },
         { "colour_table", offsetof(struct kd_transfer_data, colour), sizeof(float[4]) },
     };
@@ -209,7 +217,7 @@ static void transfer_buffer(void **state)
     }
     /* as far as the kernel's tables reach, no further */
     assert_int_equal(sizeof(struct kd_transfer_data),
-                     4 * KD_TRANSFER_HEADER + 4 * KD_DISK_TABLE + 16 * KD_COLOUR_TABLE);
+                     4 * KD_TRANSFER_HEADER + sizeof(struct kd_spot_block) * KD_SPOT_MAX + 4 * KD_DISK_TABLE + 16 * KD_COLOUR_TABLE);
 }
 
 int main(void)

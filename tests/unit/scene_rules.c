@@ -65,6 +65,11 @@ static const struct rule rules[] = {
       "disk.outer is 15 M, allowed is more than the inner edge, 15 M" },
     { "{\"disk\":{\"inner\":15,\"outer\":14,\"model\":\"none\"}}", NULL, NULL },
     { "{\"disk\":{\"inner\":15,\"outer\":15.5}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0},\"spot2\":{\"brightness\":1,\"r\":5.999}}", "/spot2/r",
+      "spot2.r is 5.999 M, allowed is at least 6 M, the ISCO of spacetime.spin 0" },
+    { "{\"spacetime\":{\"spin\":-0.9},\"spot3\":{\"brightness\":1,\"r\":8}}", "/spot3/r", "8.71" },
+    { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":1,\"r\":6}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":0,\"r\":2}}", NULL, NULL },
 };
 
 static void fields_fit_each_other(void **state)
@@ -124,7 +129,8 @@ static void presets_are_valid(void **state)
 {
     (void)state;
     static const char *const names[] = { "schwarzschild", "gargantua", "m87",     "sgra",
-                                         "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk" };
+                                         "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
+                                         "hot-spot" };
     char hashes[16][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
