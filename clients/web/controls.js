@@ -22,6 +22,7 @@ const useful = {
   'accuracy.tolerance': [1e-12, 1e-2],
   'disk.seed': [0, 1000],
   time: [-1000, 1000],
+  'style.ringdown_time': [-1000, 1000],
   'motion.time_rate': [-100, 100],
 };
 const first = { 'camera.r': 60, 'disk.inner': 6, 'style.exposure': 0, 'accuracy.tolerance': 1e-6 }; // when a word is given up

@@ -144,6 +144,11 @@ export const fields = {
   'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1'],
   'style.tone_map': ['Curva dei toni', 'Curva da pellicola, o sRGB con taglio'],
   'style.dither': ['Dithering', 'Mezzo gradino di rumore ordinato prima dell’arrotondamento, contro le bande'],
+  'style.ringdown': [
+    'Oscillazione smorzata',
+    'Un buco percosso, come illustrazione: la luce degli ordini da 1 in su è moltiplicata per 1 + questo · e^(−t/τ) cos(ω t), il modo quasi-normale l = m = 2, n = 0 del buco; 0: nessuna',
+  ],
+  'style.ringdown_time': ['Istante del colpo', 'Il tempo in cui fu percosso; prima nulla oscilla'],
   'motion.azimuth_rate_deg': ['Giro', 'L’osservatore gira attorno all’asse'],
   'motion.time_rate': ['Scorrere del tempo', 'Il tempo coordinato avanza'],
   'accuracy.profile': ['Profilo', 'Con quanta cura si seguono i raggi, da grossolana a fine; riferimento è in doppia precisione'],
@@ -232,6 +237,8 @@ export const sentences = {
     'particelle: nel ritardo della luce girano sui loro cerchi guida',
   'colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance':
     'colore: i corpi neri fuori dal gamut sRGB sono portati al suo bordo a pari luminanza',
+  "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time":
+    'oscillazione smorzata: un’illustrazione: di un buco percosso oscilla la metrica; qui solo la luce degli ordini da 1 in su, tutta al tempo dell’immagine',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
   'post: a film-like tone curve; pixel values are not proportional to radiance':

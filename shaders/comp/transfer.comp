@@ -26,6 +26,7 @@ layout(constant_id = 11) const uint ALPHA_PLANE = 0;
 layout(constant_id = 12) const bool PARTICLES = false; /* the grid of particles modulates the light */
 layout(constant_id = 13) const bool SLOW = false; /* particles and spots as they were when the light left them */
 layout(constant_id = 14) const uint SPOTS = 0;    /* hot spots that are on */
+layout(constant_id = 15) const bool RINGDOWN = false; /* the hole was struck: image orders 1 and up ring */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -35,7 +36,7 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot { KD_SPOT_FIELDS_(F, U) };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
-    float pad[KD_TRANSFER_HEADER - 15];
+    float pad[KD_TRANSFER_HEADER - 16];
     kd_spot spots[KD_SPOT_MAX];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
@@ -191,9 +192,10 @@ void main()
                     float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
                     if (PARTICLES && c.a > 0.0)
                         c.rgb *= density_at(w, phi, ago);
-                    light += through * c.a * c.rgb;
+                    float seen = RINGDOWN && n > 0 ? through * tr.ringing : through;
+                    light += seen * c.a * c.rgb;
                     if (SPOTS > 0) { /* in the gas: its own element does not hide it */
-                        vec4 spot = through * spot_light(w, phi, ago, energy, momentum);
+                        vec4 spot = seen * spot_light(w, phi, ago, energy, momentum);
                         light += spot.rgb;
                         spots += spot.a;
                     }

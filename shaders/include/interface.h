@@ -35,7 +35,8 @@
     U(pixels_x)                           /* pixels a row */                                                      \
     U(rows) U(columns)                    /* of the grid of particles */                                          \
     F(rows_octave)                        /* rows that r doubles in */                                            \
-    F(delay)                              /* of the light that shows the grid as it is */
+    F(delay)                              /* of the light that shows the grid as it is */                         \
+    F(ringing)                            /* what light of image orders 1 and up is multiplied by */
 
 /* A hot spot, KD_SPOT_MAX of them behind the header. */
 #define KD_SPOT_FIELDS_(F, U)                                                                                  \

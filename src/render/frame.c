@@ -97,7 +97,7 @@ static enum kd_status transfer_kernel(struct job *j, const struct kd_vk_pipeline
     const uint32_t constants[] = {
         p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
         alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
-        p->particles.count > 0, p->delay, p->spots,
+        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0,
     };
     _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);

@@ -51,6 +51,8 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, disk || plan->spots, "disk: image orders beyond accuracy.orders are left out");
     say(plan, disk || plan->spots, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
     say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
+    say(plan, (disk || plan->spots) && scene->style.ringdown > 0,
+        "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time");
     say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
     say(plan, plan->ring,
         "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale");

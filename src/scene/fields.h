@@ -108,7 +108,11 @@
     WORD(style, exposure, INFINITY, -40.0, 40.0, "stops",                                                     \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")        \
     ENUM(style, tone_map, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")                \
-    BOOL(style, dither, true, "half a step of ordered noise before rounding, against banding")
+    BOOL(style, dither, true, "half a step of ordered noise before rounding, against banding")                \
+    REAL(style, ringdown, 0.0, 0.0, 1.0, "1",                                                                 \
+         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), the "   \
+         "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none")                                           \
+    REAL(style, ringdown_time, 0.0, -1e12, 1e12, "M", "time at which it was struck; before that nothing rings")
 
 #define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                         \
     REAL(motion, azimuth_rate_deg, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \

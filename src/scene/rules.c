@@ -1,6 +1,7 @@
 #include "scene/rules.h"
 
 #include "physics/kerr.h"
+#include "physics/qnm.h"
 #include "scene/number.h"
 #include "scene/value.h"
 
@@ -154,6 +155,15 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
+static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *error)
+{
+    if (scene->style.ringdown == 0 || fabs(scene->spacetime.spin) <= KD_QNM_SPIN_MAX)
+        return KD_OK;
+    return kd_error_field(error, "/style/ringdown",
+                          "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of them rings "
+                          "alone", show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
+}
+
 /* The rest of what accuracy.* may not say together depends on the device: render/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -176,6 +186,7 @@ const struct kd_rule kd_rules[] = {
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spot1.r`, `spot2.r` and `spot3.r` are not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
+    { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`accuracy.steps` is a multiple of 4.", steps },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

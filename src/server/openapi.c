@@ -4,6 +4,7 @@
 #include "server/openapi_orbits.h"
 #include "server/openapi_physics.h"
 #include "server/openapi_rays.h"
+#include "server/openapi_sessions.h"
 #include "server/reply.h"
 #include "server/request.h"
 
@@ -92,6 +93,8 @@ static cJSON *operation(const struct kd_route *route, bool post, const cJSON *sc
         cJSON_AddItemToObject(body, "content",
                               content("application/json", reference("#/components/schemas/Scene")));
     }
+    if (route->takes == KD_TAKES_STRIKE)
+        kd_openapi_strike_body(o);
     cJSON *responses = cJSON_AddObjectToObject(o, "responses"),
           *ok = cJSON_AddObjectToObject(responses, "200");
     cJSON_AddStringToObject(ok, "description", route->summary);

@@ -17,6 +17,7 @@
     X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
     X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \
     X(NOT_READY, 409, "not-ready", "What this asks for is not there yet")                                    \
+    X(CONFLICT, 409, "conflict", "The scene of this session does not allow it")                              \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
     X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here")                  \

@@ -126,6 +126,8 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
             (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;
     }
+    if (request->route->takes == KD_TAKES_STRIKE && !request->body_announced)
+        return false;
     bool rays = request->route->takes == KD_TAKES_RAYS;
     if (!kd_media_type_is(request->header.content_type, "application/json") &&
         !(patch && kd_media_type_is(request->header.content_type, "application/merge-patch+json")) && !(rays && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {

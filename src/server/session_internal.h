@@ -21,6 +21,7 @@ struct kd_session {
     struct kd_governor governor;
     unsigned revision; /* of the scene */
     uint64_t begun; /* frames */
+    bool moved;     /* the scene of the latest one went on by itself */
     bool listed;
     struct kd_session_frame *rendering; /* before it is encoded */
     unsigned encoding;

@@ -1,13 +1,18 @@
 /* POST /v1/sessions; GET, PATCH and DELETE of one. */
+#include "scene/number.h"
+#include "scene/text.h"
+#include "scene/tree.h"
 #include "server/reply.h"
 #include "server/scene_source.h"
 
+#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #define JSON_TYPE "application/json"
+#define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -98,12 +103,11 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     return result;
 }
 
-static enum MHD_Result patch(struct kd_request *request, struct kd_session *session)
+static enum MHD_Result patch(struct kd_request *request, struct kd_session *session, const char *text, size_t length)
 {
     struct kd_session_state state;
     struct kd_error error = { 0 };
-    const char *text = request->body.data ? (const char *)request->body.data : "";
-    if (!kd_session_patch(session, text, request->body.size, &state, &error))
+    if (!kd_session_patch(session, text, length, &state, &error))
         return answer(request, session, &state, false);
     struct kd_problem problem = kd_problem_from(&error);
     if (error.status == KD_EINVAL && !*error.pointer)
@@ -111,13 +115,18 @@ static enum MHD_Result patch(struct kd_request *request, struct kd_session *sess
     return kd_reply_problem(request, &problem);
 }
 
+static enum MHD_Result forbidden(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                                            .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
+}
+
 static enum MHD_Result change(struct kd_request *request, struct kd_session *session)
 {
     if (!kd_session_owned(session, kd_token_of(request)))
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
-                                                                .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
+        return forbidden(request);
     if (!strcmp(request->method, "PATCH"))
-        return patch(request, session);
+        return patch(request, session, request->body.data ? (const char *)request->body.data : "", request->body.size);
     kd_session_end(session);
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
 }
@@ -135,6 +144,70 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
         kd_session_state(session, &state);
         result = answer(request, session, &state, false);
     }
+    kd_session_release(session);
+    return result;
+}
+
+/* {"amplitude": x}, {} or nothing: *amplitude stays as it is. KD_EINVAL without a pointer: no JSON object. */
+static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
+{
+    cJSON *tree = NULL;
+    enum kd_status status = KD_OK;
+    if (body->size)
+        status = kd_tree_parse((const char *)body->data, body->size, KD_BODY_MAX, STRIKE_VALUES, &tree, error);
+    if (!status && tree && !cJSON_IsObject(tree))
+        status = kd_error_set(error, KD_EINVAL, "the body is no JSON object");
+    for (const cJSON *item = tree ? tree->child : NULL; item && !status; item = item->next) {
+        char name[60], pointer[sizeof error->pointer] = "", given[KD_VALUE_SIZE];
+        kd_text_clip(name, sizeof name, item->string);
+        kd_text_pointer(pointer, sizeof pointer, item->string);
+        const struct kd_value value = kd_tree_value(item);
+        kd_value_describe(&value, given);
+        if (strcmp(item->string, "amplitude"))
+            status = kd_error_field(error, pointer, "there is no field %s here; known is amplitude", name);
+        else if (item != tree->child)
+            status = kd_error_field(error, pointer, "amplitude is given twice");
+        else if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble <= 1))
+            status = kd_error_field(error, pointer, "amplitude is %s, allowed are 0 to 1", given);
+        else
+            *amplitude = item->valuedouble;
+    }
+    cJSON_Delete(tree);
+    return status;
+}
+
+static enum MHD_Result strike(struct kd_request *request, struct kd_session *session)
+{
+    struct kd_session_state state;
+    struct kd_error error = { 0 };
+    char text[120], amplitude[KD_NUMBER_SIZE], time[KD_NUMBER_SIZE], detail[160];
+    kd_session_state(session, &state);
+    double rate = state.scene.motion.time_rate, x = state.scene.style.ringdown > 0 ? state.scene.style.ringdown : 1;
+    if (read_strike(&request->body, &x, &error)) {
+        struct kd_problem problem = kd_problem_from(&error);
+        if (error.status == KD_EINVAL)
+            problem.type = *error.pointer ? KD_PROBLEM_INVALID_PARAMETERS : KD_PROBLEM_MALFORMED_JSON;
+        return kd_reply_problem(request, &problem);
+    }
+    kd_number_format(amplitude, x);
+    kd_number_format(time, state.scene.top.time);
+    snprintf(text, sizeof text, "{\"style\":{\"ringdown\":%s,\"ringdown_time\":%s}}", amplitude, time);
+    if (rate > 0)
+        return patch(request, session, text, strlen(text));
+    kd_number_format(time, rate);
+    snprintf(detail, sizeof detail, "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what rings, "
+             "rings as time goes on", time);
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = "/motion/time_rate",
+                                                            .detail = detail });
+}
+
+enum MHD_Result kd_handle_session_ringdown(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_session *session = kd_session_of(request, &result);
+    if (!session)
+        return result;
+    result = kd_session_owned(session, kd_token_of(request)) ? strike(request, session) : forbidden(request);
     kd_session_release(session);
     return result;
 }

@@ -35,7 +35,8 @@ void kd_session_pump(struct kd_session *s)
         return;
     double now = kd_clock_ms();
     const struct kd_scene scene = kd_session_scene(s, now);
-    if (kd_scene_moves(&scene))
+    const bool moves = kd_scene_moves(&scene);
+    if (moves || s->moved) /* what has come to rest since the latest frame differs from it too */
         kd_governor_changed(&s->governor, now, &scene, false);
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);
     if (turn.wait_ms > 0)
@@ -61,6 +62,7 @@ void kd_session_pump(struct kd_session *s)
         return;
     }
     live->number = ++s->begun;
+    s->moved = moves;
     live->revision = s->revision;
     s->rendering = live;
     s->references++;

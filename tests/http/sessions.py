@@ -2,6 +2,7 @@
 scenes `time` is how many milliseconds a frame takes."""
 import http.client
 import json
+import math
 import re
 import socket
 import struct
@@ -99,6 +100,69 @@ class Sessions(daemon.Case):
                     self.assertEqual(problem['pointer'], pointer)
         self.assertEqual(self.daemon.get(self.at(session)).json()['revision'], 3)
         self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
+
+    def strike(self, session, body=None, **headers):
+        headers = {**self.owner(session), **headers, **({'Content-Type': 'application/json'} if body is not None else {})}
+        return self.daemon.request('POST', self.at(session, '/ringdown'), body, headers)
+
+    def test_ringdown(self):
+        session = self.open({**SCENE, 'motion': {'time_rate': 2}})
+        struck = self.strike(session)
+        self.assertEqual(struck.status, 200, struck.body)
+        state = struck.json()
+        style = state['scene']['style']
+        self.assertEqual((state['id'], state['revision'], style['ringdown']), (session['id'], 2, 1))
+        self.assertTrue(5 <= style['ringdown_time'] <= state['scene']['time'] < 25, state)
+        self.assertNotIn('token', state)
+        time.sleep(0.1)
+        again = self.strike(session, '{"amplitude": 0.25}').json()
+        self.assertEqual((again['revision'], again['scene']['style']['ringdown']), (3, 0.25))
+        self.assertGreaterEqual(again['scene']['style']['ringdown_time'] - style['ringdown_time'], 0.2)
+        self.assertEqual(self.strike(session, '{}').json()['scene']['style']['ringdown'], 0.25)  # as it was
+        self.assertEqual(self.strike(session, '').json()['scene']['style']['ringdown'], 0.25)
+        revision = self.daemon.get(self.at(session)).json()['revision']
+        for body, status, pointer, word in (('{"amplitude": 1.01}', 422, '/amplitude', 'amplitude is 1.01, allowed are 0 to 1'),
+                                            ('{"amplitude": -1}', 422, '/amplitude', '0 to 1'), ('{"amplitude": "1"}', 422, '/amplitude', '"1"'),
+                                            ('{"amplitude": 1e999}', 422, '/amplitude', '0 to 1'), ('{"amplitude": null}', 422, '/amplitude', 'null'),
+                                            ('{"loud": 1}', 422, '/loud', 'known is amplitude'),
+                                            ('{"amplitude": 1, "amplitude": 0}', 422, '/amplitude', 'twice'),
+                                            ('[1]', 400, None, 'object'), ('{', 400, None, ''), ('{"amplitude": NaN}', 400, None, '')):
+            with self.subTest(body):
+                problem = self.assertProblem(self.strike(session, body), status)
+                self.assertEqual(problem.get('pointer'), pointer)
+                self.assertIn(word, problem['detail'])
+        self.assertProblem(self.strike(session, '{}', Authorization='Bearer x'), 403, 'forbidden')
+        self.assertProblem(self.daemon.request('POST', self.at(session, '/ringdown')), 403, 'forbidden')
+        self.assertProblem(self.daemon.request('POST', self.at(session, '/ringdown'), '{}', {**self.owner(session), 'Content-Type': 'text/plain'}), 415)
+        self.assertEqual(self.assertProblem(self.daemon.get(self.at(session, '/ringdown')), 405).get('status'), 405)
+        self.assertProblem(self.daemon.request('POST', '/v1/sessions/0123456789abcdef/ringdown'), 404, 'not-found')
+        self.assertEqual(self.daemon.get(self.at(session)).json()['revision'], revision)
+        for rate in (0, -3):
+            self.patch(session, {'motion': {'time_rate': rate}})
+            problem = self.assertProblem(self.strike(session), 409, 'conflict')
+            self.assertEqual(problem['pointer'], '/motion/time_rate')
+            self.assertIn(f'motion.time_rate is {rate}, allowed', problem['detail'])
+        self.patch(session, {'motion': {'time_rate': 1}, 'style': None, 'spacetime': {'spin': 0.99999}})
+        self.assertEqual(self.assertProblem(self.strike(session), 422, 'invalid-scene')['pointer'], '/style/ringdown')
+
+    def test_a_ring_dies_away(self):
+        """Frames come while it rings, one more when it is over, and then the session rests."""
+        session = self.open({**SCENE, 'time': 0, 'motion': {'time_rate': 9}})  # frames stay below 33 ms, so that nothing refines the last one
+        with self.stream(session, '/events', timeout=0.9) as events:
+            def until_it_rests():
+                text = b''
+                with self.assertRaises(TimeoutError):
+                    while len(text) < 1 << 20:
+                        text += events.recv(4096)
+                return [json.loads(line[6:]) for line in text.replace(b'\r\n', b'\n').split(b'\n') if line.startswith(b'data: ')]
+            until_it_rests()
+            struck = self.strike(session, '{"amplitude": 0.003}').json()
+            frames = until_it_rests()
+            self.assertGreater(len(frames), 8)
+            ends = struck['scene']['style']['ringdown_time'] + math.log(3.072) / 0.08137  # where a 1024th is left
+            self.assertLess(frames[-2]['time'], ends)
+            self.assertTrue(ends - 0.005 < frames[-1]['time'] < ends + 2, (ends, frames[-1]))
+            self.assertTrue(frames[-1]['quality']['final'])
 
     def test_tokens(self):
         session, other = self.open(), self.open()

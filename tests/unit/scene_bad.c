@@ -115,6 +115,9 @@ static const struct bad fields[] = {
       "image.width is 0, allowed are whole numbers from 1 to 32768 pixels" },
     { "{\"image\":{\"width\":1e9}}", "/image/width", "image.width is 1000000000" },
     { "{\"image\":{\"width\":12.5}}", "/image/width", "image.width is 12.5" },
+    { "{\"style\":{\"ringdown\":1.5}}", "/style/ringdown", "style.ringdown is 1.5, allowed are 0 to 1" },
+    { "{\"style\":{\"ringdown\":true}}", "/style/ringdown", "style.ringdown is true" },
+    { "{\"style\":{\"ringdown_time\":1e13}}", "/style/ringdown_time", "allowed are -1000000000000 to 1000000000000 M" },
     { "{\"style\":{\"dither\":1}}", "/style/dither", "style.dither is 1, allowed are true and false" },
 };
 

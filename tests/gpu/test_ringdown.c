@@ -1,0 +1,204 @@
+/* Rings of a struck hole: light of image orders 1 and up follows the mode of the hole, by numbers of another method
+ * (tests/oracle/qnm_reference.py); order 0 stays as it is; nothing is traced again. */
+#include "render_support.h"
+
+#include "qnm_reference.h"
+
+#include <math.h>
+
+#define STRUCK 100.0
+
+static struct kd_scene scene_of(double spin)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = spin;
+    scene.camera.inclination_deg = 75;
+    scene.camera.field_m = 30;
+    scene.disk.outer = 15;
+    scene.disk.opacity = 0.5;
+    scene.image.width = 96;
+    scene.image.height = 64;
+    scene.image.bit_depth = 16;
+    scene.style.exposure = -3;
+    scene.style.tone_map = KD_TONE_SRGB;
+    scene.style.dither = false;
+    scene.style.ringdown_time = STRUCK;
+    return scene;
+}
+
+static struct kd_frame render(const struct kd_scene *scene)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+static size_t samples(const struct kd_frame *f) { return (size_t)f->width * f->height * 3; }
+
+static double light(const struct kd_frame *f, size_t i)
+{
+    double v = ((const uint16_t *)f->pixels)[i] / 65535.0;
+    assert_true(v < 1); /* nothing clipped */
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+static double expected(double spin, double t)
+{
+    for (size_t i = 0; i < sizeof qnm_reference / sizeof *qnm_reference; i++) {
+        const struct qnm_reference *q = &qnm_reference[i];
+        if (q->l == 2 && q->m == 2 && !q->n && q->a == fabs(spin))
+            return t < 0 ? 0 : exp(q->im * t) * cos(q->re * t);
+    }
+    fail_msg("no reference for spin %g", spin);
+    return NAN;
+}
+
+/* A step of 16 bits is 3.5e-5 of linear light at most; the difference of three pictures rounds three times. */
+#define STEP 3.5e-5
+
+static void follow(const char *name, struct kd_scene scene)
+{
+    static const double times[] = { -1e-3, 0, 1, 3.3, 7.5, 20, 80 }, amplitudes[] = { 1, 0.3 };
+    const int orders = scene.accuracy.orders;
+    double worst = 0;
+    scene.top.time = STRUCK + 1;
+    scene.accuracy.orders = 1;
+    struct kd_frame direct = render(&scene);
+    scene.style.ringdown = 1;
+    struct kd_frame rung = render(&scene);
+    assert_memory_equal(rung.pixels, direct.pixels, 2 * samples(&direct));
+    kd_frame_finish(&rung);
+    for (size_t k = 0; k < 2 * sizeof times / sizeof *times; k++) {
+        double t = times[k / 2], amplitude = amplitudes[k % 2], gain = 1 + amplitude * expected(scene.spacetime.spin, t), sum = 0, squares = 0;
+        scene.accuracy.orders = orders;
+        scene.top.time = STRUCK + t;
+        scene.style.ringdown = 0;
+        struct kd_frame still = render(&scene);
+        scene.style.ringdown = amplitude;
+        rung = render(&scene);
+        assert_true(rung.lens_reused);
+        for (size_t i = 0; i < samples(&rung); i++) {
+            double first = light(&direct, i), rest = light(&still, i) - first, got = light(&rung, i) - first;
+            if (!(fabs(got - gain * rest) < 3 * STEP))
+                fail_msg("%s, t = %g: sample %zu is off by %.2g", name, t, i, got - gain * rest);
+            sum += got * rest;
+            squares += rest * rest;
+        }
+        assert_true(squares > 1e-2); /* there is something to ring */
+        worst = fmax(worst, fabs(sum / squares - gain));
+        if (t < 0)
+            assert_memory_equal(rung.pixels, still.pixels, 2 * samples(&still));
+        kd_frame_finish(&still);
+        kd_frame_finish(&rung);
+    }
+    kd_frame_finish(&direct);
+    printf("%-34s factor of orders 1 and up within %.1e\n", name, worst);
+    assert_true(worst < 1e-4);
+}
+
+static void test_spins(void **state)
+{
+    (void)state;
+    follow("spin 0", scene_of(0));
+    follow("spin 0.5", scene_of(0.5));
+    follow("spin -0.8, the mode of 0.8", scene_of(-0.8));
+    follow("spin 0.9999", scene_of(0.9999));
+}
+
+static void test_paths(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.95);
+    scene.camera.r = 30;
+    scene.camera.fov_deg = 60;
+    follow("a camera at 30 M", scene);
+    scene = scene_of(0.95);
+    scene.accuracy.engine = KD_ENGINE_CLOSED + 1;
+    scene.accuracy.precision = KD_PRECISION_F64 + 1;
+    follow("listed rays, closed form", scene);
+    scene.accuracy.engine = KD_ENGINE_KS_RK4 + 1;
+    scene.accuracy.precision = KD_PRECISION_F32 + 1;
+    scene.image.width = 48;
+    scene.image.height = 32;
+    follow("listed rays, Kerr-Schild", scene);
+    scene = scene_of(0.5);
+    scene.camera.projection = KD_PROJECTION_RING;
+    scene.camera.ring_decades_min = -4;
+    scene.image.width = 48;
+    scene.image.height = 32;
+    follow("the ring projection", scene);
+}
+
+/* Particles and spots, whose brightness changes from time to time by itself: the reference at the same time is without ringdown. */
+static void test_lumps(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const bool slow = k & 1;
+        double gain = 1 + expected(0.95, 3), sum = 0, squares = 0;
+        struct kd_scene scene = scene_of(0.95);
+        scene.disk.model = k < 2 ? KD_DISK_PARTICLES : KD_DISK_NONE;
+        scene.style.exposure = -5;
+        scene.spot1.brightness = k < 2 ? 0 : 10;
+        scene.disk.slow_light = slow;
+        scene.image.width = slow ? 48 : 96;
+        scene.image.height = slow ? 32 : 64;
+        scene.top.time = STRUCK + 3;
+        scene.style.ringdown = 0;
+        struct kd_frame still = render(&scene);
+        scene.style.ringdown = 1;
+        struct kd_frame rung = render(&scene);
+        scene.accuracy.orders = 1;
+        struct kd_frame direct = render(&scene);
+        scene.accuracy.orders = 3;
+        for (size_t i = 0; i < samples(&rung); i++) {
+            double first = light(&direct, i), rest = light(&still, i) - first;
+            sum += (light(&rung, i) - first) * rest;
+            squares += rest * rest;
+        }
+        assert_true(rung.lens_reused && squares > 1e-3);
+        assert_true(fabs(sum / squares - gain) < 1e-3);
+        kd_frame_finish(&still);
+        kd_frame_finish(&rung);
+        kd_frame_finish(&direct);
+    }
+}
+
+/* What is off is not said. */
+static void test_said(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.5);
+    struct kd_capacity c;
+    struct kd_plan off, on;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(&scene, &c, &off, &error));
+    scene.style.ringdown = 0.1;
+    OK(kd_plan_make(&scene, &c, &on, &error));
+    assert_int_equal(on.n_approximations, off.n_approximations + 1);
+    assert_string_equal(on.lens_key, off.lens_key);
+    size_t said = 0;
+    for (size_t i = 0; i < on.n_approximations; i++)
+        said += !strncmp(on.approximations[i], "ringdown: ", 10);
+    assert_int_equal(said, 1);
+}
+
+int main(void)
+{
+    int code = open_renderer();
+    if (code)
+        return code;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_spins),
+        cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_lumps),
+        cmocka_unit_test(test_said),
+    };
+    return close_renderer(cmocka_run_group_tests_name("ringdown", tests, NULL, NULL));
+}

@@ -1,0 +1,88 @@
+/* What goes on by itself in a live session, and when it has come to rest. */
+#include "scene_support.h"
+
+#include "qnm_reference.h"
+
+static struct kd_scene struck(double spin, double amplitude)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = spin;
+    scene.motion.time_rate = 10;
+    scene.style.ringdown = amplitude;
+    scene.style.ringdown_time = scene.top.time = 1000;
+    return scene;
+}
+
+static void a_smooth_disk_rests(void **state)
+{
+    (void)state;
+    struct kd_scene scene = struck(0.5, 0);
+    assert_false(kd_scene_moves(&scene));
+    scene.motion.azimuth_rate_deg = 10;
+    assert_false(kd_scene_moves(&scene));
+    scene.sky.model = KD_SKY_GRID;
+    assert_true(kd_scene_moves(&scene));
+    scene = struck(0.5, 0);
+    scene.disk.model = KD_DISK_PARTICLES;
+    assert_true(kd_scene_moves(&scene));
+    scene.motion.time_rate = 0;
+    assert_false(kd_scene_moves(&scene));
+}
+
+static void rings_move_while_time_does(void **state)
+{
+    (void)state;
+    struct kd_scene scene = struck(0.5, 0.01);
+    assert_true(kd_scene_moves(&scene));
+    scene.top.time = 999.999; /* before the stroke */
+    assert_false(kd_scene_moves(&scene));
+    kd_scene_advance(&scene, 1e-3);
+    assert_true(kd_scene_moves(&scene));
+    scene.motion.time_rate = -10;
+    assert_true(kd_scene_moves(&scene));
+    scene.motion.time_rate = 0;
+    assert_false(kd_scene_moves(&scene));
+    scene = struck(-0.5, 1);
+    assert_true(kd_scene_moves(&scene));
+    scene.disk.model = KD_DISK_NONE;
+    assert_false(kd_scene_moves(&scene));
+    scene = struck(0.5, 1);
+    scene.accuracy.orders = 1; /* nothing that rings is in the picture */
+    assert_false(kd_scene_moves(&scene));
+}
+
+/* The slope of the sRGB curve at white is 0.44: less than half of one of 255 steps is left when the motion ends, and motion does not go
+ * on for a fortieth of one. Decay by another method's numbers. */
+static void it_ends_when_it_cannot_be_seen(void **state)
+{
+    (void)state;
+    static const double amplitudes[] = { 1, 0.1 };
+    for (size_t i = 0; i < sizeof qnm_reference / sizeof *qnm_reference; i++) {
+        const struct qnm_reference *q = &qnm_reference[i];
+        if (q->l != 2 || q->m != 2 || q->n)
+            continue;
+        for (int k = 0; k < 4; k++) {
+            struct kd_scene scene = struck(k & 1 ? q->a : -q->a, amplitudes[k / 2]);
+            double decay = 1000 / -q->im, low = 0, high = decay; /* moves at low, rests at high */
+            while (high - low > 1e-3) {
+                double middle = (low + high) / 2;
+                scene.top.time = 1000 + middle;
+                *(kd_scene_moves(&scene) ? &low : &high) = middle;
+            }
+            double left = 0.44 * 255 * amplitudes[k / 2] * exp(q->im * high);
+            if (!(left < 0.5 && left > 1 / 40.0))
+                fail_msg("spin %g: it ends with %g of a step left", scene.spacetime.spin, left);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_smooth_disk_rests),
+        cmocka_unit_test(rings_move_while_time_does),
+        cmocka_unit_test(it_ends_when_it_cannot_be_seen),
+    };
+    return cmocka_run_group_tests_name("scene motion", tests, NULL, NULL);
+}
