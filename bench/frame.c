@@ -13,7 +13,7 @@
 struct options {
     const char *device;
     int width, height, repeat;
-    bool sky;
+    bool sky, particles;
 };
 
 static double now_ms(void)
@@ -69,6 +69,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     scene.image.width = o->width;
     scene.image.height = o->height;
     scene.sky.model = o->sky ? KD_SKY_GRID : KD_SKY_NONE;
+    scene.disk.model = o->particles ? KD_DISK_PARTICLES : scene.disk.model;
     cJSON *first = cJSON_AddArrayToObject(root, "first"), *cold = cJSON_AddArrayToObject(root, "cold");
     cJSON *reused = cJSON_AddArrayToObject(root, "reused");
     enum kd_status status = one_frame(renderer, &scene, first, error); /* compiles the kernels */
@@ -90,6 +91,7 @@ static error_t option(int key, char *text, struct argp_state *state)
     case 'y': o->height = atoi(text); return 0;
     case 'r': o->repeat = atoi(text); return 0;
     case 'k': o->sky = true; return 0;
+    case 'p': o->particles = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -102,9 +104,10 @@ int main(int argc, char **argv)
         { "height", 'y', "N", 0, "pixels (720)", 0 },
         { "repeat", 'r', "N", 0, "frames of each kind (9)", 0 },
         { "sky", 'k', NULL, 0, "with a sky, which needs the integrator", 0 },
+        { "particles", 'p', NULL, 0, "with a disk of particles", 0 },
         { 0 },
     };
-    struct options o = { "auto", 1280, 720, 9, false };
+    struct options o = { "auto", 1280, 720, 9, false, false };
     struct argp parser = { table, option, NULL, "What a whole frame costs, pass by pass.", NULL, NULL, NULL };
     argp_parse(&parser, argc, argv, 0, NULL, &o);
 

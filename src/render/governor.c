@@ -4,10 +4,11 @@
 #include <string.h>
 
 /* Chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as long. */
-static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the target: noise does not carry from the last to first */
+static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
+static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
 static const double COOLDOWN_MS = 1000;                /* before a climb */
-static const double RETRY_MS = 8000;                   /* before one to what was too slow; doubled */
-static const double HOLD_MS = 400, HOLD_MAX_MS = 8000; /* a hand that pauses in a drag; two drags */
+static const double RETRY_MS = 3000;                   /* before one to what was too slow; doubled */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a hand that pauses in a drag; two drags */
 static const double BLIND_MS = 2000;                   /* a guess; doubled */
 enum {
     FEW = 4,    /* spikes in a row are load */
@@ -15,12 +16,18 @@ enum {
     MISSES = 3, /* a lens map may be missed once, when the rung changes */
 };
 
+/* On whatever rung it is. */
+static void begin_anew(struct kd_pace *pace)
+{
+    *pace = (struct kd_pace) { .rung = pace->rung, .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
+}
+
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params)
 {
     *governor = (struct kd_governor) { .params = *params, .hold_ms = HOLD_MS, .blind_ms = BLIND_MS };
     governor->changed_at = governor->lens_at = governor->blind_until = -INFINITY;
     for (int i = 0; i < 2; i++)
-        governor->paces[i] = (struct kd_pace) { .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
+        begin_anew(&governor->paces[i]);
 }
 
 /* What frames cost */
@@ -37,17 +44,20 @@ static const struct kd_frame_cost *latest(const struct kd_pace *pace, uint32_t b
 
 static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, double weight)
 {
+    sum->fixed_ms += weight * cost->fixed_ms;
     sum->rays_ms += weight * cost->rays_ms;
     sum->pixels_ms += weight * cost->pixels_ms;
     sum->total_ms += weight * cost->total_ms;
 }
 
-static struct kd_frame_cost mean_of_latest(const struct kd_pace *pace, uint32_t n)
+/* Kernels that are made, and load, only ever make a frame dearer. */
+static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint32_t n)
 {
-    struct kd_frame_cost mean = { 0 };
-    for (uint32_t i = 0; i < n; i++)
-        add(&mean, latest(pace, i), 1.0 / n);
-    return mean;
+    const struct kd_frame_cost *least = latest(pace, 0);
+    for (uint32_t i = 1; i < n; i++)
+        if (latest(pace, i)->total_ms < least->total_ms)
+            least = latest(pace, i);
+    return *least;
 }
 
 /* Of the middle half of the window by total: neither a spike nor a frame that had nothing to do moves it, and of two kinds of
@@ -68,10 +78,22 @@ static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
     return mean;
 }
 
-/* On another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays as it is. */
+/* Of a frame's time what may go with its size, and how much that may be. */
+static double varying(const struct kd_frame_cost *cost)
+{
+    return cost->total_ms - cost->fixed_ms;
+}
+
+static double room(const struct kd_governor *g, const struct kd_frame_cost *cost)
+{
+    double target = g->params.target_ms;
+    return fmax(target - cost->fixed_ms, fmax(LEAST_ROOM * target, LEAST_SHARE * cost->fixed_ms));
+}
+
+/* What varies, on another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays as it is. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to, bool rest_stays)
 {
-    double pixels = to->pixels / from->pixels, rest = cost->total_ms - cost->rays_ms - cost->pixels_ms;
+    double pixels = to->pixels / from->pixels, rest = varying(cost) - cost->rays_ms - cost->pixels_ms;
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
@@ -79,7 +101,7 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_fra
                                 uint32_t first)
 {
     uint32_t last = (uint32_t)g->ladder.n_rungs - 1, to = at_most(first, last);
-    while (to < last && predict(cost, from, &g->ladder.rungs[to], false) > g->params.target_ms)
+    while (to < last && predict(cost, from, &g->ladder.rungs[to], false) > room(g, cost))
         to++;
     return to;
 }
@@ -102,7 +124,7 @@ static void move(struct kd_pace *pace, uint32_t rung, bool up, double now)
 static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
 {
     for (uint32_t i = 0; i < at_most(pace->count, FEW); i++)
-        if (latest(pace, i)->total_ms <= FAR_OVER * g->params.target_ms)
+        if (varying(latest(pace, i)) <= FAR_OVER * room(g, latest(pace, i)))
             return false;
     return pace->count > 1;
 }
@@ -117,7 +139,7 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
                       bool rest_stays)
 {
     const struct kd_rung *rungs = g->ladder.rungs;
-    return predict(cost, &rungs[pace->rung], &rungs[to], rest_stays) <= CLIMB_BELOW * g->params.target_ms &&
+    return predict(cost, &rungs[pace->rung], &rungs[to], rest_stays) <= CLIMB_BELOW * room(g, cost) &&
            traceable(g, pace, &rungs[to], CLIMB_BELOW * g->params.stall_ms);
 }
 
@@ -150,13 +172,13 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
     bool far = far_over(g, pace);
     if (!far && pace->count < ENOUGH)
         return;
-    struct kd_frame_cost cost = far ? mean_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
+    struct kd_frame_cost cost = far ? cheapest_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
     if (pace == &g->paces[1]) {
         g->traced = cost;
         g->traced_on = *here;
         spare_a_stall(g, now);
     }
-    if (far || cost.total_ms > OVER * g->params.target_ms) {
+    if (far || varying(&cost) > OVER * room(g, &cost)) {
         if (pace->rung + 1 < g->ladder.n_rungs)
             move(pace, first_that_fits(g, &cost, here, pace->rung + 1), false, now);
         return;
@@ -176,6 +198,14 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->orders == q->orders;
 }
 
+/* Whether frames cost about the same but for their size. */
+static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
+{
+    const struct kd_disk *d = &a->disk, *e = &b->disk;
+    return d->model == e->model && d->particles == e->particles && d->slow_light == e->slow_light && a->sky.model == b->sky.model &&
+           a->camera.projection == b->camera.projection && isinf(a->camera.r) == isinf(b->camera.r);
+}
+
 static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
 {
     struct kd_ladder old = g->ladder;
@@ -189,13 +219,15 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
         pace->climbed = false;
     }
     g->ladders++;
-    g->asked = *asked;
 }
 
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
+    for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)
+        begin_anew(&g->paces[i]);
+    g->asked = *asked;
     g->revision++;
     g->changed_at = now;
     if (!lens)
@@ -206,11 +238,21 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     g->lens_at = now;
 }
 
-void kd_governor_expect(struct kd_governor *g, const struct kd_frame_cost *cost)
+/* As long as no more frames than `known` are known. */
+static void expect(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *of, uint32_t known)
 {
     struct kd_pace *pace = &g->paces[!cost->lens_reused];
-    if (g->ladders && !pace->count && isinf(pace->changed_at))
-        pace->rung = first_that_fits(g, cost, &g->ladder.rungs[0], 0);
+    uint32_t rung = first_that_fits(g, cost, of, 0);
+    if (pace->count > known || !isinf(pace->changed_at) || rung == pace->rung)
+        return;
+    pace->rung = rung;
+    pace->count = 0;
+}
+
+void kd_governor_expect(struct kd_governor *g, const struct kd_frame_cost *cost)
+{
+    if (g->ladders)
+        expect(g, cost, &g->ladder.rungs[0], 0);
 }
 
 /* Turns */
@@ -253,6 +295,11 @@ static void miss(struct kd_governor *g, double now)
     g->blind_ms *= 2;
 }
 
+static bool is_sane(const struct kd_frame_cost *c)
+{
+    return c->fixed_ms >= 0 && c->rays_ms >= 0 && c->pixels_ms >= 0 && c->total_ms >= 0 && isfinite(c->total_ms + c->fixed_ms);
+}
+
 void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *turn, const struct kd_frame_cost *cost)
 {
     if (turn->revision == g->revision) {
@@ -261,8 +308,13 @@ void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *
         g->shown_rays = turn->rays;
     }
     struct kd_pace *pace = &g->paces[turn->traced];
-    bool sane = cost->rays_ms >= 0 && cost->pixels_ms >= 0 && cost->total_ms >= 0 && isfinite(cost->total_ms);
-    if (turn->refining || turn->ladder != g->ladders || turn->rung != pace->rung || !sane)
+    if (turn->ladder != g->ladders || !is_sane(cost))
+        return;
+    if (!cost->lens_reused && (turn->refining || !turn->traced)) {
+        const struct kd_rung of = { .rays = turn->rays, .pixels = (double)turn->quality.width * turn->quality.height };
+        expect(g, cost, &of, ENOUGH - 1);
+    }
+    if (turn->refining || turn->rung != pace->rung)
         return;
     if (!turn->traced) {
         g->missed = cost->lens_reused ? 0 : g->missed;

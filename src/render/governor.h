@@ -18,18 +18,23 @@
  *
  * turn.quality is what to report as in force, also while nothing is rendered: then it is that of the newest frame shown.
  *
+ * A frame costs something whatever its size, something for each ray, something for each pixel. Only what goes with its size can be
+ * mended here: that has what the first leaves of the target, at least half the target, and at least a quarter of the first, so that
+ * ten million particles cost frames and not the picture too.
+ *
  * While the scene changes, a rung of quality.h's ladder is in force:
  * - Frames that trace their rays and frames that find their lens map cached cost different orders of magnitude, so that each kind
  *   has a rung, a ceiling and an average of its own. As long as the camera or the hole was moved lately the first kind's hold.
- * - Over the target by a tenth: down. At once if four frames in a row, or the first two on a rung, are over it by half; else by the
- *   mean of the middle half of the last 8 to 32, which single spikes do not reach. As far as it takes if all of the cost shrank
- *   with the picture.
- * - A rung that was left because it was too slow is the ceiling: it and those above are not climbed to again. It is lifted after 8
+ * - Over that by a tenth: down. At once if four frames in a row, or the first two on a rung, are over it by half, as far as the
+ *   cheapest of them takes; else by the mean of the middle half of the last 8 to 32, which single spikes do not reach. As far as it
+ *   takes if all of the cost but what is known not to shrank with the picture.
+ * - A rung that was left because it was too slow is the ceiling: it and those above are not climbed to again. It is lifted after 3
  *   s, and whenever a climb was in vain that time doubles: of N hours only log N climbs are lost to a machine that seems faster
  *   than it is.
- * - Up as far as would take at most 80 % of the target if all of the cost grew, or by one rung if only what is known to grow did;
- *   not within a second of the last change.
- * - After each change of rung averages start again.
+ * - Up as far as would take at most 80 % of it if all of the cost but what is known not to grew, or by one rung if only what is known
+ *   to grow did; not within a second of the last change.
+ * - After each change of rung averages start again; so do ceilings when the scene is of another kind, such as particles for a
+ *   smooth disk.
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
  *   on.
  *
@@ -55,7 +60,8 @@ struct kd_governor_params {
 /* Where a frame's time went. total_ms is compared with the target: if stages overlap, the longest; if not, the sum. What the parts
  * leave of it, waiting and submitting, may or may not shrink with the picture; with all parts 0 that is so of everything. */
 struct kd_frame_cost {
-    double rays_ms;   /* passes over rays: trace, audit, transfer */
+    double fixed_ms;  /* whatever the picture's size: particles, audit */
+    double rays_ms;   /* passes over rays: trace, transfer */
     double pixels_ms; /* over pixels: expose, post, readback, encode */
     double total_ms;
     bool lens_reused; /* as in kd_frame */
@@ -77,7 +83,7 @@ struct kd_pace {
     uint32_t rung, ceiling; /* indices: 0 is what was asked; never climb below `ceiling` */
     uint32_t count;         /* frames since the last change of rung */
     struct kd_frame_cost costs[KD_PACE_FRAMES];
-    double changed_at, failed_at, retry_ms;
+    double changed_at, failed_at, retry_ms; /* changed_at: -INFINITY until the first change of a kind of scene */
     bool climbed; /* the last change was upwards */
 };
 
@@ -102,11 +108,12 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
 
 /* The scene is now *asked, valid. lens: its lens map is another, as it is when the plans of both, as asked, differ in lens_key;
  * the first of a session is. A change of image.* or accuracy.* makes a new ladder and starts on the rung that old averages
- * suggest. */
+ * suggest; one of what is drawn begins averages and waits anew. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *asked, bool lens);
 
 /* Before any frame of this kind was measured: what one as asked is believed to cost, by the plan for instance. Sets the rung to
- * begin with; without it that is the first. */
+ * begin with; without it that is the first, or the one in force. Ignored later, so that each change may be followed by it. A frame
+ * that traced while few of its kind are known, as a step of refinement does, says the same better. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
 /* After kd_governor_changed. */

@@ -55,7 +55,7 @@ static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
 
 static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_bounds *bounds, struct kd_ladder *out)
 {
-    static const double scales[] = { 0.75, 0.5, 0.375, 0.25 };
+    static const double scales[] = { 0.75, 0.625, 0.5, 0.375, 0.25 };
     double scale = 1;
     int32_t samples = asked->image.samples, orders = asked->accuracy.orders;
     out->rungs[0] = make_rung(asked, scale, samples, orders, -1);

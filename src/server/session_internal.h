@@ -52,6 +52,8 @@ struct kd_scene kd_session_scene(const struct kd_session *session, double now); 
 
 /* Begin a frame if one is awaited, would differ, and there is room for it. session_run.c */
 void kd_session_pump(struct kd_session *session);
+/* Frames are believed to cost what the plan of the scene says, as long as none was measured. */
+void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
 /* What is being rendered is given up if it refines: it is long, and nobody waits for it any more. */
 void kd_session_drop_refinement(struct kd_session *session);
 

@@ -83,20 +83,33 @@ static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
                               &job->error);
 }
 
+static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
+{
+    if (!strcmp(pass, "trace") || !strcmp(pass, "transfer"))
+        cost->rays_ms += ms;
+    else if (!strcmp(pass, "expose") || !strcmp(pass, "post") || !strcmp(pass, "readback"))
+        cost->pixels_ms += ms;
+    else if (!strcmp(pass, "audit") || !strcmp(pass, "particles"))
+        cost->fixed_ms += ms;
+    else if (!strcmp(pass, "total"))
+        cost->total_ms = ms;
+}
+
 /* Encoding is left out: it overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_frame *frame)
 {
     struct kd_frame_cost cost = { .lens_reused = frame->lens_reused };
-    for (size_t i = 0; i < frame->n_timings; i++) {
-        const struct kd_timing *t = &frame->timings[i];
-        if (!strcmp(t->name, "trace") || !strcmp(t->name, "audit") || !strcmp(t->name, "transfer"))
-            cost.rays_ms += t->ms;
-        else if (!strcmp(t->name, "expose") || !strcmp(t->name, "post") || !strcmp(t->name, "readback"))
-            cost.pixels_ms += t->ms;
-        else if (!strcmp(t->name, "total"))
-            cost.total_ms = t->ms;
-    }
+    for (size_t i = 0; i < frame->n_timings; i++)
+        add_cost(&cost, frame->timings[i].name, frame->timings[i].ms);
     return cost;
+}
+
+void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
+{
+    struct kd_frame_cost cost = { .total_ms = plan->estimate_ms };
+    for (size_t i = 0; i < plan->n_passes; i++)
+        add_cost(&cost, plan->passes[i].name, plan->passes[i].estimate_ms);
+    kd_governor_expect(&s->governor, &cost);
 }
 
 /* On the render thread, unlocked: the next frame may be traced while this one is encoded. */

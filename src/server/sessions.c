@@ -71,7 +71,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
     kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
     kd_governor_changed(&s->governor, s->since_ms, scene, true);
-    kd_governor_expect(&s->governor, &(struct kd_frame_cost) { .total_ms = plan->estimate_ms });
+    kd_session_expect(s, plan);
     pthread_mutex_lock(&all->lock);
     if (all->closed || all->count >= all->params.limit) {
         unsigned n = all->count;
@@ -157,6 +157,7 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     s->revision++;
     s->failed = KD_OK;
     kd_governor_changed(&s->governor, now, &scene, strcmp(s->lens_key, plan.lens_key) != 0);
+    kd_session_expect(s, &plan);
     memcpy(s->lens_key, plan.lens_key, sizeof s->lens_key);
     kd_session_drop_refinement(s);
     kd_session_pump(s);

@@ -118,8 +118,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     asked.image.samples = 2;
     kd_ladder_make(&asked, &bounds, &ladder);
     static const struct { double scale; int samples, orders, profile; } expected[] = {
-        { 1, 2, 3, -1 }, { .75, 2, 3, -1 }, { .5, 2, 3, -1 }, { .375, 2, 3, -1 }, { .25, 2, 3, -1 },
-        { .25, 1, 3, -1 }, { .25, 1, 2, -1 }, { .25, 1, 2, KD_PROFILE_INTERACTIVE }, { .25, 1, 2, KD_PROFILE_DRAFT },
+        { 1, 2, 3, -1 }, { .75, 2, 3, -1 }, { .625, 2, 3, -1 }, { .5, 2, 3, -1 }, { .375, 2, 3, -1 },
+        { .25, 2, 3, -1 }, { .25, 1, 3, -1 }, { .25, 1, 2, -1 }, { .25, 1, 2, KD_PROFILE_INTERACTIVE }, { .25, 1, 2, KD_PROFILE_DRAFT },
     };
     assert_int_equal(ladder.n_rungs, sizeof expected / sizeof *expected);
     for (size_t i = 0; i < ladder.n_rungs; i++) {
@@ -128,8 +128,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
         assert_int_equal(ladder.rungs[i].quality.orders, expected[i].orders);
         assert_int_equal(ladder.rungs[i].quality.profile, expected[i].profile);
     }
-    assert_int_equal(ladder.rungs[2].quality.width, 640);
-    assert_int_equal(ladder.rungs[2].quality.height, 360);
+    assert_int_equal(ladder.rungs[3].quality.width, 640);
+    assert_int_equal(ladder.rungs[3].quality.height, 360);
 }
 
 /* Steady machines */
@@ -149,18 +149,19 @@ static void settles_on_a_steady_machine(void **state)
         run(&s, pattern, 30e3);
         uint64_t changes = s.changes;
         double mean = mean_over(&s, pattern, 60e3);
-        uint32_t rung = s.governor.paces[pattern == DRAG].rung;
+        uint32_t rung = rung_of(&s, pattern);
+        double fixed = s.truth.fixed, may = may_take(target, fixed);
         assert_int_equal(s.changes, changes);
         if (rung < last_rung(&s)) {
-            assert_true(mean <= 1.1001 * target);
+            assert_true(mean <= 1.1001 * may);
             reached++;
-        } else if (mean > 1.1 * target) {
-            assert_true(true_cost(&s, last_rung(&s), pattern == PLAY) > 1.1 * target);
+        } else if (mean > 1.1 * may) {
+            assert_true(true_cost(&s, last_rung(&s), pattern == PLAY) > 1.1 * (may - fixed) + fixed);
             hopeless++;
         }
-        if (rung > 0) /* what would be 80 % of the target was climbed to */
-            assert_true(true_cost(&s, rung - 1, pattern == PLAY) > 0.8 * target ||
-                        (pattern == PLAY && true_cost(&s, rung - 1, false) > 0.7 * s.governor.params.stall_ms));
+        if (rung > 0) /* what would be 80 % of what there is room for was climbed to */
+            assert_true(true_cost(&s, rung - 1, pattern == PLAY) - fixed > 0.8 * (may - fixed) ||
+                        (pattern == PLAY && true_cost(&s, rung - 1, false) - fixed > 0.7 * s.governor.params.stall_ms));
     }
     print_message("settled below the target %d times, on the last rung above it %d times\n", reached, hopeless);
     assert_true(reached > 200 && hopeless > 20);
@@ -228,6 +229,122 @@ static void two_slow_frames_are_enough(void **state)
     assert_true(true_cost(&s, s.governor.paces[1].rung, false) <= 33);
 }
 
+/* What does not go with the size */
+
+/* Ten million particles take 220 ms: no size of picture brings them to 33. */
+static void what_cannot_be_mended_costs_no_resolution(void **state)
+{
+    (void)state;
+    struct simulation s;
+    for (enum pattern pattern = PLAY; pattern <= DRAG; pattern++)
+        for (int noisy = 0; noisy < 2; noisy++) {
+            begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 25, .reused = 8, .pixels = 4, .hidden = 3, .fixed = 220,
+                  .noise = noisy ? 0.25 : 0, .spikes = noisy ? 0.05 : 0, .spike = 3 });
+            change(&s, true);
+            kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .fixed_ms = 220, .rays_ms = 25, .pixels_ms = 4, .total_ms = 249 });
+            run(&s, pattern, 600e3);
+            assert_int_equal(s.changes, 0);
+            assert_true(s.last.final);
+        }
+}
+
+/* But what the picture adds is kept within a quarter of it, and within half the target. */
+static void what_can_be_mended_is(void **state)
+{
+    (void)state;
+    struct simulation s;
+    for (double fixed = 0; fixed < 1000; fixed = 1.5 * fixed + 5) {
+        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 200, .reused = 80, .pixels = 20, .fixed = fixed });
+        run(&s, DRAG, 30e3);
+        double mean = mean_over(&s, DRAG, 30e3);
+        assert_true(mean - fixed <= 1.1 * (may_take(33, fixed) - fixed));
+        uint32_t rung = rung_of(&s, DRAG);
+        assert_true(rung == 0 || true_cost(&s, rung - 1, false) - fixed > 0.8 * (may_take(33, fixed) - fixed));
+        assert_true(rung > 0 || fixed > 500);
+    }
+}
+
+/* Full size again soon, however slow the first frames were. */
+static void recovers_from_a_slow_beginning(void **state)
+{
+    (void)state;
+    struct simulation s;
+    for (int slow = 1; slow <= 20; slow++) {
+        begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 12, .reused = 8, .pixels = 3, .hidden = 1.5, .fixed = 5 });
+        change(&s, true);
+        kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .rays_ms = 300, .total_ms = 310 });
+        s.load = 10;
+        for (int i = 0; i < slow; i++)
+            run(&s, DRAG, 1);
+        s.load = 1;
+        run(&s, DRAG, 4500); /* the wait after what was too slow, a few climbs */
+        assert_int_equal(rung_of(&s, DRAG), 0);
+        run(&s, PLAY, 600); /* as soon as the drag counts as over */
+        assert_int_equal(rung_of(&s, PLAY), 0);
+        assert_true(s.last.final);
+    }
+}
+
+/* Time goes on, for minutes; a drag; and it goes on at full size when the drag is over, however long after the last change. */
+static void a_drag_is_soon_forgotten(void **state)
+{
+    (void)state;
+    struct simulation s;
+    for (double before = 500; before < 60e3; before *= 2) {
+        begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 100, .reused = 8, .pixels = 3, .fixed = 4 });
+        run(&s, PLAY, before);
+        run(&s, DRAG, 3e3);
+        assert_true(s.last.scale < 1);
+        run(&s, PLAY, 500 + (before < 2000 ? 1600 : 0));
+        assert_true(s.last.scale == 1);
+    }
+}
+
+/* Ten million particles that became as many thousand; a sky that was taken away: what was too slow then says nothing now. */
+static void another_kind_of_scene_begins_anew(void **state)
+{
+    (void)state;
+    struct simulation s;
+    for (int how = 0; how < 3; how++) {
+        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 400, .reused = 400, .pixels = 20 });
+        s.asked.sky.model = KD_SKY_GRID;
+        s.asked.disk.model = KD_DISK_PARTICLES;
+        run(&s, DRAG, 60e3);
+        assert_true(s.last.scale <= 0.25);
+        s.asked.sky.model = how == 0 ? KD_SKY_NONE : KD_SKY_GRID;
+        s.asked.disk.model = how == 1 ? KD_DISK_NOVIKOV_THORNE : KD_DISK_PARTICLES;
+        s.asked.disk.particles = how == 2 ? 1000 : 300000;
+        s.truth = (struct truth) { .traced = 12, .reused = 12, .pixels = 10 };
+        run(&s, DRAG, 300);
+        assert_true(s.last.final);
+    }
+}
+
+/* A guess that was much too dear is mended by the first frame that says better, before anybody drags. */
+static void what_refinement_measured_is_believed(void **state)
+{
+    (void)state;
+    struct simulation s;
+    begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 18, .reused = 6, .pixels = 4 });
+    change(&s, true);
+    kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .rays_ms = 500, .total_ms = 510 });
+    frame(&s);
+    assert_true(s.last.scale <= 0.25);
+    s.now += 200;
+    assert_true(frame(&s) && s.last.final);
+    change(&s, true);
+    frame(&s);
+    assert_true(s.last.final);
+    /* And one that was much too cheap. */
+    begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
+    change(&s, true);
+    s.now += 1000; /* nothing was drawn while the camera moved: that frames trace is learnt from one that misses its lens map */
+    frame(&s);
+    change(&s, true);
+    frame(&s);
+    assert_true(s.last.scale < 0.5);
+}
+
 /* Noise and load */
 
 static void noise_and_spikes_change_little(void **state)
@@ -251,7 +368,7 @@ static void noise_and_spikes_change_little(void **state)
     }
     print_message("changes in 5 minutes of noise and spikes: %.2f on average, %llu at most\n", (double)all / 200,
                   (unsigned long long)most);
-    assert_true(most <= 8 && all <= 200);
+    assert_true(most <= 12 && all <= 100);
 }
 
 static void load_that_comes_and_goes_is_followed(void **state)
@@ -262,7 +379,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
         struct kd_governor_params params = with_target(33);
         double load = 1.5 + 6 * uniform();
         begin(&s, &params, 1280, 720,
-              (struct truth) { .traced = 14, .reused = 14, .pixels = 8 * uniform(), .fixed = 4 * uniform() });
+              (struct truth) { .traced = 14, .reused = 14, .pixels = 8 * uniform(), .hidden = 4 * uniform() });
         run(&s, DRAG, 10e3);
         assert_int_equal(s.changes, 0);
         s.load = load;
@@ -270,12 +387,12 @@ static void load_that_comes_and_goes_is_followed(void **state)
         uint32_t rung = s.governor.paces[1].rung;
         assert_true(true_cost(&s, rung, false) <= 1.1 * 33 || rung == last_rung(&s));
         run(&s, DRAG, 30e3);
-        assert_true(s.changes <= 6);
+        assert_true(s.changes <= 7);
         s.load = 1;
         run(&s, DRAG, 15e3); /* and back, by no more changes than it took */
         assert_int_equal(s.governor.paces[1].rung, 0);
         run(&s, DRAG, 60e3);
-        assert_true(s.changes <= 6);
+        assert_true(s.changes <= 8);
     }
 }
 
@@ -303,7 +420,7 @@ static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_s
 static struct kd_frame_cost by_count(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
-    uint64_t period = (uint64_t)s->truth.fixed;
+    uint64_t period = (uint64_t)s->truth.spike;
     double ms = s->frames / period % 2 ? 100 : 5;
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
@@ -313,10 +430,29 @@ static struct kd_frame_cost telegraph(const struct simulation *s, const struct k
     bool slow = fmod(s->now, 2 * s->truth.spike) > s->truth.spike;
     struct kd_frame_cost c = truthful(s, scene, reused);
     double factor = slow ? 5 : 1;
-    return (struct kd_frame_cost) { factor * c.rays_ms, factor * c.pixels_ms, factor * c.total_ms, false };
+    return (struct kd_frame_cost) { .fixed_ms = factor * c.fixed_ms, .rays_ms = factor * c.rays_ms,
+                                    .pixels_ms = factor * c.pixels_ms, .total_ms = factor * c.total_ms };
 }
 
-/* Climbs that were in vain, by the doubling of the wait after each: 8 s (2^n - 1) <= T, those that came before the first wait
+/* Says that what it takes is fixed as soon as the picture is small, and goes with its size when it is large. */
+static struct kd_frame_cost liar(const struct simulation *s, const struct kd_scene *scene, bool reused)
+{
+    (void)reused;
+    bool large = rays_of(scene) > 0.3 * rays_of(&s->asked);
+    return (struct kd_frame_cost) { .fixed_ms = large ? 0 : 70, .rays_ms = large ? 80 : 1, .total_ms = large ? 80 : 71 };
+}
+
+/* Its fixed part comes and goes. */
+static struct kd_frame_cost restless(const struct simulation *s, const struct kd_scene *scene, bool reused)
+{
+    struct kd_frame_cost c = truthful(s, scene, reused);
+    double more = fmod(s->now, 2 * s->truth.spike) > s->truth.spike ? 200 : 0;
+    c.fixed_ms += more;
+    c.total_ms += more;
+    return c;
+}
+
+/* Climbs that were in vain, by the doubling of the wait after each: 3 s (2^n - 1) <= T, those that came before the first wait
  * besides, one a rung; each between a descent and a climb of the whole ladder at most. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
@@ -325,7 +461,7 @@ static void assert_settles(machine *adversary, struct truth truth, int hours)
     s.cost = adversary;
     run(&s, DRAG, 3600e3);
     uint64_t hour = s.changes, n = s.governor.ladder.n_rungs;
-    uint64_t vain = n + (uint64_t)ceil(log2(3600 / 8.0));
+    uint64_t vain = n + (uint64_t)ceil(log2(3600 / 3.0));
     assert_true(hour <= 2 * vain * n);
     run(&s, DRAG, (hours - 1) * 3600e3);
     assert_true(s.changes - hour <= 8 * n); /* log2(10) more tries at most */
@@ -340,9 +476,12 @@ static void adversaries_are_outwaited(void **state)
     assert_settles(slow_after_each_climb, (struct truth) { 0 }, 10);
     assert_settles(greedy, (struct truth) { 0 }, 10);
     for (int period = 1; period <= 40; period += period < 10 ? 1 : 10)
-        assert_settles(by_count, (struct truth) { .fixed = period }, 2);
+        assert_settles(by_count, (struct truth) { .spike = period }, 2);
     for (double ms = 100; ms < 100e3; ms *= 3.3) /* load that comes and goes every so often */
         assert_settles(telegraph, (struct truth) { .traced = 20, .reused = 3, .pixels = 3, .spike = ms }, 3);
+    assert_settles(liar, (struct truth) { 0 }, 10);
+    for (double ms = 100; ms < 100e3; ms *= 3.3)
+        assert_settles(restless, (struct truth) { .traced = 30, .reused = 3, .pixels = 3, .spike = ms }, 3);
 }
 
 static void no_climb_back_before_the_wait_is_over(void **state)
@@ -362,7 +501,7 @@ static void no_climb_back_before_the_wait_is_over(void **state)
             top = before;
         } else if (after < before && after <= top) {
             waited = s.now - left;
-            assert_true(waited >= longest && waited >= 8000); /* each longer than the one before */
+            assert_true(waited >= longest && waited >= 3000); /* each longer than the one before */
             longest = waited;
         }
     }
@@ -534,11 +673,12 @@ static void what_measures_nothing_is_not_counted(void **state)
     change(&s, true);
     struct kd_turn first = kd_governor_turn(&s.governor, s.now);
     run(&s, DRAG, 3e3);
-    assert_int_equal(s.changes, 1);
+    assert_true(s.changes >= 1);
     struct kd_pace pace = s.governor.paces[1];
     struct kd_turn turn = kd_governor_turn(&s.governor, s.now);
     const struct kd_frame_cost fine = { .total_ms = 9e5 }, bad[] = { { .total_ms = NAN }, { .total_ms = INFINITY },
-        { .total_ms = -1 }, { .rays_ms = NAN, .total_ms = 1 }, { .pixels_ms = -1, .total_ms = 1 } };
+        { .total_ms = -1 }, { .rays_ms = NAN, .total_ms = 1 }, { .pixels_ms = -1, .total_ms = 1 },
+        { .fixed_ms = INFINITY, .total_ms = 1 } };
     kd_governor_frame(&s.governor, s.now, &first, &fine);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         kd_governor_frame(&s.governor, s.now, &turn, &bad[i]);
@@ -573,7 +713,8 @@ static void whatever_happens_the_answer_is_sound(void **state)
             assert_true(turn.wait_ms >= 0);
             assert_true(turn.wait_ms == 0 || turn.wait_ms <= 150 || isinf(turn.wait_ms));
             assert_true(s.governor.paces[0].rung <= last_rung(&s) && s.governor.paces[1].rung <= last_rung(&s));
-            struct kd_frame_cost cost = { 100 * uniform(), 100 * uniform(), 150 * uniform(), uniform() < 0.5 };
+            struct kd_frame_cost cost = { .fixed_ms = 200 * uniform() * uniform() * uniform(), .rays_ms = 100 * uniform(),
+                                          .pixels_ms = 100 * uniform(), .total_ms = 150 * uniform(), .lens_reused = uniform() < 0.5 };
             if (uniform() < 0.02)
                 cost.total_ms = (double[]) { NAN, INFINITY, -1, 0 }[k % 4];
             s.now += 200 * uniform() * uniform();
@@ -595,12 +736,13 @@ static int recorded_scene;
 
 static struct kd_frame_cost replay(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
-    static const double scales[] = { 1, 0.75, 0.5, 0.375, 0.25 };
+    static const double scales[] = { 1, 0.75, 0.625, 0.5, 0.375, 0.25 };
     int i = 0;
-    while (i < 4 && scene->image.width < s->asked.image.width * scales[i] - 1)
+    while (i < 5 && scene->image.width < s->asked.image.width * scales[i] - 1)
         i++;
     int frame = (int)(s->frames % (sizeof recorded[0][0][0] / sizeof **recorded[0][0]));
-    return (struct kd_frame_cost) { .rays_ms = recorded[recorded_scene][!reused][i][frame].rays,
+    return (struct kd_frame_cost) { .fixed_ms = recorded[recorded_scene][!reused][i][frame].fixed,
+                                    .rays_ms = recorded[recorded_scene][!reused][i][frame].rays,
                                     .pixels_ms = recorded[recorded_scene][!reused][i][frame].pixels,
                                     .total_ms = recorded[recorded_scene][!reused][i][frame].total };
 }
@@ -609,7 +751,7 @@ static void recorded_frames_settle(void **state)
 {
     (void)state;
     struct simulation s;
-    for (recorded_scene = 0; recorded_scene < 2; recorded_scene++)
+    for (recorded_scene = 0; recorded_scene < 3; recorded_scene++)
         for (size_t k = 0; k < sizeof targets / sizeof *targets; k++)
             for (enum pattern pattern = PLAY; pattern <= DRAG; pattern++) {
                 struct kd_governor_params params = with_target(targets[k]);
@@ -619,7 +761,7 @@ static void recorded_frames_settle(void **state)
                 uint64_t changes = s.changes;
                 double mean = mean_over(&s, pattern, 120e3);
                 print_message("%s, %s, target %.0f ms: %.1f ms at scale %g, %llu changes, then %llu\n",
-                              recorded_scene ? "sky" : "default", pattern == DRAG ? "dragged" : "played", targets[k], mean,
+                              (const char *[]) { "default", "sky", "particles" }[recorded_scene], pattern == DRAG ? "dragged" : "played", targets[k], mean,
                               s.last.scale, (unsigned long long)changes,
                               (unsigned long long)(s.changes - changes));
                 assert_true(s.changes - changes <= 4);
@@ -635,6 +777,12 @@ int main(void)
         cmocka_unit_test(settles_when_told_only_totals),
         cmocka_unit_test(begins_where_it_is_told_to_expect),
         cmocka_unit_test(two_slow_frames_are_enough),
+        cmocka_unit_test(what_cannot_be_mended_costs_no_resolution),
+        cmocka_unit_test(what_can_be_mended_is),
+        cmocka_unit_test(recovers_from_a_slow_beginning),
+        cmocka_unit_test(a_drag_is_soon_forgotten),
+        cmocka_unit_test(another_kind_of_scene_begins_anew),
+        cmocka_unit_test(what_refinement_measured_is_believed),
         cmocka_unit_test(noise_and_spikes_change_little),
         cmocka_unit_test(load_that_comes_and_goes_is_followed),
         cmocka_unit_test(adversaries_are_outwaited),

@@ -25,7 +25,8 @@ typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd
 
 /* A machine whose cost goes with rays, pixels and nothing; noise and spikes on top. */
 struct truth {
-    double traced, reused, pixels, fixed; /* ms of the scene as asked: of rays traced, of rays with their lens map, ... */
+    double traced, reused, pixels; /* ms of the scene as asked: of rays traced, of rays with their lens map, ... */
+    double fixed, hidden;          /* at any size; that it tells; that it does not */
     double noise;                         /* relative; uniform */
     double spikes, spike;                 /* how often, how many times as long */
     bool silent;                          /* tells only the total */
@@ -64,13 +65,14 @@ static struct kd_frame_cost truthful(const struct simulation *s, const struct kd
     double rays = rays_of(scene) / rays_of(&s->asked), pixels = rays * s->asked.image.samples * s->asked.image.samples /
                   (scene->image.samples * scene->image.samples);
     rays *= ray_weight(scene) / ray_weight(&s->asked);
-    struct kd_frame_cost c = { .rays_ms = rays * (reused ? t->reused : t->traced), .pixels_ms = pixels * t->pixels };
+    struct kd_frame_cost c = { .fixed_ms = t->fixed, .rays_ms = rays * (reused ? t->reused : t->traced), .pixels_ms = pixels * t->pixels };
     double factor = s->load * (1 + t->noise * (2 * uniform() - 1)) * (uniform() < t->spikes ? t->spike : 1);
+    c.fixed_ms *= factor;
     c.rays_ms *= factor;
     c.pixels_ms *= factor;
-    c.total_ms = c.rays_ms + c.pixels_ms + factor * t->fixed;
+    c.total_ms = c.fixed_ms + c.rays_ms + c.pixels_ms + factor * t->hidden;
     if (t->silent)
-        c.rays_ms = c.pixels_ms = 0;
+        c.fixed_ms = c.rays_ms = c.pixels_ms = 0;
     return c;
 }
 
@@ -144,6 +146,11 @@ static bool moves_lens(const struct simulation *s, enum pattern pattern)
     }
 }
 
+static uint32_t rung_of(const struct simulation *s, enum pattern pattern)
+{
+    return s->governor.paces[pattern != PLAY].rung;
+}
+
 static void run(struct simulation *s, enum pattern pattern, double ms)
 {
     for (double end = s->now + ms; s->now < end;) {
@@ -175,8 +182,17 @@ static double true_cost(const struct simulation *s, uint32_t rung, bool reused)
 static struct truth some_truth(void)
 {
     double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as asked */
-    double fixed = uniform() < 0.5 ? 0 : 30 * uniform() * uniform(), rays = all * (0.3 + 0.6 * uniform());
-    return (struct truth) { .traced = rays, .reused = rays * (0.05 + 0.5 * uniform()), .pixels = all - rays, .fixed = fixed };
+    double fixed = uniform() < 0.5 ? 0 : exp(7 * uniform()), hidden = uniform() < 0.5 ? 0 : 30 * uniform() * uniform();
+    double rays = all * (0.3 + 0.6 * uniform());
+    return (struct truth) { .traced = rays, .reused = rays * (0.05 + 0.5 * uniform()), .pixels = all - rays, .fixed = fixed,
+                            .hidden = hidden };
+}
+
+/* What frames may take where some of it is fixed: no more than the target if that leaves half of it to the picture. */
+static double may_take(double target, double fixed)
+{
+    double picture = fmax(target / 2, fixed / 4);
+    return fixed + picture > target ? fixed + picture : target;
 }
 
 #endif
