@@ -363,7 +363,8 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     if (!status && isinf(frame->exposure)) {
         status = measure(j);
         if (!status)
-            frame->exposure = auto_exposure(kd_vk_buffer_map(j->store->counts), j->scene->style.tone_map);
+            frame->exposure =
+                kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), j->scene->style.tone_map));
     }
     if (!status)
         status = finish_pixels(j, frame);

@@ -139,6 +139,12 @@ static void passes(struct kd_plan *plan, const struct kd_scene *scene, const str
     add_pass(plan, "readback", "", pixels, 0.1 * c->ns_per_pixel_post);
 }
 
+double kd_plan_exposure(const struct kd_plan *plan, double stops)
+{
+    double share = plan->exposure_share;
+    return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
+}
+
 /* Rows of pixels whose lens map, radiance and packed pixels each fit one binding. */
 static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                             struct kd_error *error)

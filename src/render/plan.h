@@ -57,6 +57,9 @@ struct kd_plan {
     struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
     size_t n_passes;
     double estimate_ms, trace_ns;     /* of all; of one ray */
+    /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this share of the way from
+     * there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
+    double exposure_from, exposure_share;
     bool measured, accuracy_measured; /* as in the capacity */
     const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
     size_t n_approximations;
@@ -70,6 +73,9 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
 
 /* Of linear light, a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->spots ? 16 : 12; }
+
+/* Stops to apply where the picture alone would have `stops`. */
+double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {

@@ -64,6 +64,7 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     cJSON_AddNumberToObject(o, "revision", note->revision);
     cJSON_AddNumberToObject(o, "time", job->scene.top.time);
     cJSON_AddNumberToObject(o, "azimuth_deg", job->scene.camera.azimuth_deg);
+    cJSON_AddNumberToObject(o, "exposure", job->frame.exposure);
     cJSON_AddNumberToObject(o, "fps", note->fps);
     cJSON_AddNumberToObject(o, "bytes", (double)frame->png.size);
     cJSON_AddItemToObject(o, "quality", quality_json(job, note));

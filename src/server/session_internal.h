@@ -26,6 +26,8 @@ struct kd_session {
     struct kd_session_frame *rendering; /* before it is encoded */
     unsigned encoding;
     struct kd_live_frame *latest;
+    double exposed_ms, exposure;  /* when the latest was rendered, and the stops that it got; */
+    unsigned exposed_revision;    /* 0: none */
     double shown_ms, interval_ms; /* when the latest came; between frames, smoothed */
     enum kd_status failed;        /* the latest render, with `error`; a patch starts anew */
     struct kd_error error;

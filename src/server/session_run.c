@@ -2,9 +2,11 @@
 #include "server/clock.h"
 #include "server/session_internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#define EXPOSURE_MS 2000.0 /* in which 63 % of a change of brightness is followed */
 #define ENCODING_MAX 2 /* frames of a session behind the renderer: one is traced while one is encoded */
 
 struct kd_session_frame {
@@ -12,6 +14,7 @@ struct kd_session_frame {
     struct kd_session *session;
     uint64_t number;
     unsigned revision;
+    double begun_ms;
     struct kd_turn turn;
     bool rendered;
 };
@@ -29,6 +32,40 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
+/* Where nothing but time has gone on, the few brightest pixels, which "auto" goes by, are now these particles and now those: the picture
+ * would flicker with them. */
+static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
+{
+    plan->exposure_from = s->exposure;
+    plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
+}
+
+/* What the queue is to render. NULL: *error says why not. */
+static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene, const struct kd_turn *turn,
+                                           double now, struct kd_error *error)
+{
+    struct kd_session_frame *live = calloc(1, sizeof *live);
+    struct kd_capacity capacity;
+    if (!live) {
+        kd_error_set(error, KD_ENOMEM, "out of memory for a frame");
+        return NULL;
+    }
+    live->session = s;
+    live->turn = *turn;
+    live->begun_ms = now;
+    live->job = (struct kd_render_job) { .live = true, .socket = -1, .encode = encode, .rendered = rendered, .done = done };
+    kd_quality_apply(&turn->quality, scene, &live->job.scene);
+    live->job.scene.image.bit_depth = 8;
+    kd_render_queue_capacity(s->all->params.renders, &capacity);
+    if (kd_plan_make(&live->job.scene, &capacity, &live->job.plan, error)) {
+        free(live);
+        return NULL;
+    }
+    if (!turn->refining && s->exposed_revision == s->revision && kd_scene_moves(scene))
+        follow_exposure(s, now, &live->job.plan);
+    return live;
+}
+
 void kd_session_pump(struct kd_session *s)
 {
     if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s))
@@ -41,23 +78,9 @@ void kd_session_pump(struct kd_session *s)
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);
     if (turn.wait_ms > 0)
         return; /* the sweep comes back */
-    struct kd_session_frame *live = calloc(1, sizeof *live);
-    struct kd_capacity capacity;
     struct kd_error error = { 0 };
+    struct kd_session_frame *live = make_frame(s, &scene, &turn, now, &error);
     if (!live) {
-        kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
-        fail(s, &error);
-        return;
-    }
-    live->session = s;
-    live->turn = turn;
-    live->job = (struct kd_render_job) { .live = true, .socket = -1, .encode = encode, .rendered = rendered, .done = done };
-    kd_quality_apply(&turn.quality, &scene, &live->job.scene);
-    live->job.scene.image.bit_depth = 8;
-    kd_render_queue_capacity(s->all->params.renders, &capacity);
-    enum kd_status status = kd_plan_make(&live->job.scene, &capacity, &live->job.plan, &error);
-    if (status) {
-        free(live);
         fail(s, &error);
         return;
     }
@@ -122,6 +145,9 @@ static void rendered(struct kd_render_job *job)
     live->rendered = true;
     s->rendering = NULL;
     s->encoding++;
+    s->exposed_ms = live->begun_ms;
+    s->exposure = job->frame.exposure;
+    s->exposed_revision = live->revision;
     const struct kd_frame_cost cost = cost_of(&job->frame);
     kd_governor_frame(&s->governor, kd_clock_ms(), &live->turn, &cost);
     kd_session_pump(s);

@@ -2,8 +2,8 @@
  * ones.
  *
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
- * -2 runs out of memory, -3 fails. Rays on the device cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there
- * is no double precision, with steps 12 each takes a millisecond. */
+ * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
+ * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond. */
 #include "render/accuracy_store.h"
 #include "render/rays_device.h"
 
@@ -14,7 +14,7 @@
 
 struct kd_renderer {
     char lens_key[65];
-    bool measured;
+    bool measured, bright;
 };
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -104,9 +104,12 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     *out = (struct kd_frame) { .width = plan->width,
                                .height = plan->height,
                                .bit_depth = scene->image.bit_depth,
+                               .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
+                                                                        : scene->style.exposure,
                                .pixels = malloc(size) };
     if (!out->pixels)
         return kd_error_set(error, KD_ENOMEM, "no memory for the picture");
+    renderer->bright = !renderer->bright;
     uint32_t noise = 1;
     for (size_t i = 0; i < size; i++) {
         noise = noise * 1664525 + 1013904223;

@@ -318,6 +318,28 @@ class Sessions(daemon.Case):
         self.assertEqual((data['frame'], data['revision'], data['quality']['width']), (3, 3, 64))
         self.assertLessEqual({'passes', 'accuracy', 'fps', 'time', 'bytes'}, set(data))
 
+    def exposures(self, s, n):
+        """Of the next n events of a stream."""
+        text = b''
+        while text.count(b'\n\n') < n:
+            text += s.recv(65536)
+        return [json.loads(e)['exposure'] for e in re.findall(rb'\ndata: (\{.*?\})\n\n', text)]
+
+    def test_exposure_follows_where_time_alone_goes_on(self):
+        session = self.open(MOVING)
+        with self.stream(session, '/events', 'text/event-stream') as s:
+            seen = self.exposures(s, 12)
+            self.assertEqual(abs(seen[0]), 1)  # by itself
+            self.assertGreater(len(set(seen)), 6, seen)
+            for one, two in zip(seen, seen[1:]):  # alone the pictures would have 1, -1, 1, ...
+                self.assertLess(abs(two - one), 0.7, seen)
+            self.patch(session, {'motion': None})  # what rests is a picture by itself
+            while abs(seen[-1]) != 1:
+                seen += self.exposures(s, 1)
+        session = self.open({**MOVING, 'style': {'exposure': 0.25}})
+        with self.stream(session, '/events', 'text/event-stream') as s:
+            self.assertEqual(set(self.exposures(s, 5)), {0.25})
+
     def test_slow_reader_gets_the_newest(self):
         """What has been sent before the reader stalled lies in the kernel's buffers; then comes the present, with no queue between."""
         session = self.open({**NOISE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}})
