@@ -1,13 +1,14 @@
 // The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes no
 // physics.
-import { byId, el } from './dom.js';
+import { byId } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
 import { buildControls } from './controls.js';
-import { lang, preset, t, tell, translatePage } from './i18n.js';
+import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
+import { buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
+import { buildPresets, openPreset } from './presets.js';
 import { Scene } from './scene.js';
-import { getJson } from './server.js';
 import { share } from './share.js';
 import { openSource } from './source.js';
 import { handle } from './view.js';
@@ -56,21 +57,6 @@ function buildLanguages() {
   }
 }
 
-async function buildPresets(scene) {
-  const { presets } = await getJson('v1/presets'),
-    select = byId('preset'),
-    help = byId('preset-help');
-  select.append(
-    el('option', { value: '' }, t('default', 'predefinita')),
-    ...presets.map(({ name }) => el('option', { value: name }, name)),
-  );
-  select.addEventListener('change', async () => {
-    const chosen = presets.find(p => p.name === select.value);
-    help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
-    scene.replace(chosen ? await getJson('v1/presets/' + encodeURIComponent(chosen.name)) : {});
-  });
-}
-
 // Device pixels of the window, no more than what small machines draw in a moment.
 function windowSize(stage) {
   const ratio = Math.min(devicePixelRatio || 1, 1600 / stage.clientWidth, 2);
@@ -78,52 +64,65 @@ function windowSize(stage) {
   return { width: even(stage.clientWidth), height: even(stage.clientHeight) };
 }
 
-function watch(scene) {
-  const stage = byId('stage'),
-    complain = buildControls(byId('fields'), scene);
-  const drawOverlays = buildOverlays(byId('overlays'), stage, scene),
-    size = () => windowSize(stage);
-  const showShare = share(scene, size);
-  let old = '',
-    picture = byId('picture');
+const patience_ms = 1000;
 
-  const refresh = openSource(
-    scene,
-    size,
-    async frame => {
-      const url = URL.createObjectURL(frame.picture);
-      const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
-      next.src = url;
-      await next.decode();
-      picture.replaceWith(next);
-      picture = next;
-      URL.revokeObjectURL(old);
-      old = url;
-      say(caption(frame));
-      if (frame.final && stage.dataset.final !== 'true') drawOverlays();
-      stage.dataset.final = frame.final;
-      stage.dataset.samples = frame.samples;
-      complain('', '');
-      showAccuracy(frame, scene);
-    },
-    error => {
-      if (complain(error.pointer, error.message))
-        say(t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.'));
-      else sayWrong(error.message);
-    },
-  );
+// The picture first: what else there is takes a tenth of a second to build, and would keep it from being shown.
+async function watch(scene) {
+  const stage = byId('stage'),
+    size = () => windowSize(stage);
+  let old = '',
+    picture = byId('picture'),
+    built,
+    seen;
+  const parts = new Promise(resolve => (built = resolve)),
+    first = new Promise(resolve => (seen = resolve));
+
+  async function show(frame) {
+    const url = URL.createObjectURL(frame.picture);
+    const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
+    next.src = url;
+    await next.decode();
+    picture.replaceWith(next);
+    if (!old) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
+    picture = next;
+    URL.revokeObjectURL(old);
+    old = url;
+    const { complain, drawOverlays } = await parts;
+    say(caption(frame));
+    if (frame.final && stage.dataset.final !== 'true') drawOverlays();
+    stage.dataset.final = frame.final;
+    stage.dataset.samples = frame.samples;
+    complain('', '');
+    showAccuracy(frame, scene);
+  }
+
+  async function refuse(error) {
+    seen();
+    const { complain } = await parts;
+    if (complain(error.pointer, error.message))
+      say(t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.'));
+    else sayWrong(error.message);
+  }
+
+  const source = openSource(scene, size, show, refuse);
+  if (!byId('lensing').hidden) {
+    source.refresh();
+    await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
+  }
+  const complain = buildControls(byId('fields'), scene, byId('living'));
+  buildLiving(stage, scene, source);
+  const drawOverlays = buildOverlays(byId('overlays'), stage, scene);
+  const showShare = share(scene, size);
+  built({ complain, drawOverlays });
 
   scene.addEventListener('change', () => {
     stage.dataset.final = false;
-    refresh();
+    source.refresh();
   });
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));
   byId('farther').addEventListener('click', () => zoom(1.25));
-  byId('reset').addEventListener('click', () => {
-    byId('preset').value = byId('preset-help').textContent = '';
-    scene.replace({});
-  });
+  byId('reset').addEventListener('click', () => scene.replace({}));
   let asked = '';
   new ResizeObserver(() => {
     const { width, height } = size(),
@@ -131,7 +130,7 @@ function watch(scene) {
     if (byId('lensing').hidden || now === asked) return;
     asked = now;
     showShare();
-    refresh();
+    source.refresh();
   }).observe(stage);
 }
 
@@ -142,7 +141,8 @@ async function start() {
     button.addEventListener('click', () => goTo(button.dataset.view));
   goTo(link.get('view'));
   const scene = await Scene.load();
-  watch(scene);
+  await openPreset(scene);
+  await watch(scene);
   await buildPresets(scene);
 }
 

@@ -1,6 +1,7 @@
 // Controls of a scene, made from the schema: a row a field.
 import { el } from './dom.js';
-import { named, number, section, t, tell, unit, word } from './i18n.js';
+import { named, number, section, tell, unit, word } from './i18n.js';
+import { hasSpots, showsTime } from './living.js';
 
 // What sliders span where the schema allows much more than anybody sweeps; the number beside takes all of it.
 const useful = {
@@ -33,9 +34,10 @@ const only = {
     pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
     ring: ['ring_decades_max', 'ring_decades_min'],
   },
-  model: { particles: ['particles', 'seed', 'density_index', 'epicycles', 'slow_light'] },
+  model: { particles: ['particles', 'seed', 'density_index', 'epicycles'] },
 };
 const open = ['spacetime', 'camera'];
+const living = ['time', 'motion.time_rate', 'disk.particles', 'disk.seed']; // stand beside what starts and stops time
 const left_out = ['image.width', 'image.height']; // the window's
 
 // Position 0 … 1000 of a slider ↔ value; logarithmic where the span is wide.
@@ -77,7 +79,7 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    box.value = !given ? '' : value >= 1e6 ? value.toExponential() : value;
+    box.value = !given ? '' : value >= 1e6 ? value.toExponential() : Number(value.toPrecision(8));
     if (!given) return;
     slider.value = short ? value : s.to(value);
     slider.setAttribute('aria-valuetext', `${number(value)} ${unit(field.unit)}`);
@@ -143,11 +145,11 @@ function row(field, scene) {
   };
 }
 
-export function buildControls(root, scene) {
+export function buildControls(root, scene, living_root) {
   const rows = [...scene.fields.values()].filter(field => !left_out.includes(field.path)).map(field => row(field, scene));
-  const groups = [...scene.sections, { name: 'time', help: t('Time', 'Tempo') }];
-  for (const { name, help } of groups) {
-    const own = rows.filter(r => r.path.split('.')[0] === name);
+  living_root.append(...living.map(path => rows.find(r => r.path === path).node));
+  for (const { name, help } of scene.sections) {
+    const own = rows.filter(r => r.path.split('.')[0] === name && !living.includes(r.path));
     if (own.length)
       root.append(
         el(
@@ -159,8 +161,11 @@ export function buildControls(root, scene) {
       );
   }
   function means_something(path) {
-    const [section, name] = path.split('.'),
-      projection = scene.get('camera.projection');
+    const [section, name] = path.split('.');
+    if (path === 'time' || path === 'motion.time_rate') return showsTime(scene);
+    if (path === 'disk.slow_light') return hasSpots(scene) || scene.get('disk.model') === 'particles';
+    if (section.startsWith('spot') && name !== 'brightness') return scene.get(section + '.brightness') > 0;
+    const projection = scene.get('camera.projection');
     const seen = projection !== 'auto' ? projection : scene.get('camera.r') === 'infinity' ? 'plane' : 'pinhole';
     const [choices, chosen] = { camera: [only.projection, seen], disk: [only.model, scene.get('disk.model')] }[section] ?? [{}];
     return Object.entries(choices).every(([choice, names]) => choice === chosen || !names.includes(name));
@@ -169,7 +174,9 @@ export function buildControls(root, scene) {
   function show() {
     for (const r of rows) ((r.node.hidden = !means_something(r.path)), r.show());
   }
-  scene.addEventListener('change', show);
+  for (const event of ['change', 'settle']) scene.addEventListener(event, show);
+  const time = rows.find(r => r.path === 'time');
+  scene.addEventListener('tick', () => time.node.contains(document.activeElement) || time.show());
   show();
 
   // A refusal of the server stands beside the field that it points at; whether there is such a field.

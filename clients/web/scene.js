@@ -1,4 +1,7 @@
-// The scene of the page: what of it differs from the defaults of the server's schema, by dotted path.
+// The scene of the page: what of it differs from the defaults of the server's schema, by dotted path. While time goes on the
+// server knows how late it is; what it says of that is told as 'tick', what else it changes as 'settle', what anybody here
+// changes as 'change'.
+import { still } from './dom.js';
 import { getJson } from './server.js';
 import * as link from './link.js';
 
@@ -25,10 +28,13 @@ function parse(field, text) {
 
 export class Scene extends EventTarget {
   #values = new Map();
+  #now = null; // of the newest picture while time goes on
+  held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
+  jumps = 0; // how often somebody set the time
 
   static async load() {
-    const scene = new Scene();
-    const schema = await getJson('v1/schema');
+    const schema = await getJson('v1/schema'),
+      scene = new Scene();
     scene.sections = Object.entries(schema.properties)
       .filter(([, spec]) => spec.properties)
       .map(([name, spec]) => ({ name, help: spec.description }));
@@ -44,17 +50,44 @@ export class Scene extends EventTarget {
   }
 
   get(path) {
+    if (path === 'time' && this.#now != null) return this.#now;
     return this.#values.get(path) ?? this.fields.get(path)?.default;
   }
 
   // The changes: { 'camera.r': 30 }; null is the default.
   change(values) {
+    if ('time' in values) (this.jumps++, (this.#now = null));
     for (const [path, value] of Object.entries(values)) this.#put(path, value);
     this.dispatchEvent(new Event('change'));
   }
 
+  // Whether what moves by itself moves.
+  hold(held) {
+    this.held = held;
+    link.set('pause', held ? '1' : null);
+    this.dispatchEvent(new Event('change'));
+  }
+
+  goesOn() {
+    return !this.held && (this.get('motion.time_rate') !== 0 || this.get('motion.azimuth_rate_deg') !== 0);
+  }
+
+  // What the server says of values that it changed.
+  settle(values) {
+    if ('time' in values) this.#now = null;
+    for (const [path, value] of Object.entries(values)) this.#put(path, value);
+    this.dispatchEvent(new Event('settle'));
+  }
+
+  tick(time) {
+    this.#now = time;
+    this.dispatchEvent(new Event('tick'));
+  }
+
   // All of a document, whatever was there before; the picture's size is the page's affair.
   replace(document) {
+    this.held = still.matches;
+    link.set('pause', null);
     const values = Object.fromEntries([...this.fields.keys()].map(path => [path, null]));
     for (const path of this.fields.keys()) {
       const [first, second] = path.split('.');
@@ -63,10 +96,14 @@ export class Scene extends EventTarget {
     this.change({ ...values, 'image.width': null, 'image.height': null });
   }
 
+  #with(other) {
+    return new Map([...this.#values, ...(this.#now == null ? [] : [['time', this.#now]]), ...Object.entries(other)]);
+  }
+
   // As JSON, with what differs only; other: values that go over those of the page.
   document(other = {}) {
     const out = {};
-    for (const [path, value] of new Map([...this.#values, ...Object.entries(other)])) {
+    for (const [path, value] of this.#with(other)) {
       const [first, second] = path.split('.');
       if (second) (out[first] ??= {})[second] = value;
       else out[first] = value;
@@ -75,6 +112,6 @@ export class Scene extends EventTarget {
   }
 
   query(other = {}) {
-    return new URLSearchParams([...new Map([...this.#values, ...Object.entries(other)])]).toString();
+    return new URLSearchParams([...this.#with(other)]).toString();
   }
 }

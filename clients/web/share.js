@@ -37,8 +37,10 @@ export function share(scene, size) {
     }
   }
 
+  byId('save').addEventListener('click', show); // of this moment, where time goes on
   byId('copy-scene').addEventListener('click', () => copy(box.value, box));
   byId('copy-link').addEventListener('click', () => {
+    link.set('time', scene.get('time') || null);
     link.flush();
     copy(location.href);
   });

@@ -50,14 +50,15 @@ const visible = () =>
     else document.addEventListener('visibilitychange', resolve, { once: true });
   });
 
-// scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns refresh(),
-// to be called whenever the scene or the window has changed.
+// scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
+//   refresh()      to be called whenever the scene or the window has changed
+//   strike()       the hole, once the server knows the scene as it is
 export function openSource(scene, size, shown, failed) {
   let session = null,
     timer = 0,
     pulling = false,
+    striking = false,
     recent = [];
-  const goes_on = () => scene.get('motion.azimuth_rate_deg') !== 0 || scene.get('motion.time_rate') !== 0;
 
   function wanted() {
     const { width, height } = size();
@@ -65,25 +66,57 @@ export function openSource(scene, size, shown, failed) {
       'image.width': width,
       'image.height': height,
       'image.samples': Math.max(scene.get('image.samples'), least_samples),
+      ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0 } : {}),
     });
+  }
+
+  // What differs from what the session has. It knows best how late it is, unless somebody has set the time.
+  function difference(document) {
+    const { time: then, ...before } = session.document,
+      { time, ...after } = document;
+    const patch = mergePatch(before, after);
+    if (session.jumps !== scene.jumps) patch.time = time ?? null;
+    return patch;
+  }
+
+  // Where time stands still, what it moved is where the server left it.
+  function follow(document, now) {
+    if (scene.goesOn()) return;
+    const { time, camera } = now,
+      turned = scene.get('camera.azimuth_deg') === (document.camera?.azimuth_deg ?? 0); // and nobody has turned it since
+    scene.settle(turned ? { time, 'camera.azimuth_deg': camera.azimuth_deg } : { time });
+    if (turned) (document.camera ??= {}).azimuth_deg = camera.azimuth_deg;
   }
 
   const headers = () => ({ 'Content-Type': 'application/json', ...(session ? { Authorization: `Bearer ${session.token}` } : {}) });
 
+  async function struck(document) {
+    striking = false;
+    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' });
+    const { revision, scene: now } = await answer.json();
+    session.revision = revision;
+    const { ringdown, ringdown_time } = now.style;
+    document.style = { ...document.style, ringdown, ringdown_time };
+    scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
+  }
+
   // A session that has ended is opened anew: it lives for a minute without anybody who watches.
   async function send() {
-    const document = wanted();
+    const document = wanted(),
+      jumps = scene.jumps;
     try {
-      const patch = session && mergePatch(session.document, document);
-      if (patch && !Object.keys(patch).length) return;
+      const patch = session && difference(document);
+      if (patch && !Object.keys(patch).length) return striking && (await struck(session.document));
       const answer = await ask(session?.url ?? 'v1/sessions', {
         method: session ? 'PATCH' : 'POST',
         headers: headers(),
         body: JSON.stringify(patch ?? document),
       });
-      const { id, token, revision } = await answer.json();
+      const { id, token, revision, scene: now } = await answer.json();
       session ??= { url: 'v1/sessions/' + id, token, frame: 0 };
-      Object.assign(session, { document, revision });
+      Object.assign(session, { document, revision, jumps });
+      if (scene.jumps === jumps && patch?.motion) follow(document, now);
+      if (striking) await struck(document);
       if (!pulling) pull();
     } catch (error) {
       if (error.status === 404 && session) return ((session = null), send());
@@ -98,14 +131,15 @@ export function openSource(scene, size, shown, failed) {
     if (answer.status === 204) return;
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
-    const final = quality.final === 1 && Number(get('Kerrd-Revision')) === from.revision;
+    const final = quality.final === 1 && Number(get('Kerrd-Revision')) >= from.revision;
+    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')));
     from.frame = Number(get('Kerrd-Frame'));
     recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
     await shown({
       picture: await answer.blob(),
       ...quality,
       final,
-      pace: goes_on() && recent.length > 2 && recent.length / 2,
+      pace: scene.goesOn() && recent.length > 2 && recent.length / 2,
       accuracy: figures(get('Kerrd-Accuracy')),
       approximations: sentences(get('Kerrd-Approximations')),
       passes: passes(get('Server-Timing')),
@@ -136,8 +170,14 @@ export function openSource(scene, size, shown, failed) {
     if (event.persisted) put();
   });
 
-  return function refresh() {
-    clearTimeout(timer);
-    put();
+  return {
+    refresh() {
+      clearTimeout(timer);
+      put();
+    },
+    strike() {
+      striking = true;
+      put();
+    },
   };
 }

@@ -29,6 +29,8 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
     MHD_add_response_header(response, "Kerrd-Frame", number);
     snprintf(number, sizeof number, "%u", frame->revision);
     MHD_add_response_header(response, "Kerrd-Revision", number);
+    snprintf(number, sizeof number, "%.15g", frame->time);
+    MHD_add_response_header(response, "Kerrd-Time", number);
     MHD_add_response_header(response, "Kerrd-Quality", frame->quality);
     MHD_add_response_header(response, "Kerrd-Accuracy", frame->accuracy);
     MHD_add_response_header(response, "Server-Timing", frame->timing);

@@ -90,6 +90,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->references = 1;
     frame->number = note->number;
     frame->revision = note->revision;
+    frame->time = job->scene.top.time;
     frame->png = job->png;
     job->png = (struct kd_buffer) { 0 };
     kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);

@@ -12,6 +12,7 @@ struct kd_live_frame {
     _Atomic unsigned references;
     uint64_t number;   /* of the session's frames, growing, not without gaps */
     unsigned revision; /* of the scene that it shows */
+    double time;       /* of the scene as it shows it, M */
     struct kd_buffer png;
     struct kd_buffer approximations; /* as the header has them */
     struct kd_buffer event;          /* the data of its event: JSON in one line */

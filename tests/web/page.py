@@ -122,6 +122,15 @@ class Page(unittest.TestCase):
         self.assertGreater(page.locator('#timings tr').count(), 4)
         self.assertEqual(page.evaluate('() => document.createElement("canvas").getContext("webgl")'), None, 'the flag took WebGL away')
 
+        first = page.evaluate('''() => {
+            const opened = performance.getEntriesByType('resource').find(e => e.name.endsWith('/v1/sessions')).startTime;
+            const shown = performance.getEntriesByName('first-picture')[0].startTime;
+            return [shown, shown - opened].map(Math.round);
+        }''')
+        print(f'first picture {first[0]} ms after navigation, {first[1]} ms after the session was asked for')
+        at_first = sum(r.sizes()['responseBodySize'] + r.sizes()['responseHeadersSize'] for r in self.requests
+                       if r.url.startswith(self.base) and '/frame.png' not in r.url and r.response())
+        print(f'{at_first} bytes for the first view')
         for view in VIEWS[1:]:
             page.click(f'nav [data-view={view}]')
             page.wait_for_timeout(1500)
@@ -393,6 +402,91 @@ class Page(unittest.TestCase):
         seen = set()
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5, 20))
         self.assertIn('pictures a second', page.inner_text('#status'))
+
+    def clock(self, page):
+        return float(page.inner_text('#clock').split()[2].replace(',', ''))
+
+    def test_time_goes_on_and_stands(self):
+        page = self.open('lang=en&preset=living-disk', '#stage[data-final]')
+        self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and self.clock(page) > 1, 20))
+        seen = set()
+        self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 3, 20))
+        self.assertRegex(page.inner_text('#clock'), r'^t = [\d.,]+ M = [\d.]+ (minutes|hours)$')
+        page.click('#play')
+        page.wait_for_selector(FINE)
+        stood, picture, before = self.clock(page), self.pixels(page), len(self.requests)
+        page.wait_for_timeout(1000)
+        self.assertEqual((self.clock(page), self.pixels(page), len(self.requests), page.inner_text('#play')), (stood, picture, before, 'Play'))
+        self.assertIn('pause=1', page.url)
+        self.assertAlmostEqual(float(self.field(page, 'time')), stood, delta=0.06)
+        self.assertEqual(page.input_value('#preset'), 'living-disk')
+        page.focus('#stage')
+        page.keyboard.press('Space')
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > stood))
+        self.assertLess(self.clock(page), stood + 40, 'it went on from where it stood')
+        page.fill('[data-path="time"] input[type=number]', '0')
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) < stood))
+        page.fill('[data-path="motion.time_rate"] input[type=number]', '-50')
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock').startswith('t = −')))
+        self.shot(page, 'living-disk')
+
+    def test_other_particles_and_a_spot(self):
+        page = self.open('lang=en&camera.inclination_deg=60')
+        self.assertFalse(page.is_visible('#play'))
+        page.click('#as-particles')
+        page.wait_for_selector('#play:has-text("Pause")')
+        page.click('#play')
+        page.wait_for_selector(FINE)
+        before = self.pixels(page)
+        page.click('#new-seed')
+        page.wait_for_selector(FINE)
+        other = self.pixels(page)
+        self.assertNotEqual(other, before)
+        page.click('#spot')
+        page.wait_for_selector(FINE)
+        self.assertNotEqual(self.pixels(page), other)
+        self.open_groups(page)
+        self.assertTrue(page.is_visible('[data-path="spot1.r"]'))
+        self.assertFalse(page.is_visible('[data-path="spot2.r"]'))
+        self.assertIn('spots: ', page.inner_text('#approximations'))
+        page.click('#spot')
+        page.wait_for_selector(FINE)
+        self.assertEqual(self.pixels(page), other)
+
+    def test_a_struck_hole_rings(self):
+        page = self.open('lang=en&camera.inclination_deg=30', FINE)
+        before = self.pixels(page)
+        page.click('#strike')
+        seen = set()
+        self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen - {before}) > 2, 20))
+        self.assertEqual([r.method for r in self.requests if r.url.endswith('/ringdown')], ['POST'])
+        self.assertIn('ringdown: an illustration', page.inner_text('#approximations'))
+        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.url))
+        self.open_groups(page)
+        page.fill('[data-path="accuracy.orders"] input[type=number]', '1')
+        page.keyboard.press('Enter')
+        self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
+
+    def test_reduced_motion_holds_time(self):
+        page = self.open('lang=en&preset=living-disk', FINE, reduced_motion='reduce')
+        self.assertEqual((self.clock(page), page.inner_text('#play')), (0, 'Play'))
+        page.click('#play')
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > 1))
+
+    def test_the_box_of_presets_follows(self):
+        page = self.open('lang=en&preset=gargantua')
+        page.wait_for_selector('#preset option:nth-child(3)', state='attached')
+        self.assertEqual((page.input_value('#preset'), self.field(page, 'camera.r')), ('gargantua', '74.1'))
+        again = self.open(page.url.split('#')[1])
+        self.assertTrue(daemon.eventually(lambda: again.input_value('#preset') == 'gargantua'))
+        self.drag(again, 20, 20)
+        self.assertEqual((again.input_value('#preset'), again.inner_text('#preset-help')), ('own', ''))
+        again.wait_for_timeout(300)
+        self.assertNotIn('preset=', again.url)
+        again.click('#reset')
+        self.assertEqual(again.input_value('#preset'), '')
 
     def test_reduced_motion(self):
         page = self.open('lang=en&view=orbits', '#orbit-picture .body[cx]', reduced_motion='reduce')

@@ -1,0 +1,87 @@
+// What lives: time that goes on or stands, particles, a hot spot, a struck hole. The session moves it; here is who says so.
+import { byId, latest } from './dom.js';
+import { number, t } from './i18n.js';
+import { physics } from './server.js';
+
+const usual_rate = 8; // M a second, where none was chosen
+const spots = ['spot1.brightness', 'spot2.brightness', 'spot3.brightness'];
+
+export const hasSpots = scene => spots.some(path => scene.get(path) > 0);
+const hasParticles = scene => scene.get('disk.model') === 'particles';
+const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) || scene.get('disk.model') !== 'none');
+
+// Time is seen where the disk is not the same all round, or rings.
+export const showsTime = scene => hasParticles(scene) || hasSpots(scene) || (canRing(scene) && scene.get('style.ringdown') > 0);
+
+const spans = [
+  [365.25 * 86400, 'years', 'anni'],
+  [86400, 'days', 'giorni'],
+  [3600, 'hours', 'ore'],
+  [60, 'minutes', 'minuti'],
+  [1, 's', 's'],
+  [1e-3, 'ms', 'ms'],
+  [0, 'µs', 'µs'],
+];
+
+function duration(seconds) {
+  const [length, en, it] = spans.find(([least]) => Math.abs(seconds) >= least);
+  return `${number(seconds / (length || 1e-6), 3)} ${t(en, it)}`;
+}
+
+export function buildLiving(stage, scene, source) {
+  const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId);
+  let second = 0; // M as a time, of the hole's mass
+
+  const moves = () => showsTime(scene) || (scene.get('sky.model') !== 'none' && scene.get('motion.azimuth_rate_deg') !== 0);
+  const rate = () => ({ 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
+
+  function toggle() {
+    if (!moves()) return;
+    const standing = !scene.goesOn();
+    if (standing && scene.get('motion.azimuth_rate_deg') === 0) scene.change(rate());
+    scene.hold(!standing);
+  }
+
+  function tell_time() {
+    const time = Math.round(scene.get('time') * 10) / 10;
+    clock.textContent = showsTime(scene) ? `t = ${number(time, 8)} M` + (second ? ` = ${duration(time * second)}` : '') : '';
+  }
+
+  const weigh = latest(async () => {
+    const { values } = await physics('scale', { hole: 'none', mass_msun: scene.get('spacetime.mass_msun'), distance_pc: 1 });
+    second = values.m_s;
+    tell_time();
+  });
+
+  function show() {
+    play.hidden = !moves();
+    play.textContent = scene.goesOn() ? t('Pause', 'Pausa') : t('Play', 'Avvia');
+    more.hidden = hasParticles(scene);
+    seed.hidden = !hasParticles(scene);
+    spot.setAttribute('aria-pressed', scene.get('spot1.brightness') > 0);
+    strike.hidden = !canRing(scene);
+    if (showsTime(scene)) weigh().catch(() => {}); // the clock then has no seconds
+    tell_time();
+  }
+
+  play.addEventListener('click', toggle);
+  more.addEventListener('click', () => scene.change({ 'disk.model': 'particles', ...rate() }));
+  seed.addEventListener('click', () => scene.change({ 'disk.seed': Math.floor(Math.random() * 1000) + 1 }));
+  spot.addEventListener('click', () =>
+    scene.change(scene.get('spot1.brightness') > 0 ? { 'spot1.brightness': null } : { 'spot1.brightness': 4, ...rate() }),
+  );
+  // Only in time that goes on does it ring.
+  strike.addEventListener('click', () => {
+    if (scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });
+    if (scene.held) scene.hold(false);
+    source.strike();
+  });
+  stage.addEventListener('keydown', event => {
+    if (event.key !== ' ' || event.target !== stage) return;
+    event.preventDefault();
+    toggle();
+  });
+  for (const event of ['change', 'settle']) scene.addEventListener(event, show);
+  scene.addEventListener('tick', tell_time);
+  show();
+}

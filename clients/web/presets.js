@@ -1,0 +1,59 @@
+// The box of presets. It names the one that the scene is, whatever its time; a link remembers the name.
+import { byId, el } from './dom.js';
+import { preset, t } from './i18n.js';
+import * as link from './link.js';
+import { getJson } from './server.js';
+
+const document_of = name => getJson('v1/presets/' + encodeURIComponent(name));
+
+// A link may name a preset and nothing else.
+export async function openPreset(scene) {
+  const name = link.get('preset');
+  if (name && essence(scene, scene.document()) === '{}') scene.replace(await document_of(name));
+}
+
+// What makes a scene another one, in the order of the fields.
+function essence(scene, document) {
+  const own = {};
+  for (const [path, { default: usual }] of scene.fields) {
+    const [section, name] = path.split('.'),
+      value = name ? document[section]?.[name] : document[section];
+    if (value != null && value !== usual && section !== 'image' && section !== 'time') own[path] = value;
+  }
+  return JSON.stringify(own);
+}
+
+export async function buildPresets(scene) {
+  const { presets } = await getJson('v1/presets'),
+    select = byId('preset'),
+    help = byId('preset-help'),
+    known = new Map([['', '{}']]); // essences by name
+  const own = el('option', { value: 'own', disabled: true }, t('a scene of your own', 'una scena tua'));
+  select.append(
+    el('option', { value: '' }, t('default', 'predefinita')),
+    ...presets.map(({ name }) => el('option', { value: name }, name)),
+    own,
+  );
+
+  async function learn(name) {
+    const document = await document_of(name);
+    known.set(name, essence(scene, document));
+    return document;
+  }
+
+  function follow() {
+    const now = essence(scene, scene.document()),
+      name = [...known].find(([, text]) => text === now)?.[0];
+    own.hidden = name != null;
+    select.value = name ?? 'own';
+    link.set('preset', name || null);
+    const chosen = presets.find(p => p.name === name);
+    help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
+  }
+
+  select.addEventListener('change', async () => scene.replace(select.value ? await learn(select.value) : {}));
+  scene.addEventListener('change', follow);
+  const linked = presets.find(({ name }) => name === link.get('preset'));
+  if (linked) await learn(linked.name);
+  follow();
+}
