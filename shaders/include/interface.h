@@ -75,6 +75,17 @@
     U(first)                 /* index of the band's first pixel in the picture */                              \
     U(pixels_x)
 
+/* Of light.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */
+#define KD_LIGHT_FIELDS_(F, U)                                                                                 \
+    U(pixels_x) U(pixels)     /* a row, and of the band */                                                     \
+    U(row0)                   /* of the band in the picture */                                                 \
+    U(first)                  /* invocation of the band among those of the picture */                          \
+    U(spots)                  /* where the spots' own luminance begins */                                      \
+    F(middle_x) F(middle_y)   /* pixel coordinates of the middle of the picture */                             \
+    F(step_)                  /* from pixel to pixel, over the distance of the picture */
+#define KD_LIGHT_PIXELS 64
+#define KD_LIGHT_SUMS 8
+
 /* Histogram of luminance for auto exposure, eight bins a stop: a bin is the exponent and the first three bits of the
  * fraction of the float. Bin 0 is black; bin FIRST stands for 2^-40. */
 #define KD_HISTOGRAM_BINS 512

@@ -64,6 +64,12 @@ static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, doubl
     o->w0 = 1 / r;
 }
 
+double kd_camera_pixel(const struct kd_scene *scene)
+{
+    const struct kd_camera *c = &scene->camera;
+    return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
+}
+
 struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
 {
     struct kd_camera_exact o = { 0 };
@@ -81,9 +87,9 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
     o.horizon = 1 / kd_kerr_horizon(scene->spacetime.spin);
     if (isinf(c->r)) {
-        plane(&o, c, c->field_m / width);
+        plane(&o, c, kd_camera_pixel(scene) / scene->image.samples);
     } else {
-        pinhole(&o, c, tan(0.5 * c->fov_deg * (M_PI / 180)) / (0.5 * width));
+        pinhole(&o, c, kd_camera_pixel(scene) / scene->image.samples);
         frame(&o, scene, u, s);
     }
     return o;

@@ -16,6 +16,9 @@ struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
 struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene);
 struct kd_camera_push kd_camera_push(const struct kd_scene *scene);
 
+/* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. */
+double kd_camera_pixel(const struct kd_scene *scene);
+
 /* The ray at (x, y) by its labels (render/rays.h), as shaders/include/camera.glsl makes it, in double. Not for an observer in
  * the ergosphere: E must be positive. */
 struct kd_camera_label {

@@ -227,6 +227,36 @@ static enum kd_status measure(struct job *j)
     return status ? status : kd_vk_wait(vk, 0, j->error);
 }
 
+/* Sums of the light of all bands, on their way to the host. */
+static enum kd_status add_up(struct job *j)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_vk_pipeline *light;
+    bool finite = !isinf(j->scene->camera.r);
+    const uint32_t constants[] = { p->spots > 0, finite }, per_band = kd_light_groups(p->width * p->band_rows);
+    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LIGHT, constants, 2, &light, j->error);
+    for (uint32_t band = 0; band < p->bands && !status; band++) {
+        const struct kd_light_push push = {
+            .pixels_x = p->width,
+            .pixels = p->width * band_rows(j, band),
+            .row0 = band_first(j, band),
+            .first = band * per_band * KD_GROUP_SIZE,
+            .spots = 3 * p->width * p->band_rows,
+            .middle_x = (float)(0.5 * (p->width - 1)),
+            .middle_y = (float)(0.5 * (p->height - 1)),
+            .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
+        };
+        const struct kd_vk_dispatch d = {
+            "light", light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, 0, 0, true } }, &push,
+            { per_band }, /* of the last, smaller band too: they write zeros */
+        };
+        status = kd_vk_dispatch(j->r->vk, &d, j->error);
+    }
+    if (!status)
+        status = kd_vk_copy(j->r->vk, "light", j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error);
+    return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
+}
+
 /* log2 luminance below which lie all but `share` of the lit pixels. */
 static double luminance_quantile(const uint32_t *counts, double share)
 {
@@ -359,6 +389,8 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
         status = kd_particles_deposit(r, j->particles, j->scene, &j->plan->particles, c.ns_per_particle, j->error);
     if (!status)
         status = trace_and_transfer(j, reused, &c);
+    if (!status && j->plan->light)
+        status = add_up(j);
     frame->exposure = j->scene->style.exposure;
     if (!status && isinf(frame->exposure)) {
         status = measure(j);
@@ -368,6 +400,8 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     }
     if (!status)
         status = finish_pixels(j, frame);
+    if (!status && j->plan->light)
+        frame->light = kd_light_of(j->scene, kd_vk_buffer_map(j->store->light_host), kd_light_bytes(j->plan) / (4 * KD_LIGHT_SUMS));
     double audited = kd_render_now_ms();
     if (!status && !reused)
         status = kd_audit(r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error);

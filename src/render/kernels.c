@@ -6,6 +6,7 @@
 #include "expose.spv.h"
 #include "lens_map.spv.h"
 #include "lens_radius.spv.h"
+#include "light.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
 #include "rays.spv.h"
@@ -41,6 +42,7 @@ static const struct {
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 4, sizeof(struct kd_camera_push) },
     [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
     [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
+    [KD_KERNEL_LIGHT] = { "light", kd_spv_light, sizeof kd_spv_light, 2, sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
 };

@@ -133,6 +133,8 @@ static void passes(struct kd_plan *plan, const struct kd_scene *scene, const str
     if (plan->particles.count)
         add_pass(plan, "particles", "particles.comp", plan->particles.count, c->ns_per_particle);
     add_pass(plan, "transfer", "transfer.comp", plan->rays, c->ns_per_sample_transfer);
+    if (plan->light)
+        add_pass(plan, "light", "light.comp", pixels, 1.5 * c->ns_per_pixel_post);
     if (isinf(scene->style.exposure))
         add_pass(plan, "expose", "expose.comp", pixels, 0.25 * c->ns_per_pixel_post);
     add_pass(plan, "post", "post.comp", pixels, c->ns_per_pixel_post);
@@ -162,7 +164,8 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     plan->lens_bytes = row_lens * plan->height;
     plan->host_bytes = row_out * plan->height;
-    uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20);
+    uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
+                     (plan->light ? 2 * kd_light_bytes(plan) : 0);
     uint64_t one_band = row_lens * plan->band_rows;
     plan->cacheable = fixed + plan->lens_bytes <= c->memory_bytes;
     plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
@@ -271,12 +274,17 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     plan.phi = needs->phi;
     plan.delay = needs->delay;
+    plan.light = needs->light;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     plan.sky = needs->sky;
     plan.particles = kd_particle_grid(scene);
     plan.spots = spots_of(scene);
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
+    if (plan.light && plan.ring)
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"ring\", allowed are \"plane\" and \"pinhole\" where light is measured: "
+                              "areas of the ring projection are not to scale");
     enum kd_status status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
@@ -296,15 +304,21 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     return KD_OK;
 }
 
-enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
-                            struct kd_error *error)
+struct kd_needs kd_needs_of(const struct kd_scene *scene)
 {
     bool lumps = scene->disk.model == KD_DISK_PARTICLES || spots_of(scene);
-    struct kd_needs needs = {
+    return (struct kd_needs) {
         .disk = scene->disk.model != KD_DISK_NONE,
         .phi = lumps,
         .delay = lumps && scene->disk.slow_light,
         .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
+        .light = spots_of(scene) && scene->camera.projection != KD_PROJECTION_RING,
     };
+}
+
+enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
+                            struct kd_error *error)
+{
+    const struct kd_needs needs = kd_needs_of(scene);
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }

@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_PLAN_MAX_PASSES 8
+#define KD_PLAN_MAX_PASSES 10
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
 #define KD_PLAN_MAX_APPROXIMATIONS 32
 
@@ -29,7 +29,7 @@ struct kd_capacity {
 };
 
 struct kd_plan_pass {
-    const char *name;   /* "trace", "audit", "particles", "transfer", "expose", "post", "readback" */
+    const char *name;   /* "trace", "audit", "particles", "transfer", "light", "expose", "post", "readback" */
     const char *kernel; /* file under shaders/comp, "" for a copy and for the CPU */
     uint64_t invocations;
     double estimate_ms;
@@ -46,6 +46,7 @@ struct kd_plan {
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     struct kd_particle_grid particles;
     uint32_t spots;                 /* that are on: their own luminance is kept beside the radiance */
+    bool light;                     /* flux and centroid are measured */
     bool delay;                     /* the lens map holds delays of light, behind its azimuths */
     bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
     uint32_t orders;                /* crossings a ray */
@@ -80,7 +81,9 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops);
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
     bool disk, phi, delay, sky; /* crossing radii; their azimuths; their delays; directions of escape and fates */
+    bool light;                 /* and that flux and centroid be measured, as they are whenever a spot is on */
 };
+struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 

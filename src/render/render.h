@@ -4,6 +4,7 @@
 #define KD_RENDER_RENDER_H
 
 #include "base/error.h"
+#include "render/light.h"
 #include "render/plan.h"
 #include "scene/scene.h"
 
@@ -50,6 +51,7 @@ struct kd_frame {
     double exposure;          /* stops that were applied */
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
     struct kd_accuracy_report accuracy;
+    struct kd_light_report light;
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "rays", "transfer", ... (those that ran), "total" */
     size_t n_timings;
 };

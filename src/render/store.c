@@ -127,6 +127,10 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     if (!status && !store->counts)
         status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_READBACK, "histogram on the host",
                                      &store->counts, error);
+    if (!status && plan->light)
+        status = kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error);
+    if (!status && plan->light)
+        status = kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error);
     return status;
 }
 
@@ -140,5 +144,7 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->transfer);
     kd_vk_buffer_destroy(store->vk, store->histogram);
     kd_vk_buffer_destroy(store->vk, store->counts);
+    kd_vk_buffer_destroy(store->vk, store->light);
+    kd_vk_buffer_destroy(store->vk, store->light_host);
     kd_vk_buffer_destroy(store->vk, store->undecided);
 }

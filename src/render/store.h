@@ -31,6 +31,7 @@ struct kd_store {
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     struct kd_vk_buffer *transfer;         /* parameters and tables, host-visible */
     struct kd_vk_buffer *histogram, *counts;
+    struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
 };
 

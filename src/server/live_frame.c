@@ -57,6 +57,22 @@ static cJSON *accuracy_json(const struct kd_accuracy_report *report, uint64_t ra
     return o;
 }
 
+static void add_light(cJSON *o, const struct kd_light *light)
+{
+    const double at[] = { light->x, light->y };
+    cJSON_AddNumberToObject(o, "flux", light->flux);
+    cJSON_AddItemToObject(o, "centroid", isnan(light->x) ? cJSON_CreateNull() : cJSON_CreateDoubleArray(at, 2));
+}
+
+static cJSON *light_json(const struct kd_light_report *report)
+{
+    cJSON *o = cJSON_CreateObject(), *spots = cJSON_CreateObject();
+    add_light(o, &report->all);
+    add_light(spots, &report->spots);
+    cJSON_AddItemToObject(o, "spots", spots);
+    return o;
+}
+
 static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
 {
     cJSON *o = cJSON_CreateObject(), *passes = cJSON_CreateObject();
@@ -75,6 +91,8 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     cJSON_AddItemToObject(o, "passes", passes);
     cJSON_AddBoolToObject(o, "lens_map_reused", job->frame.lens_reused);
     cJSON_AddItemToObject(o, "accuracy", accuracy_json(&job->frame.accuracy, job->plan.rays));
+    if (job->frame.light.measured)
+        cJSON_AddItemToObject(o, "light", light_json(&job->frame.light));
     char *text = cJSON_PrintUnformatted(o);
     enum kd_status status = text ? kd_buffer_printf(&frame->event, "%s", text) : KD_ENOMEM;
     cJSON_free(text);

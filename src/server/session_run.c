@@ -110,7 +110,7 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
 {
     if (!strcmp(pass, "trace") || !strcmp(pass, "transfer"))
         cost->rays_ms += ms;
-    else if (!strcmp(pass, "expose") || !strcmp(pass, "post") || !strcmp(pass, "readback"))
+    else if (!strcmp(pass, "light") || !strcmp(pass, "expose") || !strcmp(pass, "post") || !strcmp(pass, "readback"))
         cost->pixels_ms += ms;
     else if (!strcmp(pass, "audit") || !strcmp(pass, "particles"))
         cost->fixed_ms += ms;

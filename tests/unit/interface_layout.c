@@ -5,6 +5,7 @@
 
 #include "lens_map.spv.h"
 #include "lens_radius.spv.h"
+#include "light.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
 #include "transfer.spv.h"
@@ -151,6 +152,11 @@ static const struct field transfer_fields[] = { KD_TRANSFER_FIELDS_(F, U) };
 static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
 #undef F
 #undef U
+#define F(name) { #name, offsetof(struct kd_light_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_light_push, name), OP_TYPE_INT },
+static const struct field light_fields[] = { KD_LIGHT_FIELDS_(F, U) };
+#undef F
+#undef U
 #define F(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_INT },
 static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
@@ -165,7 +171,8 @@ static const struct field spot_fields[] = { KD_SPOT_FIELDS_(F, U) };
 #define U(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_INT },
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
-static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), particles = SPIRV(particles);
+static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), particles = SPIRV(particles),
+                          light = SPIRV(light);
 
 static void camera(void **state)
 {
@@ -182,6 +189,13 @@ static void post_push(void **state)
     (void)state;
     same(&post, "Push", post_fields, COUNT(post_fields), 0);
     assert_int_equal(sizeof(struct kd_post_push), 4 * COUNT(post_fields));
+}
+
+static void light_push(void **state)
+{
+    (void)state;
+    same(&light, "Push", light_fields, COUNT(light_fields), 0);
+    assert_int_equal(sizeof(struct kd_light_push), 4 * COUNT(light_fields));
 }
 
 static void particles_kernel(void **state)
@@ -225,6 +239,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(camera),
         cmocka_unit_test(post_push),
+        cmocka_unit_test(light_push),
         cmocka_unit_test(particles_kernel),
         cmocka_unit_test(transfer_buffer),
     };

@@ -1,0 +1,165 @@
+/* kerrd light-curve: how bright a scene is and where its light comes from, as time goes on. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "physics/kerr.h"
+#include "render/curve.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FRAMES_MAX 100000
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device, *output, *from, *to;
+    unsigned frames;
+};
+
+static const struct argp_option table[] = {
+    { "from", 'a', "T", 0, "time of the first frame, M (default: the scene's)", 0 },
+    { "to", 'b', "T", 0, "time of the last one (default: one orbit of the first spot later)", 0 },
+    { "frames", 'n', "N", 0, "how many, evenly spaced (default: 121)", 0 },
+    { "output", 'o', "FILE", 0, "where to write: JSON, or CSV if its name ends in .csv (default: - for CSV on standard output)", 0 },
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case 'a': arguments->from = text; return 0;
+    case 'b': arguments->to = text; return 0;
+    case 'n': arguments->frames = kd_cli_number(state, "frames", text, 2, FRAMES_MAX); return 0;
+    case 'o': arguments->output = text; return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* Times as the scene's own is read, with its range and its messages. */
+static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to, struct kd_error *error)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    struct kd_scene last = *scene;
+    enum kd_status status = arguments->from ? kd_scene_set(scene, "time", arguments->from, error) : KD_OK;
+    if (status)
+        return kd_cli_prefix(error, "--from");
+    if (arguments->to && kd_scene_set(&last, "time", arguments->to, error))
+        return kd_cli_prefix(error, "--to");
+    *to = last.top.time;
+    if (arguments->to)
+        return KD_OK;
+    if (!kd_scene_spots(scene, on))
+        return kd_error_set(error, KD_EINVAL, "--to is missing: without a spot there is no orbit to follow");
+    *to = scene->top.time + 2 * M_PI / kd_kerr_omega(scene->spacetime.spin, on[0]->r);
+    return KD_OK;
+}
+
+struct work {
+    struct kd_renderer *renderer;
+    struct kd_curve_row *rows;
+    struct kd_progress progress;
+    unsigned frames, done;
+};
+
+static bool progress(void *user, double fraction)
+{
+    struct work *w = user;
+    return kd_progress_update(&w->progress, (w->done + fraction) / w->frames);
+}
+
+static enum kd_status measure(struct work *w, const struct kd_scene *first, double to, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    kd_progress_init(&w->progress);
+    kd_progress_catch_signals();
+    for (; w->done < w->frames && !status; w->done++) {
+        struct kd_scene scene = *first;
+        struct kd_capacity capacity;
+        struct kd_plan plan;
+        struct kd_frame frame = { 0 };
+        scene.top.time += (to - first->top.time) * w->done / (w->frames - 1);
+        kd_renderer_capacity(w->renderer, &capacity);
+        status = kd_curve_plan(&scene, &capacity, &plan, error);
+        if (!status)
+            status = kd_render(w->renderer, &scene, &plan, progress, w, &frame, error);
+        if (!status)
+            w->rows[w->done] = kd_curve_row_of(w->done, &scene, &frame);
+        kd_frame_finish(&frame);
+    }
+    kd_progress_finish(&w->progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    return status;
+}
+
+static enum kd_status save(const struct work *w, const char *path, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    size_t n = strlen(path);
+    bool csv = !strcmp(path, "-") || (n > 4 && !strcmp(path + n - 4, ".csv"));
+    enum kd_status status = kd_curve_text(w->rows, w->frames, csv, &text);
+    if (status)
+        kd_error_set(error, status, "out of memory for %u rows", w->frames);
+    else
+        status = kd_file_write(path, &text, error);
+    kd_buffer_finish(&text);
+    return status;
+}
+
+static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct work work = { .frames = arguments->frames };
+    double to = 0;
+    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
+    if (!status)
+        status = span(arguments, &scene, &to, error);
+    if (!status && strcmp(arguments->output, "-"))
+        status = kd_file_check(arguments->output, error);
+    if (!status)
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &work.renderer, error);
+    if (!status && !(work.rows = malloc(work.frames * sizeof *work.rows)))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for %u rows", work.frames);
+    if (!status)
+        status = measure(&work, &scene, to, error);
+    if (!status)
+        status = save(&work, arguments->output, error);
+    free(work.rows);
+    kd_renderer_destroy(work.renderer);
+    return status;
+}
+
+int kd_cli_light_curve(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
+                                                  { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Flux and centroid of a scene as its time goes on: of the whole picture and of its hot spots alone.\v"
+               "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M (degrees to the "
+               "right of the hole and above it). What lies outside the picture is not counted.",
+        .children = children,
+    };
+    struct arguments arguments = { .frames = 121, .output = "-" };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &error);
+    kd_scene_options_finish(&arguments.scene);
+    if (!status)
+        return KD_EXIT_OK;
+    int code = kd_cli_fail(&error);
+    if (status == KD_ECANCELLED)
+        kd_progress_reraise();
+    return code;
+}

@@ -1,0 +1,435 @@
+/* Hot spots and the light of a picture: against sums over the rays of the Kerr-Schild oracle, which shares no equation with the
+ * kernels, against what holds far from the hole, and against themselves. */
+#include "render_support.h"
+
+#include "kerr_schild.h"
+
+#include <math.h>
+
+static struct kd_scene spot_scene(double spin, double inclination)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = 160;
+    scene.image.height = 120;
+    scene.spacetime.spin = spin;
+    scene.camera.inclination_deg = inclination;
+    scene.camera.field_m = 40;
+    scene.disk.model = KD_DISK_NONE;
+    scene.spot1.brightness = 1;
+    scene.style.exposure = 0;
+    return scene;
+}
+
+static struct kd_plan plan_of(const struct kd_scene *scene, uint64_t most_bytes)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &c);
+    if (most_bytes)
+        c.max_binding_bytes = most_bytes;
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    return plan;
+}
+
+static struct kd_light_report light_by(const struct kd_scene *scene, const struct kd_plan *plan, bool *reused)
+{
+    struct kd_frame frame;
+    OK(kd_render(renderer, scene, plan, NULL, NULL, &frame, &error));
+    struct kd_light_report report = frame.light;
+    assert_true(report.measured);
+    if (reused)
+        *reused = frame.lens_reused;
+    kd_frame_finish(&frame);
+    return report;
+}
+
+static struct kd_light_report light(const struct kd_scene *scene)
+{
+    const struct kd_plan plan = plan_of(scene, 0);
+    return light_by(scene, &plan, NULL);
+}
+
+static double off(double got, double want, double scale, double bound, const char *what)
+{
+    double by = fabs(got - want) / scale;
+    if (!(by <= bound))
+        fail_msg("%s: %.9g, expected %.9g: off by %.2g, allowed %.2g", what, got, want, by, bound);
+    return by;
+}
+
+static void same_light(const struct kd_light *a, const struct kd_light *b, double bound, const char *what)
+{
+    off(a->flux, b->flux, b->flux, bound, what);
+    off(a->x, b->x, 1 + hypot(b->x, b->y), bound, what);
+    off(a->y, b->y, 1 + hypot(b->x, b->y), bound, what);
+}
+
+/* The circular orbit and g from the metric in the plane, g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r, with
+ * Omega where the radial force vanishes: g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, by differences. */
+static double line(double a, double r, double omega)
+{
+    return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
+}
+static double force(double a, double r, double omega)
+{
+    double h = 1e-3 * r;
+    return (8 * (line(a, r + h, omega) - line(a, r - h, omega)) - line(a, r + 2 * h, omega) + line(a, r - 2 * h, omega)) / (12 * h);
+}
+static double orbit_omega(double a, double r)
+{
+    double low = 0, high = 1 / r;
+    for (int i = 0; i < 60; i++) {
+        double middle = 0.5 * (low + high);
+        *(force(a, r, middle) < 0 ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+struct oracle {
+    int n;             /* rays */
+    double area;       /* of one, where all have the same */
+    double (*at)[3];   /* solid angle weight, and place in the picture's own measure */
+    struct ks_photon *photons;
+    struct ks_path *paths;
+};
+
+enum { ORDERS = 2 };
+
+/* The rays of the picture's pixels, made here from the conventions of DESIGN.md. */
+static struct oracle trace(const struct kd_scene *scene)
+{
+    int width = scene->image.width, height = scene->image.height, n = width * height;
+    struct oracle o = { n, 0, malloc((size_t)n * sizeof *o.at), malloc((size_t)n * sizeof *o.photons), malloc((size_t)n * sizeof *o.paths) };
+    double theta = scene->camera.inclination_deg * M_PI / 180;
+    bool far = isinf(scene->camera.r);
+    double step = far ? scene->camera.field_m / width : 2 * tan(scene->camera.fov_deg * M_PI / 360) / width;
+    o.area = step * step;
+    for (int i = 0; i < n; i++) {
+        double x = step * (i % width - 0.5 * (width - 1)), y = -step * (i / width - 0.5 * (height - 1));
+        double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
+        o.photons[i] = far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y)
+                           : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+        o.paths[i] = ks_trace(o.photons[i], ORDERS);
+        o.at[i][0] = far ? 1 : 1 / (length * length * length);
+        o.at[i][1] = far ? x : x / length;
+        o.at[i][2] = far ? y : y / length;
+    }
+    return o;
+}
+
+static void oracle_finish(struct oracle *o)
+{
+    free(o->at);
+    free(o->photons);
+    free(o->paths);
+}
+
+/* What a crossing adds: the gas of its own radius, a Gaussian in the plane of x = r cos(phi), y = r sin(phi). */
+static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k, double isco)
+{
+    const struct kd_spot *spot = &scene->spot1;
+    double a = scene->spacetime.spin, r = path->r[k], phi = path->phi[k] + scene->camera.azimuth_deg * M_PI / 180;
+    if (r < isco)
+        return 0;
+    double t = scene->top.time - (scene->disk.slow_light ? path->delay[k] : 0);
+    double centre = spot->phase_deg * M_PI / 180 + orbit_omega(a, spot->r) * t, omega = orbit_omega(a, r);
+    double dx = r * cos(phi) - spot->r * cos(centre), dy = r * sin(phi) - spot->r * sin(centre);
+    double g = sqrt(-line(a, r, omega)) / (p->energy - omega * p->momentum);
+    return spot->brightness * pow(g, 3 + spot->index) * exp(-(dx * dx + dy * dy) / (2 * spot->size * spot->size));
+}
+
+static struct kd_light oracle_light(const struct kd_scene *scene, const struct oracle *o, double isco)
+{
+    double flux = 0, weight = 0, x = 0, y = 0, z = 0;
+    for (int i = 0; i < o->n; i++) {
+        double sum = 0;
+        for (int k = 0; k < o->paths[i].crossings; k++)
+            sum += crossing_light(scene, &o->photons[i], &o->paths[i], k, isco);
+        sum *= o->at[i][0];
+        flux += sum * o->area;
+        weight += sum;
+        x += sum * o->at[i][1];
+        y += sum * o->at[i][2];
+        z += sum * sqrt(fmax(0, 1 - o->at[i][1] * o->at[i][1] - o->at[i][2] * o->at[i][2]));
+    }
+    if (isinf(scene->camera.r))
+        return (struct kd_light) { flux, x / weight, y / weight };
+    return (struct kd_light) { flux, atan2(x, z) * 180 / M_PI, atan2(y, hypot(x, z)) * 180 / M_PI };
+}
+
+/* At several phases, with fast and slow light, for a hole with and against its spot, from infinity and from near. In 32 bits a ray
+ * beside the critical curve may miss a crossing: that is in the bound. Widths that are no multiples of anything, too. */
+static void test_oracle(void **state)
+{
+    (void)state;
+    static const struct { double spin, isco, inclination, r; } views[] = {
+        { 0.7, 3.3931, 55, INFINITY }, { -0.6, 7.8507, 100, INFINITY }, { 0.9, 2.3209, 35, 30 },
+    };
+    double worst[2] = { 0 };
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
+        struct kd_scene scene = spot_scene(views[v].spin, views[v].inclination);
+        scene.camera.r = views[v].r;
+        scene.camera.fov_deg = 60;
+        scene.image.width = 67;
+        scene.image.height = 49;
+        scene.accuracy.orders = ORDERS;
+        scene.accuracy.profile = KD_PROFILE_HIGH;
+        scene.camera.azimuth_deg = 77;
+        scene.spot1.r = 8;
+        scene.spot1.size = 1.7;
+        scene.spot1.index = 0.6;
+        scene.spot1.phase_deg = -50;
+        struct oracle o = trace(&scene);
+        for (int k = 0; k < 10; k++) {
+            scene.top.time = 1000 + 31.7 * k;
+            scene.disk.slow_light = k % 2;
+            struct kd_light_report got = light(&scene);
+            struct kd_light want = oracle_light(&scene, &o, views[v].isco);
+            double size = hypot(want.x, want.y);
+            worst[0] = fmax(worst[0], off(got.spots.flux, want.flux, want.flux, 2e-4, "flux"));
+            worst[1] = fmax(worst[1], off(got.spots.x, want.x, size, 2e-4, "centroid x"));
+            worst[1] = fmax(worst[1], off(got.spots.y, want.y, size, 2e-4, "centroid y"));
+            same_light(&got.all, &got.spots, 1e-6, "without a disk all light is the spot's");
+        }
+        oracle_finish(&o);
+    }
+    printf("against the oracle: flux within %.2g, centroid within %.2g of its distance\n", worst[0], worst[1]);
+}
+
+/* Face-on and far out, to first order in 1/r: g^2 = 1 - 3/r, and light from r is seen at r + 1 (A. M. Beloborodov 2002, ApJ 566,
+ * L85, eq. 1, at 90 degrees: b^2 = (r^2 - 4)/(1 - 2/r)), so that areas are larger by 1 + 1/r. */
+static void test_far_out(void **state)
+{
+    (void)state;
+    static const double radii[] = { 100, 400 };
+    for (int k = 0; k < 2; k++) {
+        double r = radii[k];
+        for (int quarter = 0; quarter < 4; quarter++) {
+            struct kd_scene scene = spot_scene(0, 0);
+            scene.spot1.r = r;
+            scene.spot1.size = 2;
+            scene.spot1.index = 2;
+            scene.spot1.brightness = 3;
+            scene.spot1.phase_deg = 90 * quarter;
+            scene.camera.azimuth_deg = 10;
+            double phi = (90 * quarter - 10) * M_PI / 180;
+            scene.camera.centre_alpha = round((r + 1) * sin(phi)); /* phi = 0 is nearest to the observer: beta < 0 */
+            scene.camera.centre_beta = round(-(r + 1) * cos(phi));
+            struct kd_light_report got = light(&scene);
+            double want = 3 * 2 * M_PI * 4 * pow(1 - 3 / r, 2.5) * (1 + 1 / r);
+            off(got.spots.flux, want, want, 20 / (r * r), "flux far out");
+            off(got.spots.x, (r + 1) * sin(phi), 1, 10 / r, "alpha far out");
+            off(got.spots.y, -(r + 1) * cos(phi), 1, 10 / r, "beta far out");
+        }
+    }
+}
+
+/* The time at which the centroid of a small spot goes through alpha = 0, upwards in alpha, after `from`. */
+static double upward(struct kd_scene *scene, double from, double step)
+{
+    double before = NAN;
+    for (int i = 0; i < 200; i++) {
+        scene->top.time = from + i * step;
+        double now = light(scene).spots.x;
+        if (before < 0 && now >= 0)
+            return scene->top.time - step * now / (now - before);
+        before = now;
+    }
+    fail_msg("the centroid never went round");
+    return NAN;
+}
+
+/* The centroid comes back after 2 pi (r^(3/2) + a), however the hole turns; after 1e8 M too. */
+static void test_period(void **state)
+{
+    (void)state;
+    static const double spins[] = { 0.8, 0, -0.8 };
+    for (int k = 0; k < 3; k++) {
+        struct kd_scene scene = spot_scene(spins[k], 25);
+        scene.image.width = 120;
+        scene.image.height = 90;
+        scene.spot1.r = 9;
+        scene.accuracy.orders = 1;
+        double expected = 2 * M_PI * (27 + spins[k]), step = expected / 80;
+        double first = upward(&scene, 0.1, step), second = upward(&scene, first + 0.6 * expected, step);
+        double late = upward(&scene, 1e8, step);
+        off(second - first, expected, expected, 1e-4, "period");
+        off(remainder(late - first, expected), 0, expected, 1e-4, "a million orbits later");
+        scene.top.time = first + 0.25 * expected; /* from below through alpha > 0 upwards: anticlockwise seen from above */
+        assert_true(light(&scene).spots.x > 5);
+    }
+}
+
+/* With slow light the centroid of a small spot is at t + D where with fast light it is at t, D being the delay of the ray from
+ * there, by the oracle. */
+static void test_slow_light(void **state)
+{
+    (void)state;
+    double least = INFINITY, most = -INFINITY, worst = 0;
+    for (int k = 0; k < 8; k++) {
+        struct kd_scene scene = spot_scene(0.5, 70);
+        scene.image.width = 400;
+        scene.image.height = 300;
+        scene.camera.field_m = 30;
+        scene.spot1.r = 10;
+        scene.spot1.size = 0.25;
+        scene.spot1.phase_deg = 45 * k;
+        scene.accuracy.orders = 1;
+        struct kd_light_report fast = light(&scene);
+        struct ks_path path = ks_trace(ks_from_infinity(0.5, cos(70 * M_PI / 180), fast.spots.x, fast.spots.y), 1);
+        assert_int_equal(path.crossings, 1);
+        scene.top.time = path.delay[0];
+        scene.disk.slow_light = true;
+        struct kd_light_report slow = light(&scene);
+        double apart = hypot(slow.spots.x - fast.spots.x, slow.spots.y - fast.spots.y);
+        scene.top.time = 0;
+        struct kd_light_report unshifted = light(&scene);
+        off(apart, 0, 1, 0.02, "the centroid with slow light");
+        worst = fmax(worst, apart);
+        if (fabs(path.delay[0]) > 5)
+            assert_true(hypot(unshifted.spots.x - fast.spots.x, unshifted.spots.y - fast.spots.y) > 10 * apart);
+        least = fmin(least, path.delay[0]);
+        most = fmax(most, path.delay[0]);
+    }
+    printf("slow light: delays of %.3g to %.3g M, centroids within %.2g M\n", least, most, worst);
+    assert_true(most - least > 15);
+}
+
+/* The light of several is the sum of theirs; with gas in front too, of which each order lets a share pass. */
+static void test_parts(void **state)
+{
+    (void)state;
+    for (int gas = 0; gas < 4; gas++) {
+        struct kd_scene scene = spot_scene(0.6, 65);
+        scene.disk.model = gas == 3 ? KD_DISK_PARTICLES : gas ? KD_DISK_NOVIKOV_THORNE : KD_DISK_NONE;
+        scene.disk.opacity = gas == 2 ? 1 : 0.5;
+        scene.disk.particles = 20000;
+        struct kd_spot one = scene.spot1, two = one, three = one;
+        two.r = 6, two.phase_deg = 130, two.index = -1, two.brightness = 0.2, two.temperature_k = 3000;
+        three.r = 14, three.phase_deg = 250, three.size = 3, three.brightness = 0.5;
+        scene.spot2 = two, scene.spot3 = three;
+        struct kd_light_report all = light(&scene), parts[3];
+        for (int k = 0; k < 3; k++) {
+            scene.spot1 = k == 0 ? one : k == 1 ? two : three;
+            scene.spot2.brightness = scene.spot3.brightness = 0;
+            parts[k] = light(&scene);
+        }
+        scene.spot1.brightness = 1e-30; /* measured, and not seen */
+        double disk = light(&scene).all.flux, sum = parts[0].spots.flux + parts[1].spots.flux + parts[2].spots.flux;
+        off(all.spots.flux, sum, sum, 1e-6, "three spots");
+        off(all.all.flux, disk + sum, disk + sum, 2e-6, "spots and disk");
+        assert_true(gas ? disk > 1 : disk < 1e-20);
+        double x = 0;
+        for (int k = 0; k < 3; k++)
+            x += parts[k].spots.flux * parts[k].spots.x;
+        off(all.spots.x, x / sum, 10, 1e-6, "their centroid");
+    }
+}
+
+/* Only the difference of azimuths counts, on either side of each seam; the picture's aim does not. */
+static void test_seams(void **state)
+{
+    (void)state;
+    struct kd_scene scene = spot_scene(0.9, 40);
+    scene.spot1.size = 2;
+    struct kd_light_report first = light(&scene);
+    static const double turns[] = { 90, 180, -180, 359.9, 360, -360, -0.001 };
+    for (size_t k = 0; k < sizeof turns / sizeof *turns; k++) {
+        scene.spot1.phase_deg = scene.camera.azimuth_deg = turns[k];
+        struct kd_light_report other = light(&scene);
+        same_light(&other.spots, &first.spots, 3e-6, "turned as one");
+    }
+    scene.camera.azimuth_deg = scene.spot1.phase_deg = 0;
+    scene.image.width = scene.image.height = 240;
+    scene.camera.roll_deg = 33;
+    scene.camera.centre_alpha = 3;
+    scene.camera.centre_beta = -2;
+    struct kd_light_report aimed = light(&scene);
+    same_light(&aimed.spots, &first.spots, 2e-3, "aimed elsewhere");
+    scene.camera.roll_deg = scene.camera.centre_alpha = scene.camera.centre_beta = 0;
+    scene.camera.r = 60;
+    first = light(&scene);
+    scene.camera.yaw_deg = 5;
+    scene.camera.pitch_deg = -7;
+    scene.camera.roll_deg = -50;
+    aimed = light(&scene);
+    same_light(&aimed.spots, &first.spots, 2e-3, "aimed elsewhere, near");
+}
+
+/* The same in any resolution, in bands, with several rays a pixel; and to the bit when rendered again. */
+static void test_resolution(void **state)
+{
+    (void)state;
+    struct kd_scene scene = spot_scene(0.9, 60);
+    scene.image.width = 640;
+    scene.image.height = 480;
+    scene.top.time = 50;
+    struct kd_light_report fine = light(&scene), again = light(&scene);
+    assert_memory_equal(&fine.all, &again.all, sizeof fine.all);
+    assert_memory_equal(&fine.spots, &again.spots, sizeof fine.spots);
+    for (uint64_t rows = 7; rows < 300; rows *= 6) {
+        struct kd_plan plan = plan_of(&scene, rows * 4 * 6 * 640 + 64);
+        assert_true(plan.bands > 1);
+        struct kd_light_report cut = light_by(&scene, &plan, NULL);
+        same_light(&cut.spots, &fine.spots, 3e-7, "in bands");
+    }
+    static const int widths[] = { 160, 240, 320 };
+    for (int k = 0; k < 3; k++) {
+        scene.image.width = widths[k];
+        scene.image.height = widths[k] * 3 / 4;
+        struct kd_light_report coarse = light(&scene);
+        printf("%d pixels wide: flux off by %.2g, centroid by %.2g M\n", widths[k], coarse.spots.flux / fine.spots.flux - 1,
+               hypot(coarse.spots.x - fine.spots.x, coarse.spots.y - fine.spots.y));
+        same_light(&coarse.spots, &fine.spots, 0.01, "coarser");
+    }
+    scene.image.samples = 2;
+    struct kd_light_report four = light(&scene);
+    same_light(&four.spots, &fine.spots, 1e-4, "four rays a pixel are as many pixels");
+}
+
+/* Whatever moves a spot keeps the lens map; without any the map is as it was, and nothing is measured. */
+static void test_plans(void **state)
+{
+    (void)state;
+    struct kd_scene scene = spot_scene(0.3, 61.5);
+    bool reused;
+    struct kd_plan plan = plan_of(&scene, 0);
+    light_by(&scene, &plan, &reused);
+    assert_false(reused);
+    struct kd_scene others[5] = { scene, scene, scene, scene, scene };
+    others[0].top.time = 1e5;
+    others[1].spot1.phase_deg = 40;
+    others[2].camera.azimuth_deg = -100;
+    others[3].spot2 = scene.spot1, others[3].spot2.r = 20;
+    others[4].disk.model = KD_DISK_NOVIKOV_THORNE;
+    for (int k = 0; k < 5; k++) {
+        plan = plan_of(&others[k], 0);
+        light_by(&others[k], &plan, &reused);
+        assert_true(reused);
+    }
+    scene.disk.model = KD_DISK_NOVIKOV_THORNE;
+    plan = plan_of(&scene, 0);
+    assert_true(plan.phi && plan.light && plan.spots == 1);
+    scene.spot1.brightness = 0;
+    plan = plan_of(&scene, 0);
+    assert_true(!plan.phi && !plan.light && !plan.spots && !plan.delay && plan.planes == plan.orders);
+    scene.disk.slow_light = true; /* of what? */
+    plan = plan_of(&scene, 0);
+    assert_false(plan.delay);
+    scene.spot1.brightness = 1;
+    plan = plan_of(&scene, 0);
+    assert_true(plan.delay);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_oracle),     cmocka_unit_test(test_far_out), cmocka_unit_test(test_period),
+        cmocka_unit_test(test_slow_light), cmocka_unit_test(test_parts),   cmocka_unit_test(test_seams),
+        cmocka_unit_test(test_resolution), cmocka_unit_test(test_plans),
+    };
+    int code = open_renderer();
+    return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
