@@ -94,6 +94,19 @@ static uint32_t hash(uint32_t x)
     return x ^ x >> 16;
 }
 
+static uint32_t key_of(const struct kd_scene *scene) { return hash((uint32_t)scene->disk.seed + 0x9e3779b9u); }
+
+/* As the kernel draws them. */
+struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle)
+{
+    uint32_t key = key_of(scene), random = hash(particle ^ key);
+    uint32_t radial = hash(random + 0x9e3779b9u), vertical = hash(random + 0x3c6ef372u);
+    return (struct kd_particle_swing) {
+        .radial = sqrt((hash(radial ^ key) >> 8) * 0x1p-24), .radial_phase = radial * (2 * M_PI / 4294967296.0),
+        .vertical = sqrt((hash(vertical ^ key) >> 8) * 0x1p-24), .vertical_phase = vertical * (2 * M_PI / 4294967296.0),
+    };
+}
+
 /* What is left of a phase after whole turns, in 2^-32 of a turn. */
 static uint32_t turns(double rate, double t)
 {
@@ -159,7 +172,7 @@ static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, cons
 static struct kd_particles_push push_of(const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
     return (struct kd_particles_push) {
-        .key = hash((uint32_t)scene->disk.seed + 0x9e3779b9u),
+        .key = key_of(scene),
         .stride = 1,
         .per_particle = per_particle(grid),
         .rows = grid->rows,

@@ -50,6 +50,12 @@ struct kd_particle_orbit {
 };
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k);
 
+/* Of a particle's epicycles: shares of the largest swings, and phases at time 0 in radians. */
+struct kd_particle_swing {
+    double radial, radial_phase, vertical, vertical_phase;
+};
+struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
+
 /* How long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 

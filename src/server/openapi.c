@@ -76,6 +76,8 @@ static void add_parameters(cJSON *operation, const struct kd_route *route, bool 
     }
     if (route->takes == KD_TAKES_RAYS)
         kd_openapi_rays_parameters(list);
+    if (route->takes == KD_TAKES_PARTICLES)
+        kd_openapi_particles_parameters(list);
     if (cJSON_GetArraySize(list))
         cJSON_AddItemToObject(operation, "parameters", list);
     else

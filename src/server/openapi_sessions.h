@@ -5,5 +5,6 @@
 #include <cjson/cJSON.h>
 
 void kd_openapi_strike_body(cJSON *operation);
+void kd_openapi_particles_parameters(cJSON *list);
 
 #endif

@@ -77,12 +77,12 @@ static struct kd_render_job *take(struct list *list, struct kd_render_job **link
 
 static struct kd_render_job *take_first(struct list *list) { return take(list, &list->first); }
 
-/* The first, or one in the background that has waited long enough. */
+/* The first, or one in the background, or of many slices, that has waited long enough. */
 static struct kd_render_job *take_next(struct list *list)
 {
     double now = kd_clock_ms();
     for (struct kd_render_job **link = &list->first; *link; link = &(*link)->next)
-        if ((*link)->background && now - (*link)->submitted_ms > fmin(KD_BACKGROUND_MS, OTHERS * (*link)->plan.estimate_ms))
+        if (((*link)->background || (*link)->sliced) && now - (*link)->submitted_ms > fmin(KD_BACKGROUND_MS, OTHERS * (*link)->plan.estimate_ms))
             return take(list, link);
     return take_first(list);
 }

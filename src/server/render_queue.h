@@ -30,6 +30,7 @@ struct kd_render_job {
     /* Behind all that is not, which also goes between its slices; but it begins after KD_BACKGROUND_MS at the latest, and has a tenth of the
      * time: others cannot stop it for good. A picture, and not counted either. */
     bool background;
+    bool sliced; /* a part of what comes in many: has its tenth of the time as well, that frames of sessions leave it none */
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
     enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);

@@ -89,6 +89,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     kd_rays_job_destroy(request->rays);
     kd_orbits_job_abandon(request->orbits);
     kd_physics_job_destroy(request->physics);
+    kd_particles_job_destroy(request->particles);
     kd_live_abandon(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);

@@ -35,6 +35,8 @@ const struct kd_route kd_routes[] = {
       "A session's scene; a merge patch of it (RFC 7396); its end", KD_TAKES_SCENE },
     { "/v1/sessions/{id}/ringdown", KD_POST, kd_handle_session_ringdown, JSON,
       "Strikes the hole: style.ringdown, from now on the session's clock; the session's scene", KD_TAKES_STRIKE },
+    { "/v1/sessions/{id}/particles", KD_GET, kd_handle_session_particles, "application/octet-stream",
+      "Where its particles are, and their constants and rates: 32-bit little-endian floats, row by row", KD_TAKES_PARTICLES },
     { "/v1/sessions/{id}/frame.png", KD_GET, kd_handle_session_frame, "image/png",
       "The newest frame, as soon as it is newer than the one whose number is given as after" },
     { "/v1/sessions/{id}/frames", KD_GET, kd_handle_session_frames, "multipart/x-mixed-replace",

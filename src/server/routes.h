@@ -18,7 +18,8 @@ enum kd_takes {
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
     KD_TAKES_ORBITS,
     KD_TAKES_JOB,
-    KD_TAKES_STRIKE, /* in the body, or none */
+    KD_TAKES_STRIKE,    /* in the body, or none */
+    KD_TAKES_PARTICLES, /* which and what of them, in the query */
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
@@ -57,6 +58,7 @@ enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* accuracy.c */
 enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session_routes.c */
 enum MHD_Result kd_handle_session(struct kd_request *request);
 enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);
+enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* session_particles.c */
 enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* live.c */
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);

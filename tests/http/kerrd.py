@@ -1,6 +1,8 @@
 """The program itself, in front of a Vulkan device; skipped where there is none."""
+import array
 import concurrent.futures
 import json
+import math
 import random
 import struct
 import subprocess
@@ -126,6 +128,66 @@ class Kerrd(unittest.TestCase):
                 alone = subprocess.run([daemon.COMMAND[0], 'render', '-', '-o', '-'], input=json.dumps(scene).encode(), capture_output=True,
                                        timeout=60, check=True).stdout
                 self.assertEqual(self.daemon.get('/v1/jobs/' + job['id'] + '/result').body, alone)
+
+    def particles(self, session, query=''):
+        answer = self.daemon.get(f'/v1/sessions/{session["id"]}/particles{query}')
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/octet-stream'), answer.body[:300])
+        names = answer.header('Kerrd-Fields').split(',')
+        numbers = array.array('f', answer.body)
+        if sys.byteorder == 'big':
+            numbers.byteswap()
+        self.assertEqual(len(numbers), int(answer.header('Kerrd-Count')) * len(names))
+        return {name: numbers[i::len(names)] for i, name in enumerate(names)}, answer
+
+    def open(self, scene):
+        session = self.daemon.post('/v1/sessions', scene).json()
+        self.addCleanup(self.daemon.request, 'DELETE', '/v1/sessions/' + session['id'], headers={'Authorization': 'Bearer ' + session['token']})
+        return session
+
+    def test_particles_of_a_session(self):
+        session = self.open({'disk': {'model': 'particles', 'particles': 300000}, 'spacetime': {'spin': 0.6}, 'motion': {'time_rate': 50}})
+        all_of_them, answer = self.particles(session, '?time=1e4&fields=r,phi,latitude,x,y,z')
+        self.assertEqual((answer.header('Kerrd-Particles'), answer.header('Kerrd-Count'), answer.header('Kerrd-Time')), ('300000', '300000', '10000'))
+        self.assertIn('particles;dur=', answer.header('Server-Timing'))
+        r, phi, latitude, x, y, z = all_of_them.values()
+        for i in range(0, 300000, 997):  # the list is made of slices
+            rho = math.sqrt(r[i] ** 2 + 0.36) * math.cos(latitude[i])
+            self.assertLess(math.dist((x[i], y[i], z[i]), (rho * math.cos(phi[i]), rho * math.sin(phi[i]), r[i] * math.sin(latitude[i]))), 3e-6 * r[i])
+        some, answer = self.particles(session, '?time=1e4&fields=phi,r&first=5&stride=1000&count=200')
+        self.assertEqual(answer.header('Kerrd-Fields'), 'phi,r')
+        self.assertEqual((some['r'], some['phi']), (r[5:200000:1000], phi[5:200000:1000]))
+        _, first = self.particles(session, '?count=1')
+        time.sleep(0.2)
+        _, later = self.particles(session, '?count=1')
+        self.assertGreater(float(later.header('Kerrd-Time')), float(first.header('Kerrd-Time')) + 9)
+        self.assertEqual((len(first.body), first.header('Kerrd-Fields')), (12, 'x,y,z'))
+
+    def test_particles_beside_a_live_stream(self):
+        crowd = self.open({'disk': {'model': 'particles', 'particles': 10000000}, 'image': {'width': 64, 'height': 36}})
+        session = self.open({'disk': {'model': 'particles'}, 'image': {'width': 160, 'height': 90}, 'motion': {'time_rate': 5}})
+        at = f'/v1/sessions/{session["id"]}/frame.png?after='
+        number = int(self.daemon.get(at + '0').header('Kerrd-Frame'))
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            places = pool.submit(self.daemon.get, f'/v1/sessions/{crowd["id"]}/particles?stride=4')
+            frames, longest = 0, 0
+            while not places.done():
+                begun = time.monotonic()
+                number = int(self.daemon.get(at + str(number)).header('Kerrd-Frame'))
+                longest = max(longest, time.monotonic() - begun)
+                frames += 1
+            self.assertEqual((places.result().status, len(places.result().body)), (200, 30000000))
+        print(f'{frames} frames while 2 500 000 particles were listed, {1e3 * longest:.0f} ms for the slowest')
+        self.assertGreater(frames, 5)
+
+    def test_a_vanished_client_stops_its_list_of_particles(self):
+        crowd = self.open({'disk': {'model': 'particles', 'particles': 10000000}, 'image': {'width': 64, 'height': 36}})
+        for _ in range(3):
+            with self.daemon.connect() as s:
+                s.sendall(f'GET /v1/sessions/{crowd["id"]}/particles HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+                time.sleep(0.1)
+        begun = time.monotonic()
+        self.particles(crowd, '?count=10')
+        self.assertLess(time.monotonic() - begun, 5)
 
     def test_a_vanished_client_stops_its_render(self):
         for _ in range(3):

@@ -164,6 +164,29 @@ class Sessions(daemon.Case):
             self.assertTrue(ends - 0.005 < frames[-1]['time'] < ends + 2, (ends, frames[-1]))
             self.assertTrue(frames[-1]['quality']['final'])
 
+    def test_particles_refused(self):
+        session = self.open({**SCENE, 'disk': {'model': 'particles', 'particles': 5000}})
+        for query, pointer, word in (('stride=0', '/stride', 'stride is 0, allowed are whole numbers from 1 to 5000'), ('count=5001', '/count', '5000'),
+                                     ('count=2501&stride=2', '/count', '1 to 2500'), ('first=5000', '/first', '0 to 4999'),
+                                     ('fields=x,mass', '/fields', 'x,y,z,r,phi,latitude,energy,angular_momentum,dr_dt'),
+                                     ('fields=', '/fields', 'each once'), ('time=now', '/time', 'time is now'), ('particle=3', '/particle', 'known are'),
+                                     ('count=5&count=6', None, 'twice')):
+            with self.subTest(query):
+                problem = self.assertProblem(self.daemon.get(self.at(session, '/particles?' + query)), 422, 'invalid-parameters')
+                self.assertEqual(problem.get('pointer'), pointer)
+                self.assertIn(word, problem['detail'])
+        self.patch(session, {'disk': {'particles': 10000000}})
+        problem = self.assertProblem(self.daemon.get(self.at(session, '/particles?fields=x,y,z,energy')), 422, 'invalid-parameters')
+        self.assertIn('count is 10000000 with 16 bytes a particle, allowed are 1 to 8388608', problem['detail'])
+        head = self.daemon.request('HEAD', self.at(session, '/particles'))  # all of them, in x, y and z
+        self.assertEqual((head.status, head.header('Kerrd-Count'), head.header('Kerrd-Fields'), head.body), (200, '10000000', 'x,y,z', b''))
+        self.patch(session, {'disk': None})
+        problem = self.assertProblem(self.daemon.get(self.at(session, '/particles')), 409, 'conflict')
+        self.assertEqual(problem['pointer'], '/disk/model')
+        self.assertIn('disk.model is "novikov-thorne", allowed for a list of particles is "particles"', problem['detail'])
+        self.assertProblem(self.daemon.get('/v1/sessions/0123456789abcdef/particles'), 404, 'not-found')
+        self.assertProblem(self.daemon.post(self.at(session, '/particles'), {}), 405)
+
     def test_tokens(self):
         session, other = self.open(), self.open()
         for headers in ({}, {'Authorization': session['token']}, self.owner(other), {'Authorization': 'Bearer ' + session['token'][:-1]},

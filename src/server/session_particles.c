@@ -1,0 +1,189 @@
+/* GET /v1/sessions/ID/particles: where the particles of a session are, as numbers. The render thread lists them a slice at a time,
+ * between which frames go before. */
+#include "scene/number.h"
+#include "server/clock.h"
+#include "server/reply.h"
+
+#include "render/particle_list.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TYPE "application/octet-stream"
+#define BYTES_MAX ((size_t)128 << 20) /* of one answer: 10 000 000 places are 114 MiB */
+
+/* Owned by its request. */
+struct kd_particles_job {
+    struct kd_render_job device; /* first */
+    struct kd_request *request;
+    struct kd_particle_list list;
+    size_t done;
+    struct kd_buffer rows;
+    size_t held;
+    double begun_ms, spent_ms;
+};
+
+void kd_particles_job_destroy(struct kd_particles_job *job)
+{
+    if (!job)
+        return;
+    atomic_fetch_sub(&job->request->server->reply_bytes, job->held);
+    kd_particle_list_finish(&job->list);
+    kd_buffer_finish(&job->rows);
+    free(job);
+}
+
+static size_t slice_of(const struct kd_particles_job *job)
+{
+    size_t left = job->list.n - job->done;
+    return left < KD_PARTICLE_LIST_SLICE ? left : KD_PARTICLE_LIST_SLICE;
+}
+
+/* On the render thread. */
+static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress, void *user)
+{
+    struct kd_particles_job *job = (struct kd_particles_job *)device;
+    float *to = (float *)job->rows.data + job->done * job->list.n_columns;
+    double start = kd_clock_ms();
+    (void)progress, (void)user;
+    enum kd_status status = kd_particle_list_fill(renderer, &job->list, job->done, slice_of(job), to, &device->error);
+    device->plan.estimate_ms = kd_clock_ms() - start; /* of the next one */
+    job->spent_ms += device->plan.estimate_ms;
+    return status;
+}
+
+/* On the render thread. */
+static void slice_done(struct kd_render_job *device)
+{
+    struct kd_particles_job *job = (struct kd_particles_job *)device;
+    job->done += device->status ? 0 : slice_of(job);
+    if (!device->status && job->done < job->list.n)
+        kd_render_queue_push(job->request->server->renders, device);
+    else
+        MHD_resume_connection(job->request->mhd);
+}
+
+static void describe(struct MHD_Response *response, const struct kd_particle_list *list)
+{
+    char text[KD_PARTICLE_NAMES];
+    kd_particle_list_names(list, text);
+    MHD_add_response_header(response, "Kerrd-Fields", text);
+    snprintf(text, sizeof text, "%zu", list->n);
+    MHD_add_response_header(response, "Kerrd-Count", text);
+    snprintf(text, sizeof text, "%u", list->grid.count);
+    MHD_add_response_header(response, "Kerrd-Particles", text);
+    kd_number_format(text, list->scene.top.time);
+    MHD_add_response_header(response, "Kerrd-Time", text);
+}
+
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    if (error->status == KD_EINVAL)
+        problem.type = KD_PROBLEM_INVALID_PARAMETERS;
+    if (error->status == KD_EBUSY)
+        problem.retry_after = 1;
+    return kd_reply_problem(request, &problem);
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    struct kd_particles_job *job = request->particles;
+    char timing[80];
+    if (job->device.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (job->device.status) {
+        job->device.error.status = job->device.status;
+        return refuse(request, &job->device.error);
+    }
+    request->reply_bytes = job->rows.size;
+    struct MHD_Response *response = kd_reply_take(&job->rows, TYPE); /* stays counted as held while the request lives */
+    if (!response)
+        return MHD_NO;
+    describe(response, &job->list);
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, particles;dur=%.3f", kd_clock_ms() - job->begun_ms - job->spent_ms, job->spent_ms);
+    MHD_add_response_header(response, "Server-Timing", timing);
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+/* Memory for the answer, counted as held. */
+static enum kd_status allocate(struct kd_particles_job *job, struct kd_error *error)
+{
+    struct kd_server *server = job->request->server;
+    size_t bytes = job->list.n * kd_particle_list_row(&job->list), held = atomic_load(&server->reply_bytes);
+    do {
+        if (held && held + bytes > KD_REPLIES_MAX)
+            return kd_error_set(error, KD_EBUSY, "too many answers wait for their clients to take them");
+    } while (!atomic_compare_exchange_weak(&server->reply_bytes, &held, held + bytes));
+    job->held = bytes;
+    job->rows.data = malloc(bytes);
+    if (!job->rows.data)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu particles", job->list.n);
+    job->rows.size = job->rows.capacity = bytes;
+    return KD_OK;
+}
+
+static enum kd_status read_query(const struct kd_target *target, struct kd_particle_list *list, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < target->n_pairs && !status; i++) {
+        const char *name = target->pairs[i].name;
+        for (size_t k = 0; k < i && !status; k++)
+            if (!strcmp(target->pairs[k].name, name))
+                status = kd_error_field(error, "", "the query gives %.100s twice", name);
+        if (!status)
+            status = kd_particle_list_set(list, name, target->pairs[i].value, error);
+    }
+    return status ? status : kd_particle_list_settle(list, BYTES_MAX, error);
+}
+
+static enum MHD_Result submit(struct kd_request *request)
+{
+    struct kd_particles_job *job = request->particles;
+    struct kd_server *server = request->server;
+    struct kd_error error = { 0 };
+    struct kd_capacity capacity;
+    if (atomic_load(&server->phase) >= KD_REFUSING)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
+                                                                .detail = "the server is stopping and begins nothing long" });
+    if (kd_render_queue_admit(server->renders, &error) || allocate(job, &error))
+        return refuse(request, &error);
+    kd_render_queue_capacity(server->renders, &capacity);
+    job->begun_ms = kd_clock_ms();
+    job->device = (struct kd_render_job) { .run = list_slice, .sliced = true, .socket = kd_connection_socket(request->connection), .done = slice_done };
+    job->device.plan.estimate_ms = (double)slice_of(job) * capacity.ns_per_particle * 1e-6;
+    /* First: it may be done before push returns. Suspended, the request and its socket outlive the job. */
+    MHD_suspend_connection(request->mhd);
+    kd_render_queue_push(server->renders, &job->device);
+    return MHD_YES;
+}
+
+enum MHD_Result kd_handle_session_particles(struct kd_request *request)
+{
+    enum MHD_Result refused;
+    struct kd_error error = { 0 };
+    struct kd_session_state state;
+    if (request->particles)
+        return deliver(request);
+    struct kd_session *session = kd_session_of(request, &refused);
+    if (!session)
+        return refused;
+    kd_session_state(session, &state);
+    kd_session_release(session);
+    struct kd_particles_job *job = request->connection ? calloc(1, sizeof *job) : NULL;
+    if (!job)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    request->particles = job;
+    job->request = request;
+    if (kd_particle_list_init(&job->list, &state.scene, &error))
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = error.pointer, .detail = error.message });
+    if (read_query(&request->target, &job->list, &error))
+        return refuse(request, &error);
+    if (!request->head)
+        return submit(request);
+    struct MHD_Response *response = kd_reply_empty(TYPE);
+    if (response)
+        describe(response, &job->list);
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}

@@ -1,0 +1,221 @@
+/* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit.h and the metric, rates against
+ * differences; parts of a list, and what is refused. */
+#include "render/particle_list.h"
+
+#include "physics/orbit.h"
+#include "render_support.h"
+
+#include <math.h>
+
+static struct kd_scene scene_of(double spin, double epicycles)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = spin;
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = 30000;
+    scene.disk.epicycles = epicycles;
+    return scene;
+}
+
+static void set(struct kd_particle_list *list, const char *name, const char *text)
+{
+    OK(kd_particle_list_set(list, name, text, &error));
+}
+
+static float *fill(struct kd_particle_list *list)
+{
+    OK(kd_particle_list_settle(list, 0, &error));
+    float *rows = test_malloc(list->n * kd_particle_list_row(list));
+    OK(kd_particle_list_fill(renderer, list, 0, list->n, rows, &error));
+    return rows;
+}
+
+#define ALL "r,phi,latitude,x,y,z,energy,angular_momentum,dr_dt,dphi_dt,dlatitude_dt"
+struct row { float r, phi, latitude, x, y, z, energy, momentum, dr, dphi, dlatitude; };
+
+static struct row *all_at(const struct kd_scene *scene, const char *time, size_t *n)
+{
+    struct kd_particle_list list;
+    OK(kd_particle_list_init(&list, scene, &error));
+    set(&list, "fields", ALL);
+    set(&list, "stride", "29");
+    set(&list, "first", "3");
+    set(&list, "time", time);
+    float *rows = fill(&list);
+    *n = list.n;
+    assert_int_equal(list.n, (30000 - 3 + 28) / 29);
+    assert_int_equal(kd_particle_list_row(&list), sizeof(struct row));
+    kd_particle_list_finish(&list);
+    return (struct row *)rows;
+}
+
+/* On circles: the azimuth after 1e4 M, and where that is in space. */
+static void test_phase(void **state)
+{
+    (void)state;
+    static const double spins[] = { -0.9, 0, 0.998 };
+    double worst = 0;
+    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+        const struct kd_scene scene = scene_of(spins[s], 0);
+        const struct kd_particle_grid grid = kd_particle_grid(&scene);
+        size_t n;
+        struct row *start = all_at(&scene, "0", &n), *then = all_at(&scene, "1e4", &n);
+        for (size_t i = 0; i < n; i++) {
+            const struct kd_particle_orbit o = kd_particle_orbit(&scene, grid.radii, kd_particle_guide(&grid, 3 + 29 * (uint32_t)i));
+            double off = remainder(then[i].phi - start[i].phi - o.omega * 1e4, 2 * M_PI), a = spins[s];
+            worst = fmax(worst, fabs(off));
+            assert_true(fabs(then[i].r / o.r - 1) < 1e-6 && then[i].phi >= 0 && then[i].phi < 6.2831855f);
+            double rho = sqrt(o.r * o.r + a * a);
+            assert_true(hypot(then[i].x - rho * cos(then[i].phi), then[i].y - rho * sin(then[i].phi)) < 2e-6 * rho && then[i].z == 0);
+        }
+        test_free(start);
+        test_free(then);
+    }
+    printf("azimuths after 1e4 M: within %.2g rad\n", worst);
+    assert_true(worst < 1e-6);
+}
+
+/* E, L and the norm in the metric of Kerr, from a place in the equatorial plane or off it and the rates of change there. */
+struct constants { double energy, momentum, norm; };
+static struct constants constants_of(double a, const struct row *p)
+{
+    double r = p->r, u = sin(p->latitude), sin2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a;
+    double gtt = -(1 - 2 * r / sigma), gtp = -2 * a * r * sin2 / sigma;
+    double gpp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2;
+    double norm = gtt + 2 * gtp * p->dphi + gpp * p->dphi * p->dphi + sigma / delta * p->dr * p->dr + sigma * p->dlatitude * p->dlatitude;
+    double ut = 1 / sqrt(-norm);
+    return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
+}
+
+/* The guiding orbit by physics/orbit.c; on it rates and constants are of one orbit, about it they are to first order: what is left
+ * falls with the square of the epicycles. */
+static void test_constants(void **state)
+{
+    (void)state;
+    static const double spins[] = { -0.9, 0, 0.95 }, epicycles[] = { 0, 0.002, 0.02 };
+    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+        for (size_t k = 0; k < 3; k++) {
+            const struct kd_scene scene = scene_of(spins[s], epicycles[k]);
+            const struct kd_particle_grid grid = kd_particle_grid(&scene);
+            double worst = 0, fastest = 0, bound = 1e-6 + 3 * epicycles[k] * epicycles[k];
+            size_t n;
+            struct row *rows = all_at(&scene, "777.5", &n);
+            for (size_t i = 0; i < n; i++) {
+                const struct kd_particle_orbit o = kd_particle_orbit(&scene, grid.radii, kd_particle_guide(&grid, 3 + 29 * (uint32_t)i));
+                struct kd_orbit orbit;
+                if (o.r > kd_orbit_separatrix(spins[s], 0, 1) * (1 + 1e-9)) {
+                    OK(kd_orbit_from_shape(spins[s], o.r, 0, 1, &orbit, &error));
+                    assert_true(fabs(rows[i].energy / orbit.energy - 1) < 1e-6 && fabs(rows[i].momentum / orbit.momentum - 1) < 1e-6);
+                }
+                const struct constants c = constants_of(spins[s], &rows[i]);
+                assert_true(c.norm < 0);
+                worst = fmax(worst, fmax(fabs(c.energy / rows[i].energy - 1), fabs(c.momentum / rows[i].momentum - 1)));
+                fastest = fmax(fastest, fabs(rows[i].dr));
+            }
+            printf("a = %g, epicycles %g: E and L from rates within %.1e\n", spins[s], epicycles[k], worst);
+            assert_true(worst < bound && (fastest > 0.05 * epicycles[k] || !epicycles[k]));
+            test_free(rows);
+        }
+    }
+}
+
+/* Central differences over 2 M of what is listed: the third derivative of an epicycle, and floats, leave 2e-5 of the largest rates. */
+static void test_rates(void **state)
+{
+    (void)state;
+    const struct kd_scene scene = scene_of(0.5, 0.1);
+    size_t n;
+    struct row *before = all_at(&scene, "9999", &n), *now = all_at(&scene, "10000", &n), *after = all_at(&scene, "10001", &n);
+    double worst = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (now[i].r < 9)
+            continue; /* too fast for such a step */
+        double dphi = remainder((double)after[i].phi - before[i].phi, 2 * M_PI) / 2;
+        worst = fmax(worst, fabs((after[i].r - before[i].r) / 2 - now[i].dr));
+        worst = fmax(worst, fabs(dphi - now[i].dphi));
+        worst = fmax(worst, fabs((after[i].latitude - before[i].latitude) / 2 - now[i].dlatitude));
+    }
+    printf("rates against differences: within %.1e\n", worst);
+    assert_true(worst < 2e-5);
+    test_free(before);
+    test_free(now);
+    test_free(after);
+}
+
+static void test_parts(void **state)
+{
+    (void)state;
+    const struct kd_scene scene = scene_of(0.5, 0.02);
+    struct kd_particle_list all, part;
+    OK(kd_particle_list_init(&all, &scene, &error));
+    float *rows = fill(&all);
+    assert_int_equal(all.n, 30000);
+    OK(kd_particle_list_init(&part, &scene, &error));
+    set(&part, "first", "11");
+    set(&part, "stride", "7");
+    set(&part, "count", "1000");
+    float *some = fill(&part);
+    for (size_t i = 0; i < 1000; i++)
+        assert_memory_equal(some + 3 * i, rows + 3 * (11 + 7 * i), 12);
+    OK(kd_particle_list_fill(renderer, &part, 500, 500, rows, &error)); /* from its middle */
+    assert_memory_equal(rows, some + 1500, 6000);
+    assert_null(part.guides);
+    test_free(some);
+    test_free(rows);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct { const char *name, *text, *pointer, *fragment; } bad[] = {
+        { "stride", "0", "/stride", "stride is 0, allowed are whole numbers from 1 to 30000" },
+        { "stride", "30001", "/stride", "30000" },
+        { "first", "30000", "/first", "from 0 to 29999" },
+        { "first", "-1", "/first", "-1" },
+        { "count", "1.5", "/count", "count is 1.5" },
+        { "count", "", "/count", "count is " },
+        { "count", "nan", "/count", "count is nan" },
+        { "time", "1e13", "/time", "time is 1e13, allowed are -1e12 to 1e12 M" },
+        { "time", "soon", "/time", "time is soon" },
+        { "fields", "x,mass", "/fields", "fields is \"x,mass\", allowed are, each once and with commas between, x,y,z,r,phi" },
+        { "fields", "x,y,x", "/fields", "each once" },
+        { "fields", "", "/fields", "each once" },
+        { "fields", "x,", "/fields", "each once" },
+        { "colour", "red", "/colour", "known are first, stride, count, fields, time" },
+    };
+    struct kd_scene scene = scene_of(0.5, 0);
+    struct kd_particle_list list;
+    struct kd_error why;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        OK(kd_particle_list_init(&list, &scene, &error));
+        assert_int_equal(kd_particle_list_set(&list, bad[i].name, bad[i].text, &why), KD_EINVAL);
+        assert_string_equal(why.pointer, bad[i].pointer);
+        if (!strstr(why.message, bad[i].fragment))
+            fail_msg("%s", why.message);
+    }
+    OK(kd_particle_list_init(&list, &scene, &error));
+    set(&list, "stride", "3");
+    set(&list, "count", "10001");
+    assert_int_equal(kd_particle_list_settle(&list, 0, &why), KD_EINVAL);
+    assert_non_null(strstr(why.message, "count is 10001, allowed are 1 to 10000"));
+    set(&list, "count", "10000");
+    assert_int_equal(kd_particle_list_settle(&list, 12 * 9999, &why), KD_EINVAL);
+    assert_non_null(strstr(why.message, "count is 10000 with 12 bytes a particle, allowed are 1 to 9999"));
+    OK(kd_particle_list_settle(&list, 12 * 10000, &error));
+    scene.disk.model = KD_DISK_NONE;
+    assert_int_equal(kd_particle_list_init(&list, &scene, &why), KD_EINVAL);
+    assert_string_equal(why.pointer, "/disk/model");
+}
+
+int main(void)
+{
+    int code = open_renderer();
+    if (code)
+        return code;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_phase), cmocka_unit_test(test_constants), cmocka_unit_test(test_rates),
+        cmocka_unit_test(test_parts), cmocka_unit_test(test_refused),
+    };
+    return close_renderer(cmocka_run_group_tests_name("lists of particles", tests, NULL, NULL));
+}
