@@ -59,7 +59,5 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 void kd_jobs_pump(struct kd_jobs *all);
 /* The frame of this job that is being rendered, if there is one, is wanted no more; job NULL: of any. */
 void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
-/* Every frame can be planned, and all take *ms together. Unlocked. */
-enum kd_status kd_jobs_check(const struct kd_jobs *all, const struct kd_job_spec *spec, double *ms, struct kd_error *error);
 
 #endif

@@ -2,6 +2,7 @@
 #include "server/clock.h"
 #include "server/job_routes.h"
 #include "server/reply.h"
+#include "server/task.h"
 
 #include <cjson/cJSON.h>
 #include <limits.h>
@@ -14,6 +15,8 @@
 
 #define JSON_TYPE "application/json"
 #define HEARTBEAT_MS 15000.0 /* of an event stream */
+#define MOMENT_MS 2.         /* of this thread, which serves everybody */
+#define SMALL (64u << 10)    /* bytes that are read in less */
 
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -96,25 +99,73 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_problem(request, &problem);
 }
 
+/* A job being read and checked. */
+struct draft {
+    struct kd_task task; /* first */
+    struct kd_job_draft draft;
+    bool read, quota;
+    char client[48];
+    struct kd_job *job; /* a reference */
+};
+
+static void destroy(struct kd_task *task)
+{
+    struct draft *d = (struct draft *)task;
+    kd_job_spec_finish(&d->draft.spec);
+    if (d->job)
+        kd_job_release(d->job);
+    free(d);
+}
+
+static enum kd_turn work(struct kd_task *task, double until_ms)
+{
+    struct draft *d = (struct draft *)task;
+    struct kd_jobs *jobs = task->request->server->jobs;
+    const struct kd_buffer *body = &task->request->body;
+    const char *text = body->data ? (const char *)body->data : "";
+    struct kd_error error = { 0 };
+    enum kd_status status = d->read ? KD_OK : kd_job_spec_parse(text, body->size, &d->draft.spec, &error);
+    d->read = true;
+    if (!status)
+        status = kd_jobs_check(jobs, &d->draft, until_ms, &error);
+    if (!status && d->draft.checked < d->draft.spec.frames)
+        return KD_TURN_MORE;
+    if (!status)
+        status = kd_jobs_open(jobs, &d->draft, text, body->size, d->client, &d->quota, &d->job, &error);
+    kd_task_fail(task, status, &error);
+    return KD_TURN_LAST;
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    const struct draft *d = (const struct draft *)request->task;
+    if (d->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    return d->task.status ? refuse(request, &d->task.error, d->quota) : answer(request, d->job, true);
+}
+
 enum MHD_Result kd_handle_jobs(struct kd_request *request)
 {
-    const char *text = request->body.data ? (const char *)request->body.data : "";
-    char client[48];
-    bool quota;
-    struct kd_job *job;
-    struct kd_error error = { 0 };
+    struct kd_turns *workers = request->server->turns;
+    enum MHD_Result refused;
+    if (request->task)
+        return deliver(request);
     if (request->target.n_pairs)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
                                                                 .detail = "parameters belong to the document, not to the query" });
-    if (atomic_load(&request->server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
-                                                                .detail = "the server is stopping and takes no new jobs" });
-    client_of(request, client, sizeof client);
-    if (kd_jobs_open(request->server->jobs, text, request->body.size, client, &quota, &job, &error))
-        return refuse(request, &error, quota);
-    enum MHD_Result result = answer(request, job, true);
-    kd_job_release(job);
-    return result;
+    if (!kd_task_admit(request, workers, "jobs", &refused))
+        return refused;
+    struct draft *d = calloc(1, sizeof *d);
+    if (!d)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    kd_task_init(&d->task, request, workers);
+    d->task.work = work;
+    d->task.free = destroy;
+    client_of(request, d->client, sizeof d->client);
+    request->task = &d->task;
+    if (request->body.size <= SMALL && work(&d->task, kd_clock_ms() + MOMENT_MS) == KD_TURN_LAST)
+        return deliver(request);
+    return kd_task_submit(&d->task);
 }
 
 enum MHD_Result kd_handle_job(struct kd_request *request)

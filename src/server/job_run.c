@@ -170,22 +170,22 @@ static void done(struct kd_render_job *render)
     free(frame);
 }
 
-enum kd_status kd_jobs_check(const struct kd_jobs *all, const struct kd_job_spec *spec, double *ms, struct kd_error *error)
+enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error)
 {
+    const struct kd_job_spec *spec = &draft->spec;
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
     capacity_of(all, &capacity);
-    *ms = 0;
-    for (unsigned i = 0; i < spec->frames; i++) {
-        enum kd_status status = plan_frame(all, spec, i, &capacity, &scene, &plan, error);
+    do {
+        enum kd_status status = plan_frame(all, spec, draft->checked, &capacity, &scene, &plan, error);
         if (status)
             return status;
-        *ms += plan.estimate_ms;
-    }
-    if (*ms > 1e3 * all->params.longest_job_s)
+        draft->ms += plan.estimate_ms;
+        draft->checked++;
+    } while (draft->checked < spec->frames && kd_clock_ms() < until_ms);
+    if (draft->checked == spec->frames && draft->ms > 1e3 * all->params.longest_job_s)
         return kd_error_set(error, KD_ETOOBIG, "the %u frames would take about %.3g s, more than the %.0f s a job may take", spec->frames,
-                            *ms * 1e-3, all->params.longest_job_s);
+                            draft->ms * 1e-3, all->params.longest_job_s);
     return KD_OK;
 }
-

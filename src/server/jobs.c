@@ -246,23 +246,16 @@ static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char 
     return status;
 }
 
-enum kd_status kd_jobs_open(struct kd_jobs *all, const char *text, size_t length, const char *client, bool *quota, struct kd_job **out,
-                            struct kd_error *error)
+enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
+                            bool *quota, struct kd_job **out, struct kd_error *error)
 {
-    struct kd_job_spec spec = { 0 };
-    double ms;
+    enum kd_status status;
+    struct kd_job *job = create(all, &draft->spec);
     *quota = false;
-    enum kd_status status = kd_job_spec_parse(text, length, &spec, error);
-    if (!status)
-        status = kd_jobs_check(all, &spec, &ms, error);
-    struct kd_job *job = status ? NULL : create(all, &spec);
-    kd_job_spec_finish(&spec);
-    if (status)
-        return status;
     if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) || !kd_secret_make(job->record.token, sizeof job->record.token)) {
         status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
     } else {
-        job->estimate_ms = ms;
+        job->estimate_ms = draft->ms;
         job->record.created = kd_job_now_s();
         snprintf(job->client, sizeof job->client, "%s", client);
         status = enter(all, job, text, length, quota, error);

@@ -32,10 +32,19 @@ enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_job
 /* After kd_jobs_close, and when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
 
-/* A request to a job, of which the caller holds a reference. client: its address. KD_EINVAL and KD_ETOOBIG with a pointer into the
- * request; KD_EBUSY: as many as may, or with *quota as many of this client. */
-enum kd_status kd_jobs_open(struct kd_jobs *all, const char *text, size_t length, const char *client, bool *quota, struct kd_job **out,
-                            struct kd_error *error);
+/* A job that is asked for: what kd_job_spec_parse makes of the request, and how far its frames have been looked at. One thread at a
+ * time. */
+struct kd_job_draft {
+    struct kd_job_spec spec;
+    unsigned checked; /* frames; spec.frames: all */
+    double ms;        /* that they take, by their plans */
+};
+/* Further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
+enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
+/* A checked draft, from whose spec it takes what it needs, to a job, of which the caller holds a reference. text: the request; client:
+ * its address. KD_EBUSY: as many as may, or with *quota as many of this client. */
+enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
+                            bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* a reference, or NULL */
 void kd_job_release(struct kd_job *job);
 double kd_jobs_remaining_s(struct kd_jobs *all); /* until there is room for one more, estimated */

@@ -3,6 +3,7 @@
 #include "server/clock.h"
 #include "server/negotiate.h"
 #include "server/reply.h"
+#include "server/task.h"
 
 #include "quantity/quantity.h"
 
@@ -15,29 +16,20 @@
 #define CSV_TYPE "text/csv"
 #define OFFERED JSON_TYPE ", " CSV_TYPE
 #define MOMENT_MS 2.       /* of this thread, which serves everybody */
-#define TURN_MS 10.
 #define BYTES_PER_NUMBER 26 /* as text at its longest */
 
 enum form { FORM_JSON, FORM_CSV, FORM_NONE };
 
-/* Owned by its request. */
-struct kd_physics_job {
-    struct kd_turns_job turns; /* first */
-    struct kd_request *request;
+struct job {
+    struct kd_task task; /* first */
     struct kd_quantity_run run;
     enum form form;
     struct kd_buffer text;
-    size_t held;
-    double submitted_ms, begun_ms, done_ms, deadline_ms;
-    enum kd_status status;
-    struct kd_error error;
 };
 
-void kd_physics_job_destroy(struct kd_physics_job *job)
+static void destroy(struct kd_task *task)
 {
-    if (!job)
-        return;
-    atomic_fetch_sub(&job->request->server->reply_bytes, job->held);
+    struct job *job = (struct job *)task;
     kd_quantity_run_finish(&job->run);
     kd_buffer_finish(&job->text);
     free(job);
@@ -96,128 +88,87 @@ static enum MHD_Result unknown(struct kd_request *request)
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = detail });
 }
 
-/* Count the answer's bytes as held, or say that there are too many. */
-static enum kd_status hold(struct kd_physics_job *job, const struct kd_quantity_request *asked, struct kd_error *error)
+static enum kd_status hold(struct job *job, const struct kd_quantity_request *asked, struct kd_error *error)
 {
-    struct kd_server *server = job->request->server;
     size_t numbers = asked->quantity->n_outputs + asked->quantity->n_parameters;
     size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER);
-    size_t held = atomic_load(&server->reply_bytes);
-    do {
-        if (held && held + bytes > KD_REPLIES_MAX)
-            return kd_error_set(error, KD_EBUSY, "too many answers wait for their clients to take them");
-    } while (!atomic_compare_exchange_weak(&server->reply_bytes, &held, held + bytes));
-    job->held = bytes;
-    return KD_OK;
+    return kd_task_hold(job->task.request->server, bytes, &job->task.held, error);
 }
 
 /* Points until it is time, then the text. */
-static enum kd_turn work(struct kd_physics_job *job, double until_ms)
+static enum kd_turn work(struct kd_task *task, double until_ms)
 {
+    struct job *job = (struct job *)task;
     struct kd_quantity_run *run = &job->run;
-    while (!job->status && run->point < run->answer.points) {
-        job->status = kd_quantity_run_next(run, &job->error);
-        if (kd_clock_ms() > until_ms)
+    struct kd_error error = { 0 };
+    enum kd_status status = KD_OK;
+    while (!status && run->point < run->answer.points) {
+        status = kd_quantity_run_next(run, &error);
+        if (!status && kd_clock_ms() > until_ms)
             return KD_TURN_MORE;
     }
-    if (job->status)
-        return KD_TURN_LAST;
-    job->status = job->form == FORM_CSV ? kd_quantity_csv(&run->answer, &job->text) : kd_quantity_json(&run->answer, &job->text);
-    if (job->status)
-        kd_error_set(&job->error, job->status, "out of memory for %zu points", run->answer.points);
+    if (!status) {
+        status = job->form == FORM_CSV ? kd_quantity_csv(&run->answer, &job->text) : kd_quantity_json(&run->answer, &job->text);
+        if (status)
+            kd_error_set(&error, status, "out of memory for %zu points", run->answer.points);
+    }
+    kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
-}
-
-static enum kd_turn take_turn(struct kd_turns_job *turns)
-{
-    struct kd_physics_job *job = (struct kd_physics_job *)turns;
-    struct kd_server *server = job->request->server;
-    double now = kd_clock_ms();
-    if (!job->begun_ms)
-        job->begun_ms = now;
-    if (kd_turns_cancelled(server->turns) || kd_socket_abandoned(kd_connection_socket(job->request->connection)))
-        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the client has gone, or the server stops");
-    else if (now > job->deadline_ms)
-        job->status = kd_error_set(&job->error, KD_ETOOBIG, "the computation was given up after %u s, as long as this server "
-                                   "lets one take", server->longest_s);
-    return job->status ? KD_TURN_LAST : work(job, now + TURN_MS);
-}
-
-static void done(struct kd_turns_job *turns)
-{
-    struct kd_physics_job *job = (struct kd_physics_job *)turns;
-    job->done_ms = kd_clock_ms();
-    MHD_resume_connection(job->request->mhd);
 }
 
 static enum MHD_Result deliver(struct kd_request *request)
 {
-    struct kd_physics_job *job = request->physics;
+    struct job *job = (struct job *)request->task;
+    const struct kd_task *task = request->task;
     char timing[80];
-    if (job->status == KD_ECANCELLED)
+    if (task->status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
-    if (job->status)
-        return refuse(request, &job->error);
+    if (task->status)
+        return refuse(request, &task->error);
     request->reply_bytes = job->text.size;
     struct MHD_Response *response =
         kd_reply_text(request, &job->text, job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE);
     if (!response)
         return MHD_NO;
-    snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", job->begun_ms - job->submitted_ms,
-             job->done_ms - job->begun_ms);
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms,
+             task->done_ms - task->begun_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
     MHD_add_response_header(response, "Vary", "Accept");
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-static enum MHD_Result compute_here(struct kd_physics_job *job)
+static enum MHD_Result compute_here(struct kd_task *task)
 {
-    job->begun_ms = job->submitted_ms;
-    work(job, INFINITY);
-    job->done_ms = kd_clock_ms();
-    return deliver(job->request);
-}
-
-static enum MHD_Result submit(struct kd_physics_job *job)
-{
-    struct kd_request *request = job->request;
-    struct kd_server *server = request->server;
-    if (atomic_load(&server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                                .retry_after = 1,
-                                                                .detail = "the server is stopping and begins nothing long" });
-    struct kd_error error = { 0 };
-    if (kd_turns_admit(server->turns, &error))
-        return refuse(request, &error);
-    job->turns.turn = take_turn;
-    job->turns.done = done;
-    job->deadline_ms = job->submitted_ms + 1e3 * server->longest_s;
-    /* First: a job may be done before push returns. Suspended, the request and its socket outlive the job. */
-    MHD_suspend_connection(request->mhd);
-    kd_turns_push(server->turns, &job->turns);
-    return MHD_YES;
+    task->begun_ms = task->submitted_ms;
+    work(task, INFINITY);
+    task->done_ms = kd_clock_ms();
+    return deliver(task->request);
 }
 
 static enum MHD_Result begin(struct kd_request *request, const struct kd_quantity_request *asked, enum form form)
 {
+    struct kd_turns *workers = request->server->turns;
     struct kd_error error = { 0 };
-    struct kd_physics_job *job = calloc(1, sizeof *job);
-    if (!job || !request->connection) {
-        free(job);
+    enum MHD_Result refused;
+    bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS;
+    if (!here && !kd_task_admit(request, workers, "long quantities", &refused))
+        return refused;
+    struct job *job = calloc(1, sizeof *job);
+    if (!job)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    }
-    request->physics = job;
-    job->request = request;
+    kd_task_init(&job->task, request, workers);
+    job->task.work = work;
+    job->task.free = destroy;
     job->form = form;
-    job->submitted_ms = kd_clock_ms();
+    request->task = &job->task;
     if (kd_quantity_run_begin(&job->run, asked, &error) || hold(job, asked, &error))
         return refuse(request, &error);
-    return kd_quantity_cost_ms(asked) > MOMENT_MS ? submit(job) : compute_here(job);
+    return here ? compute_here(&job->task) : kd_task_submit(&job->task);
 }
 
 enum MHD_Result kd_handle_quantity(struct kd_request *request)
 {
-    if (request->physics)
+    if (request->task)
         return deliver(request);
     const struct kd_quantity *quantity = kd_quantity_find(request->rest);
     struct kd_quantity_request asked;

@@ -6,6 +6,7 @@
 #include "server/negotiate.h"
 #include "server/orbits.h"
 #include "server/reply.h"
+#include "server/task.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -88,8 +89,8 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     }
     kd_rays_job_destroy(request->rays);
     kd_orbits_job_abandon(request->orbits);
-    kd_physics_job_destroy(request->physics);
     kd_particles_job_destroy(request->particles);
+    kd_task_destroy(request->task);
     kd_live_abandon(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);

@@ -23,8 +23,8 @@ struct kd_request {
     struct kd_render_job *job; /* of a render under way; owned */
     struct kd_rays_job *rays;  /* of a request for rays under way; owned */
     struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
-    struct kd_physics_job *physics; /* of a quantity being computed; owned */
     struct kd_particles_job *particles; /* of particles being listed; owned */
+    struct kd_task *task;      /* of what workers compute; owned */
     struct kd_viewer *viewer;  /* of a request that waits for a session's next frame; owned */
     char etag[96];
     size_t reply_bytes; /* of a large reply, for its deadline */
@@ -33,7 +33,6 @@ struct kd_request {
 };
 
 void kd_rays_job_destroy(struct kd_rays_job *job);       /* rays.c; accepts NULL */
-void kd_physics_job_destroy(struct kd_physics_job *job); /* physics.c; accepts NULL */
 void kd_particles_job_destroy(struct kd_particles_job *job); /* session_particles.c; accepts NULL */
 
 void kd_live_abandon(struct kd_request *request);  /* live.c: nobody waits for a frame any more */

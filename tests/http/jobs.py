@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import select
 import shutil
 import signal
 import socket
@@ -330,6 +331,29 @@ class Jobs(Case):
         refused = self.daemon.request('PATCH', self.at(job), '{}')
         self.assertProblem(refused, 405)
         self.assertEqual(refused.header('Allow'), 'GET, HEAD, DELETE')
+
+    def test_others_are_answered_while_frames_are_checked(self):
+        late = {'scene': {'spacetime': {'spin': -0.9}, 'disk': {'outer': 9.5}}, 'keyframes': [
+            {'frame': 9900, 'scene': {}}, {'frame': 9999, 'scene': {'spacetime': {'spin': 0.998}, 'disk': {'outer': 1.5}}}]}
+        body, between = json.dumps(late).encode(), 0
+        with self.daemon.connect() as s:
+            s.sendall(b'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n' % len(body) + body)
+            while not select.select([s], [], [], 0)[0]:
+                self.assertEqual(self.daemon.get('/healthz').status, 200)
+                between += 1
+            problem = self.assertProblem(daemon.read_answer(s), 422, 'invalid-job', '/keyframes')
+        self.assertRegex(problem['detail'], r'frame 99\d\d is no valid scene: .*outer')
+        self.assertGreater(between, 3)
+
+    def test_a_client_that_leaves_while_its_frames_are_checked(self):
+        files = self.daemon.open_files()
+        body = json.dumps({'scene': {}, 'keyframes': [{'frame': 9999, 'scene': {'camera': {'inclination_deg': 60}}}]}).encode()
+        for _ in range(3):
+            with self.daemon.connect() as s:
+                s.sendall(b'POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n'
+                          % len(body) + body)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
+        self.until(self.post({'scene': SCENE}), 'done')  # nothing is before it
 
     def test_as_many_as_may(self):
         jobs = [self.post({'scene': SLOW}) for _ in range(4)]
