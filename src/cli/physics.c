@@ -1,7 +1,7 @@
 /* kerrd physics: quantities by name. */
 #include "cli/cli.h"
 #include "cli/file.h"
-#include "quantity/quantity.h"
+#include "quantity/sound.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,8 +25,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     case 'o': arguments->output = text; return 0;
     case 'f':
-        if (strcmp(text, "json") && strcmp(text, "csv"))
-            argp_error(state, "--format %s: json or csv", text);
+        if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "wav"))
+            argp_error(state, "--format %s: json, csv or wav", text);
         arguments->format = text;
         return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: parameters are options, as in --%s VALUE", text, "spin"); return 0;
@@ -54,9 +54,9 @@ static void make_options(const struct kd_quantity *quantity, struct options *opt
         options->table[n] = (struct argp_option) { name, KEY_PARAMETER + (int)n, p->words ? "WORD" : "VALUE", 0, help, 1 };
     }
     options->table[n++] = (struct argp_option) {
-        "output", 'o', "FILE", 0, "where to write; .csv chooses that format (default: - for standard output)", 2
+        "output", 'o', "FILE", 0, "where to write; .csv and .wav choose that format (default: - for standard output)", 2
     };
-    options->table[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json or csv, whatever the name of the output", 2 };
+    options->table[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, csv or wav, whatever the name of the output", 2 };
     options->table[n] = (struct argp_option) { 0 };
 }
 
@@ -71,12 +71,15 @@ static enum kd_status answer_text(const struct arguments *arguments, struct kd_b
     for (size_t i = 0; i < arguments->quantity->n_parameters && !status; i++)
         if (arguments->given[i])
             status = kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error);
+    if (!status && !strcmp(format, "wav"))
+        status = kd_quantity_sound_check(&request, error);
     if (!status)
         status = kd_quantity_evaluate(&request, &answer, error);
     if (status)
         return status;
-    status = strcmp(format, "csv") ? kd_quantity_json(&answer, out) : kd_quantity_csv(&answer, out);
-    if (status)
+    if (!strcmp(format, "wav"))
+        status = kd_quantity_sound(&answer, out, error);
+    else if ((status = strcmp(format, "csv") ? kd_quantity_json(&answer, out) : kd_quantity_csv(&answer, out)))
         kd_error_set(error, status, "out of memory for %zu points", answer.points);
     kd_quantity_answer_finish(&answer);
     return status;

@@ -17,7 +17,9 @@
       .help = "spin parameter a; nearer to 1 damped and undamped modes crowd and l, n stop being names for them")      \
     P(mass_msun, .unit = "solar masses", .initial = "60", .minimum = 1e-3, .maximum = 1e12, .along = true,             \
       .help = "mass of the hole, with any redshift: m (1 + z)")                                                        \
-    P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, .help = "time of the sample `wave`")
+    P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, .help = "time of the sample `wave`")              \
+    P(shift_octaves, .unit = "1", .initial = "0", .minimum = -40, .maximum = 40, .along = true,                        \
+      .help = "octaves by which the sound is higher than the ringing, and faster")
 #define OUTPUTS(O)                                                                                                     \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency")                                             \
     O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate")                                        \
@@ -33,7 +35,9 @@
     O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun")                                             \
     O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e")                                        \
     O(t_s, .unit = "s", .help = "t for mass_msun")                                                                     \
-    O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)")
+    O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)")                                                     \
+    O(sound_hz, .unit = "Hz", .help = "frequency_hz shifted by shift_octaves: that of the WAV file")                   \
+    O(sound_damping_s, .unit = "s", .help = "damping_s likewise")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -84,7 +88,9 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->damping_s = -unit / o->omega_im;
     o->t_s = p->t * unit;
     o->wave = kd_ringdown_wave(o->omega_re + I * o->omega_im, p->t);
+    o->sound_hz = o->frequency_hz * exp2(p->shift_octaves);
+    o->sound_damping_s = o->damping_s * exp2(-p->shift_octaves);
     return KD_OK;
 }
 
-KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .point_us = 1, .fresh_us = 1500)
+KD_QUANTITY(qnm, "qnm", "quasi-normal modes of a Kerr hole, and its ringdown", .point_us = 1, .fresh_us = 1500, .sound = true)

@@ -59,6 +59,7 @@ struct kd_quantity {
     size_t memory_size;
     /* Longest time on one core of 2020, in microseconds, with the text of the answer: each point, each fresh one more. */
     double point_us, fresh_us;
+    bool sound; /* a point of it can be heard: quantity/sound.h */
 };
 
 extern const struct kd_quantity *const kd_quantities[];

@@ -1,4 +1,5 @@
 /* docs/physics-quantities.md, from the tables. */
+#include "quantity/sound.h"
 #include "quantity/text.h"
 
 static const char introduction[] =
@@ -11,6 +12,7 @@ static const char introduction[] =
     "\n"
     "    kerrd physics kerr --spin 0:0.998:100 -o kerr.csv\n"
     "    curl 'http://127.0.0.1:8080/v1/physics/kerr?spin=0:0.998:100'\n"
+    "    kerrd physics qnm --mass-msun 62 -o ringdown.wav\n"
     "\n"
     "A value may be a range, `first:last:count`, with both ends; every point of several ranges is computed, the last parameter of\n"
     "the table varying fastest, up to 100000 points. In JSON a parameter that is a range is an array, and so is every value that it\n"
@@ -51,6 +53,10 @@ static void write_quantity(struct kd_writer *w, const struct kd_quantity *quanti
         write_escaped(w, quantity->outputs[i].help);
         kd_write(w, " |\n");
     }
+    if (quantity->sound)
+        kd_write(w, "\nAs a sound with `Accept: audio/wav` or `format=wav`, `--format wav` or `-o FILE.wav`: 16 bits, 48 kHz, from full scale at time 0 until "
+                    "half a step is left, then silence up to 0.25 s.\nIt is of one point. Frequencies outside %g to %g Hz are an error that says which "
+                    "masses are heard, and by how many `shift_octaves` the others are.\n", KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX);
     write_list(w, "Sources", quantity->sources);
     write_list(w, "Approximations", quantity->approximations);
 }

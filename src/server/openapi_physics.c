@@ -85,12 +85,15 @@ static cJSON *operation_of(const struct kd_quantity *quantity)
         const struct kd_parameter *p = &quantity->parameters[i];
         add_parameter(list, p->name, p->help, p->words ? "" : p->unit, schema_of(p));
     }
-    add_parameter(list, "format", "instead of Accept", "", cJSON_Parse("{\"enum\":[\"json\",\"csv\"]}"));
+    add_parameter(list, "format", "instead of Accept", "",
+                  cJSON_Parse(quantity->sound ? "{\"enum\":[\"json\",\"csv\",\"wav\"]}" : "{\"enum\":[\"json\",\"csv\"]}"));
     cJSON *responses = cJSON_AddObjectToObject(o, "responses"), *ok = cJSON_AddObjectToObject(responses, "200");
     cJSON_AddStringToObject(ok, "description", quantity->summary);
     cJSON *content = cJSON_AddObjectToObject(ok, "content");
     cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", answer_of(quantity));
     cJSON_AddObjectToObject(content, "text/csv");
+    if (quantity->sound)
+        cJSON_AddObjectToObject(content, "audio/wav");
     cJSON_AddStringToObject(cJSON_AddObjectToObject(responses, "default"), "$ref", "#/components/responses/Problem");
     return o;
 }

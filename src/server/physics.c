@@ -5,7 +5,7 @@
 #include "server/reply.h"
 #include "server/task.h"
 
-#include "quantity/quantity.h"
+#include "quantity/sound.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,11 +14,11 @@
 
 #define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
-#define OFFERED JSON_TYPE ", " CSV_TYPE
+#define WAV_TYPE "audio/wav"
 #define MOMENT_MS 2.       /* of this thread, which serves everybody */
 #define BYTES_PER_NUMBER 26 /* as text at its longest */
 
-enum form { FORM_JSON, FORM_CSV, FORM_NONE };
+enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
 
 struct job {
     struct kd_task task; /* first */
@@ -41,12 +41,20 @@ enum MHD_Result kd_handle_quantities(struct kd_request *request)
     return kd_reply_json(request, kd_quantity_list_json(&json), &json, request->route->answer);
 }
 
-static enum form accepted(struct kd_request *request)
+static const char *offered(const struct kd_quantity *quantity)
+{
+    return quantity->sound ? JSON_TYPE ", " CSV_TYPE ", " WAV_TYPE : JSON_TYPE ", " CSV_TYPE;
+}
+
+static enum form accepted(struct kd_request *request, const struct kd_quantity *quantity)
 {
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
     int json = kd_accept_weight((const char *)accept.data, JSON_TYPE);
     int csv = kd_accept_weight((const char *)accept.data, CSV_TYPE);
+    int wav = quantity->sound ? kd_accept_weight((const char *)accept.data, WAV_TYPE) : 0;
     kd_buffer_finish(&accept);
+    if (wav > json && wav > csv)
+        return FORM_WAV;
     return csv > json ? FORM_CSV : json ? FORM_JSON : FORM_NONE;
 }
 
@@ -64,12 +72,13 @@ static enum kd_status read_query(const struct kd_target *target, struct kd_quant
             break;
         if (strcmp(name, "format"))
             status = kd_quantity_request_set(quantity, name, value, error);
-        else if (!strcmp(value, "json") || !strcmp(value, "csv"))
-            *form = *value == 'c' ? FORM_CSV : FORM_JSON;
+        else if (!strcmp(value, "json") || !strcmp(value, "csv") || !strcmp(value, "wav"))
+            *form = *value == 'c' ? FORM_CSV : *value == 'w' ? FORM_WAV : FORM_JSON;
         else
-            status = kd_error_field(error, "/format", "format is \"%.40s\", allowed are \"json\", \"csv\"", value);
+            status = kd_error_field(error, "/format", "format is \"%.40s\", allowed are \"json\", \"csv\"%s", value,
+                                    quantity->quantity->sound ? ", \"wav\"" : "");
     }
-    return status;
+    return status || *form != FORM_WAV ? status : kd_quantity_sound_check(quantity, error);
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
@@ -91,8 +100,17 @@ static enum MHD_Result unknown(struct kd_request *request)
 static enum kd_status hold(struct job *job, const struct kd_quantity_request *asked, struct kd_error *error)
 {
     size_t numbers = asked->quantity->n_outputs + asked->quantity->n_parameters;
-    size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER);
+    size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER) + (job->form == FORM_WAV ? KD_SOUND_BYTES : 0);
     return kd_task_hold(job->task.request->server, bytes, &job->task.held, error);
+}
+
+static enum kd_status write_answer(struct job *job, struct kd_error *error)
+{
+    const struct kd_quantity_answer *answer = &job->run.answer;
+    if (job->form == FORM_WAV)
+        return kd_quantity_sound(answer, &job->text, error);
+    enum kd_status status = job->form == FORM_CSV ? kd_quantity_csv(answer, &job->text) : kd_quantity_json(answer, &job->text);
+    return status ? kd_error_set(error, status, "out of memory for %zu points", answer->points) : KD_OK;
 }
 
 /* Points until it is time, then the text. */
@@ -107,11 +125,8 @@ static enum kd_turn work(struct kd_task *task, double until_ms)
         if (!status && kd_clock_ms() > until_ms)
             return KD_TURN_MORE;
     }
-    if (!status) {
-        status = job->form == FORM_CSV ? kd_quantity_csv(&run->answer, &job->text) : kd_quantity_json(&run->answer, &job->text);
-        if (status)
-            kd_error_set(&error, status, "out of memory for %zu points", run->answer.points);
-    }
+    if (!status)
+        status = write_answer(job, &error);
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
 }
@@ -127,7 +142,8 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &task->error);
     request->reply_bytes = job->text.size;
     struct MHD_Response *response =
-        kd_reply_text(request, &job->text, job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE);
+        job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE)
+                              : kd_reply_text(request, &job->text, job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE);
     if (!response)
         return MHD_NO;
     snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms,
@@ -150,7 +166,7 @@ static enum MHD_Result begin(struct kd_request *request, const struct kd_quantit
     struct kd_turns *workers = request->server->turns;
     struct kd_error error = { 0 };
     enum MHD_Result refused;
-    bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS;
+    bool here = kd_quantity_cost_ms(asked) <= MOMENT_MS && form != FORM_WAV;
     if (!here && !kd_task_admit(request, workers, "long quantities", &refused))
         return refused;
     struct job *job = calloc(1, sizeof *job);
@@ -175,13 +191,14 @@ enum MHD_Result kd_handle_quantity(struct kd_request *request)
     struct kd_error error = { 0 };
     if (!quantity)
         return unknown(request);
-    enum form form = accepted(request);
+    enum form form = accepted(request, quantity);
     kd_quantity_request_init(&asked, quantity);
     if (read_query(&request->target, &asked, &form, &error))
         return refuse(request, &error);
-    if (form == FORM_NONE)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                                                .offered = OFFERED,
-                                                                .detail = "quantities are offered as " OFFERED });
+    if (form == FORM_NONE) {
+        char detail[80];
+        snprintf(detail, sizeof detail, "%s is offered as %s", quantity->name, offered(quantity));
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity), .detail = detail });
+    }
     return begin(request, &asked, form);
 }

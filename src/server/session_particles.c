@@ -3,6 +3,7 @@
 #include "scene/number.h"
 #include "server/clock.h"
 #include "server/reply.h"
+#include "server/task.h"
 
 #include "render/particle_list.h"
 
@@ -110,13 +111,9 @@ static enum MHD_Result deliver(struct kd_request *request)
 /* Memory for the answer, counted as held. */
 static enum kd_status allocate(struct kd_particles_job *job, struct kd_error *error)
 {
-    struct kd_server *server = job->request->server;
-    size_t bytes = job->list.n * kd_particle_list_row(&job->list), held = atomic_load(&server->reply_bytes);
-    do {
-        if (held && held + bytes > KD_REPLIES_MAX)
-            return kd_error_set(error, KD_EBUSY, "too many answers wait for their clients to take them");
-    } while (!atomic_compare_exchange_weak(&server->reply_bytes, &held, held + bytes));
-    job->held = bytes;
+    size_t bytes = job->list.n * kd_particle_list_row(&job->list);
+    if (kd_task_hold(job->request->server, bytes, &job->held, error))
+        return KD_EBUSY;
     job->rows.data = malloc(bytes);
     if (!job->rows.data)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu particles", job->list.n);

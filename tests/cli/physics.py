@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import wave
 
 from support import Case, main, run
 
@@ -33,6 +34,17 @@ class Physics(Case):
         self.bad(2, "(at /m)", "physics", "qnm", "--l", "3", "--m=-4")
         self.bad(2, "-3 to 3", "physics", "qnm", "--l", "3", "--m=-4")
 
+    def test_sound(self):
+        path = self.path("sound.wav")
+        self.good("physics", "qnm", "--mass-msun", "62", "-o", path)
+        with wave.open(path) as file:
+            self.assertEqual((file.getframerate(), file.getnframes(), file.readframes(1)), (48000, 12000, b"\xff\x7f"))
+        with open(path, "rb") as file:
+            self.assertEqual(self.good("physics", "qnm", "--mass-msun", "62", "--format", "wav"), file.read())
+        self.bad(2, "heard are 20 to 20000 Hz", "physics", "qnm", "--mass-msun", "4e6", "-o", path)
+        self.bad(2, "spin is a range of 3 values, allowed in a sound is one", "physics", "qnm", "--spin", "0:0.9:3", "-o", path)
+        self.bad(2, "format is \"wav\", allowed for kerr", "physics", "kerr", "-o", path)
+
     def test_forms(self):
         options = ["physics", "disk-flux", "--mass-msun", "10", "--r", "5:25:5"]
         table = self.good(*options, "-f", "csv")
@@ -48,7 +60,7 @@ class Physics(Case):
 
     def test_refused(self):
         self.bad(2, "known are kerr, ", "physics", "nothing")
-        for words, *args in (("--mass", "--mass", "1"), ("parameters are options", "0.5"), ("json or csv", "-f", "npy")):
+        for words, *args in (("--mass", "--mass", "1"), ("parameters are options", "0.5"), ("json, csv or wav", "-f", "npy")):
             done = run("physics", "kerr", *args)  # argp's hint that follows takes two lines
             self.assertEqual((done.returncode, done.stdout), (2, b""))
             self.assertIn(words, done.stderr.decode().splitlines()[0])

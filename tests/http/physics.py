@@ -4,10 +4,13 @@ import csv
 import io
 import json
 import math
+import re
 import statistics
+import struct
 import threading
 import time
 import unittest
+import wave
 
 import daemon
 
@@ -107,6 +110,67 @@ class Physics(daemon.Case):
         curve = self.values('qnm?spin=0:0.998:100')
         self.assertLess(time.monotonic() - start, 1)  # 10 ms of work on a machine of its own
         self.assertEqual(curve['quality'], sorted(curve['quality']))
+
+    def sound(self, target, **headers):
+        answer = self.daemon.get('/v1/physics/qnm' + target, **headers)
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'audio/wav'), answer.body[:300])
+        with wave.open(io.BytesIO(answer.body)) as file:
+            self.assertEqual((file.getnchannels(), file.getsampwidth(), file.getframerate()), (1, 2, 48000))
+            return struct.unpack(f'<{file.getnframes()}h', file.readframes(file.getnframes()))
+
+    @staticmethod
+    def fitted(samples):
+        """Frequency and damping time by a least-squares fit of s(t + q) = 2 e^(-q/tau) cos(w q) s(t) - e^(-2q/tau) s(t - q), q a quarter of a
+        period or so: up to the first change of sign."""
+        q = next(i for i, s in enumerate(samples) if s < 0)
+        n = next((i for i in range(0, len(samples), q) if max(map(abs, samples[i:i + 2 * q])) < 300), len(samples))
+        aa = ab = bb = ac = bc = 0
+        for c, a, b in zip(samples[2 * q:n], samples[q:n - q], samples[:n - 2 * q]):
+            aa, ab, bb, ac, bc = aa + a * a, ab + a * b, bb + b * b, ac + a * c, bc + b * c
+        x, y = (ac * bb - bc * ab) / (aa * bb - ab * ab), (bc * aa - ac * ab) / (aa * bb - ab * ab)
+        return 48000 / q * math.acos(x / 2 / math.sqrt(-y)) / 2 / math.pi, -2 * q / math.log(-y) / 48000
+
+    def test_ringdown_is_heard(self):
+        for query in ('?mass_msun=62', '?spin=0&mass_msun=10', '?spin=0.99&mass_msun=200', '?l=3&m=3&spin=0.9&mass_msun=30', '?mass_msun=1e8&shift_octaves=21.5'):
+            with self.subTest(query):
+                numbers = self.values('qnm' + query)
+                samples = self.sound(query, Accept='audio/wav, */*;q=0.1')
+                self.assertEqual(samples, self.sound(query + '&format=wav'))
+                self.assertEqual(max(samples), samples[0])
+                self.assertGreaterEqual(samples[0], 32766)
+                self.assertGreaterEqual(len(samples), 12000)
+                self.assertEqual(set(samples[-20:]), {0} if len(samples) == 12000 else set(samples[-20:]) & {-1, 0, 1})
+                hz, damping = self.fitted(samples)
+                self.assertAlmostEqual(hz / numbers['sound_hz'], 1, delta=2e-4)
+                self.assertAlmostEqual(damping / numbers['sound_damping_s'], 1, delta=2e-3)
+                # the curve, sample by sample
+                unit = numbers['t_s'] or 4.925490947e-6 * float(re.search('mass_msun=([^&]*)', query)[1])
+                self.assertAlmostEqual(numbers['frequency_hz'] * 2 * math.pi * unit / numbers['omega_re'], 1, delta=1e-6)
+                for k in range(0, 2000, 97):
+                    t = k / 48000
+                    curve = 32767 * math.exp(-t / numbers['sound_damping_s']) * math.cos(2 * math.pi * numbers['sound_hz'] * t)
+                    self.assertAlmostEqual(samples[k], curve, delta=1.01)
+
+    def test_ringdown_that_is_not_heard(self):
+        problem = self.assertProblem(self.daemon.get('/v1/physics/qnm?mass_msun=1e8&format=wav'), 422, 'invalid-parameters')
+        self.assertEqual(problem['pointer'], '/mass_msun')
+        hz = self.values('qnm?mass_msun=1e8')['frequency_hz']
+        self.assertIn(f'{hz:.3g} Hz', problem['detail'])
+        low, high = map(float, re.search('masses from ([^ ]*) to ([^ ]*) ', problem['detail']).groups())
+        first, last = map(int, re.search('shift_octaves ([0-9]*) to ([0-9]*) ', problem['detail']).groups())
+        for query in (f'mass_msun={low}', f'mass_msun={high}', f'mass_msun=1e8&shift_octaves={first}', f'mass_msun=1e8&shift_octaves={last}'):
+            self.sound(f'?{query}&format=wav')
+        for query in (f'mass_msun={0.999 * low}', f'mass_msun={1.001 * high}', f'mass_msun=1e8&shift_octaves={first - 1}',
+                      f'mass_msun=1e8&shift_octaves={last + 1}'):
+            self.assertProblem(self.daemon.get(f'/v1/physics/qnm?{query}&format=wav'), 422)
+        for query, pointer in (('spin=0:0.9:10', '/spin'), ('t=0:10:2', '/t'), ('t=1', '/t'), ('m=3', '/m')):
+            self.assertEqual(self.assertProblem(self.daemon.get(f'/v1/physics/qnm?{query}&format=wav'), 422)['pointer'], pointer)
+        self.assertIn('"wav"', self.assertProblem(self.daemon.get('/v1/physics/qnm?format=mp3'), 422)['detail'])
+        self.assertEqual(self.assertProblem(self.daemon.get(KERR + '?format=wav'), 422)['pointer'], '/format')
+        self.assertProblem(self.daemon.get(KERR, Accept='audio/wav'), 406)
+        self.assertIn('audio/wav', self.assertProblem(self.daemon.get('/v1/physics/qnm', Accept='audio/flac'), 406)['offered'])
+        self.assertEqual(self.daemon.get('/v1/physics/qnm').header('Content-Type'), 'application/json')
+        self.assertEqual(self.daemon.get('/v1/physics/qnm', Accept='text/csv, audio/wav').header('Content-Type'), 'text/csv; charset=utf-8; header=present')
 
     def test_bending(self):
         far, near = self.values('deflection?spin=0&b=1e6'), self.values('deflection?spin=0.9&b=2:8:7')

@@ -29,6 +29,7 @@ FOREIGN = {
     "microhttpd.h": {"server"},
     "archive": {"server"},
     "png.h": {"image"},
+    "sndfile.h": {"quantity"},
     "libdeflate.h": {"image"},
     "isa-l/": {"image"},
     "zlib.h": {"image"},
