@@ -13,7 +13,7 @@
 
 struct arguments {
     struct kd_scene_options scene;
-    const char *device, *output, *from, *to;
+    const char *device, *output, *format, *from, *to;
     unsigned frames;
 };
 
@@ -21,7 +21,8 @@ static const struct argp_option table[] = {
     { "from", 'a', "T", 0, "time of the first frame, M (default: the scene's)", 0 },
     { "to", 'b', "T", 0, "time of the last one (default: one orbit of the first spot later)", 0 },
     { "frames", 'n', "N", 0, "how many, evenly spaced (default: 121)", 0 },
-    { "output", 'o', "FILE", 0, "where to write: JSON, or CSV if its name ends in .csv (default: - for CSV on standard output)", 0 },
+    { "output", 'o', "FILE", 0, "where to write; .csv chooses that format (default: - for standard output)", 0 },
+    { "format", 'f', "FORMAT", 0, "json or csv, whatever the name of the output", 0 },
     { 0 },
 };
 
@@ -37,6 +38,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'b': arguments->to = text; return 0;
     case 'n': arguments->frames = kd_cli_number(state, "frames", text, 2, FRAMES_MAX); return 0;
     case 'o': arguments->output = text; return 0;
+    case 'f':
+        if (strcmp(text, "json") && strcmp(text, "csv"))
+            argp_error(state, "--format %s: json or csv", text);
+        arguments->format = text;
+        return 0;
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -98,16 +104,15 @@ static enum kd_status measure(struct work *w, const struct kd_scene *first, doub
     return status;
 }
 
-static enum kd_status save(const struct work *w, const char *path, struct kd_error *error)
+static enum kd_status save(const struct work *w, const struct arguments *arguments, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
-    size_t n = strlen(path);
-    bool csv = !strcmp(path, "-") || (n > 4 && !strcmp(path + n - 4, ".csv"));
-    enum kd_status status = kd_curve_text(w->rows, w->frames, csv, &text);
+    const char *dot = strrchr(arguments->output, '.'), *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
+    enum kd_status status = kd_curve_text(w->rows, w->frames, !strcmp(format, "csv"), &text);
     if (status)
         kd_error_set(error, status, "out of memory for %u rows", w->frames);
     else
-        status = kd_file_write(path, &text, error);
+        status = kd_file_write(arguments->output, &text, error);
     kd_buffer_finish(&text);
     return status;
 }
@@ -129,7 +134,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     if (!status)
         status = measure(&work, &scene, to, error);
     if (!status)
-        status = save(&work, arguments->output, error);
+        status = save(&work, arguments, error);
     free(work.rows);
     kd_renderer_destroy(work.renderer);
     return status;

@@ -32,7 +32,7 @@ static enum kd_status write_row(const double *values, bool csv, bool last, struc
     for (int i = 0; i < COLUMNS && !status; i++) {
         char number[KD_NUMBER_SIZE] = "";
         if (!isnan(values[i]))
-            kd_number_format(number, values[i]);
+            kd_number_format(number, values[i] == 0 ? 0 : values[i]); /* no -0 */
         status = csv ? kd_buffer_printf(out, "%s%s", i ? "," : "", number)
                      : kd_buffer_printf(out, "%s\"%s\":%s", i ? "," : "{", names[i], *number ? number : "null");
     }

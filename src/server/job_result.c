@@ -1,5 +1,7 @@
-/* GET /v1/jobs/{id}/result: a frame as PNG, all of them as ZIP, or as they come. */
+/* GET /v1/jobs/{id}/result: a frame as PNG, all of them as ZIP, or as they come; a light curve as JSON or CSV. */
+#include "render/curve.h"
 #include "server/job_routes.h"
+#include "server/negotiate.h"
 #include "server/reply.h"
 
 #include <archive.h>
@@ -14,6 +16,9 @@
 
 #define PNG_TYPE "image/png"
 #define STREAM_TYPE "application/x-kerrd-frames"
+#define JSON_TYPE "application/json"
+#define CSV_TYPE "text/csv"
+#define CURVE_OFFERED JSON_TYPE ", " CSV_TYPE
 #define PART_BYTES 65536
 
 /* A stream of the frames from watcher.next on. */
@@ -186,10 +191,57 @@ static enum MHD_Result send_png(struct kd_request *request, struct kd_job *job, 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
+static bool read_row(struct kd_job *job, unsigned frame, struct kd_curve_row *out)
+{
+    uint64_t size;
+    int fd = kd_job_frame(job, frame, &size);
+    bool whole = fd >= 0 && size == sizeof *out && read(fd, out, sizeof *out) == (ssize_t)sizeof *out;
+    if (fd >= 0)
+        close(fd);
+    return whole;
+}
+
+/* Of a job that is done. */
+static enum MHD_Result send_curve(struct kd_request *request, struct kd_job *job, unsigned n, bool csv)
+{
+    struct kd_curve_row *rows = malloc(n * sizeof *rows);
+    struct kd_buffer text = { 0 };
+    bool there = rows;
+    for (unsigned i = 0; i < n && there; i++)
+        there = read_row(job, i, &rows[i]);
+    kd_job_release(job);
+    enum kd_status status = !rows ? KD_ENOMEM : there ? kd_curve_text(rows, n, csv, &text) : KD_EIO;
+    free(rows);
+    return kd_reply_json(request, status, &text, csv ? CSV_TYPE : JSON_TYPE);
+}
+
 static enum MHD_Result bad(struct kd_request *request, struct kd_job *job, const char *detail)
 {
     kd_job_release(job);
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
+}
+
+/* What Accept would rather have, JSON if it does not care; NULL: neither. */
+static const char *curve_format(struct kd_request *request)
+{
+    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
+    int json = kd_accept_weight((const char *)accept.data, JSON_TYPE), csv = kd_accept_weight((const char *)accept.data, CSV_TYPE);
+    kd_buffer_finish(&accept);
+    return csv > json ? "csv" : json ? "json" : NULL;
+}
+
+static enum MHD_Result curve(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
+{
+    if (!format && !(format = curve_format(request))) {
+        kd_job_release(job);
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                                                .offered = CURVE_OFFERED,
+                                                                .detail = "light curves are offered as " CURVE_OFFERED });
+    }
+    bool csv = !strcmp(format, "csv");
+    if ((!csv && strcmp(format, "json")) || kd_target_value(&request->target, "frame"))
+        return bad(request, job, "format is json or csv: the frames of this job are the rows of a light curve");
+    return status->state == KD_JOB_DONE ? send_curve(request, job, status->frames, csv) : not_ready(request, job, status);
 }
 
 enum MHD_Result kd_handle_job_result(struct kd_request *request)
@@ -202,6 +254,8 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
         return refused;
     kd_job_status(job, &status);
     const char *format = kd_target_value(&request->target, "format");
+    if (status.curve)
+        return curve(request, job, &status, format);
     if (!format)
         format = status.frames > 1 ? "zip" : "png";
     if (!kd_target_whole(&request->target, "frame", 0, status.frames ? status.frames - 1 : 0, &frame))

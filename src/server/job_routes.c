@@ -41,6 +41,7 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     if (token)
         cJSON_AddStringToObject(o, "token", kd_job_token(job));
     cJSON_AddStringToObject(o, "state", state_word(s));
+    cJSON_AddStringToObject(o, "output", s->curve ? "light-curve" : "pictures");
     cJSON_AddNumberToObject(o, "place", s->place);
     cJSON_AddNumberToObject(o, "frames", s->frames);
     cJSON_AddNumberToObject(o, "finished", s->finished);

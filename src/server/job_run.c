@@ -1,6 +1,7 @@
 /* The frames of jobs on their way through the render queue. */
 #include "server/job_internal.h"
 
+#include "render/curve.h"
 #include "server/clock.h"
 
 #include <stdio.h>
@@ -26,6 +27,11 @@ static void capacity_of(const struct kd_jobs *all, struct kd_capacity *out)
     out->memory_bytes /= 2;
 }
 
+static enum kd_status plan_picture(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *plan, struct kd_error *error)
+{
+    return kd_plan_make(scene, capacity, plan, error);
+}
+
 static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number,
                                  const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
@@ -34,7 +40,7 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
     enum kd_status status = kd_job_spec_scene(spec, number, scene, error);
     if (status)
         return status;
-    status = kd_plan_make(scene, capacity, plan, &inner);
+    status = (spec->curve ? kd_curve_plan : plan_picture)(scene, capacity, plan, &inner);
     if (!status && plan->estimate_ms > 1e3 * all->params.longest_s)
         status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %u s a frame may take",
                               plan->estimate_ms * 1e-3, all->params.longest_s);
@@ -46,6 +52,15 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
         snprintf(pointer, sizeof pointer, "%s%.100s", spec->n_keys > 1 ? "/keyframes" : "/scene", spec->n_keys > 1 ? "" : inner.pointer);
     kd_error_field(error, pointer, "frame %u: %.440s", number, inner.message);
     return error->status = status;
+}
+
+/* Of a light curve: a row of it instead of a picture. */
+static enum kd_status encode_row(struct kd_render_job *render, unsigned encoder)
+{
+    const struct kd_job_frame *frame = (const struct kd_job_frame *)render;
+    const struct kd_curve_row row = kd_curve_row_of(frame->number, &render->scene, &render->frame);
+    (void)encoder;
+    return kd_buffer_append(&render->png, &row, sizeof row) ? kd_error_set(&render->error, KD_ENOMEM, "out of memory for a row") : KD_OK;
 }
 
 /* Hand over the next frame of a job. False: there was none. */
@@ -72,6 +87,7 @@ static bool begin(struct kd_job *job)
     }
     frame->render.background = true;
     frame->render.compression = COMPRESSION;
+    frame->render.encode = job->spec.curve ? encode_row : NULL;
     frame->render.socket = -1;
     frame->render.progress = progress;
     frame->render.rendered = rendered;

@@ -13,7 +13,7 @@
 
 struct reader {
     struct kd_job_spec *spec;
-    const cJSON *scene, *scenes, *keyframes, *frames, *interpolation;
+    const cJSON *scene, *scenes, *keyframes, *frames, *interpolation, *output;
     struct kd_error *error;
 };
 
@@ -175,18 +175,30 @@ static enum kd_status read_sequence(struct reader *r)
     return status || !r->frames ? status : whole(r, r->frames, "/frames", spec->frames, KD_JOB_FRAMES_MAX, &spec->frames);
 }
 
+static enum kd_status read_output(struct reader *r)
+{
+    if (!r->output)
+        return KD_OK;
+    const char *word = cJSON_IsString(r->output) ? r->output->valuestring : "";
+    r->spec->curve = !strcmp(word, "light-curve");
+    return r->spec->curve || !strcmp(word, "pictures") ? KD_OK : not_a(r, r->output, "/output", "\"pictures\" or \"light-curve\"");
+}
+
 enum kd_status kd_job_spec_parse(const char *text, size_t length, struct kd_job_spec *out, struct kd_error *error)
 {
     struct kd_job_spec spec = { 0 };
     struct reader r = { .spec = &spec, .error = error };
     const struct member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "keyframes", &r.keyframes },
-                                      { "frames", &r.frames }, { "interpolation", &r.interpolation } };
+                                      { "frames", &r.frames }, { "interpolation", &r.interpolation },
+                                      { "output", &r.output } };
     cJSON *root = NULL;
     enum kd_status status = kd_tree_parse(text, length, KD_JOB_BODY_MAX, VALUES_MAX, &root, error);
     if (!status && !cJSON_IsObject(root))
         status = not_a(&r, root, "", "an object");
     if (!status)
         status = read_members(&r, root, "", members, sizeof members / sizeof *members);
+    if (!status)
+        status = read_output(&r);
     if (!status)
         status = r.scenes ? read_list(&r) : read_sequence(&r);
     cJSON_Delete(root);

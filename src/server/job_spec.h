@@ -5,7 +5,8 @@
  * {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation": "smooth"}
  *
  * A keyframe's scene is a merge patch of the keyframe before; what holds at frame 0 without a keyframe there is "scene". Between
- * keyframes real numbers are interpolated, everything else keeps the value of the keyframe before. After the last nothing changes. */
+ * keyframes real numbers are interpolated, everything else keeps the value of the keyframe before. After the last nothing changes.
+ * With "output": "light-curve" each frame is measured instead of drawn. */
 #ifndef KD_SERVER_JOB_SPEC_H
 #define KD_SERVER_JOB_SPEC_H
 
@@ -25,6 +26,7 @@ struct kd_job_spec {
     size_t n_keys;
     bool listed;
     bool smooth; /* monotone cubics instead of straight lines */
+    bool curve;  /* "output": "light-curve" instead of "pictures" */
 };
 
 /* Every scene of a list and every keyframe is valid afterwards. KD_EINVAL with the pointer into the request. */

@@ -1,4 +1,4 @@
-/* Jobs on disk. DIRECTORY/ID/ holds request.json as it came, job.json, and the finished frames, 000000.png and so on. Each file is
+/* Jobs on disk. DIRECTORY/ID/ holds request.json as it came, job.json, and what has become of the frames, 000000.png and so on, pictures or not. Each file is
  * written as a whole; a folder without a request is what is left of a job that has been deleted. Any thread, but one a job. */
 #ifndef KD_SERVER_JOB_STORE_H
 #define KD_SERVER_JOB_STORE_H

@@ -115,6 +115,7 @@ static struct kd_job *create(struct kd_jobs *all, struct kd_job_spec *spec)
     job->have = have;
     job->spec = *spec;
     job->frames = spec->frames;
+    job->curve = spec->curve;
     *spec = (struct kd_job_spec) { 0 };
     return job;
 }
@@ -338,7 +339,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
 {
     struct kd_jobs *all = job->all;
     pthread_mutex_lock(&all->lock);
-    *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .frames = job->frames,
+    *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .curve = job->curve, .frames = job->frames,
                                     .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
                                     .bytes = job->bytes, .remaining_s = remaining_s(job) };
     out->fraction = job->frames ? fmin((job->finished + (kd_job_is_active(job) ? job->fraction : 0)) / job->frames, 1) : 0;

@@ -6,16 +6,18 @@
 #define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,"
 #define COUNT "{\"type\":\"integer\",\"minimum\":0}"
 
+#define OUTPUT "\"output\":{\"enum\":[\"pictures\",\"light-curve\"]}"
+
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" SCENE ",\"keyframes\":{\"type\":\"array\",\"minItems\":1,"
     "\"maxItems\":1000,\"items\":" OBJECT "\"required\":[\"frame\",\"scene\"],\"properties\":{\"frame\":{\"type\":\"integer\",\"minimum\":0,"
     "\"maximum\":9999},\"scene\":{\"type\":\"object\"}}}},\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    "\"interpolation\":{\"enum\":[\"linear\",\"smooth\"]}}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
-    "\"minItems\":1,\"maxItems\":10000,\"items\":" SCENE "}}}]}";
+    "\"interpolation\":{\"enum\":[\"linear\",\"smooth\"]}," OUTPUT "}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    "\"minItems\":1,\"maxItems\":10000,\"items\":" SCENE "}," OUTPUT "}}]}";
 
 static const char answer[] =
     "{\"type\":\"object\",\"properties\":{\"id\":{\"type\":\"string\"},\"token\":{\"type\":\"string\"},\"state\":{\"enum\":[\"waiting\",\"running\","
-    "\"done\",\"failed\",\"deleted\"]},\"place\":" COUNT ",\"frames\":" COUNT ",\"finished\":" COUNT ",\"fraction\":{\"type\":\"number\"},"
+    "\"done\",\"failed\",\"deleted\"]}," OUTPUT ",\"place\":" COUNT ",\"frames\":" COUNT ",\"finished\":" COUNT ",\"fraction\":{\"type\":\"number\"},"
     "\"remaining_s\":{\"type\":[\"number\",\"null\"]},\"bytes\":" COUNT ",\"created\":{\"type\":\"number\"},\"ended\":{\"type\":[\"number\","
     "\"null\"]},\"error\":{\"type\":\"string\"}}}";
 

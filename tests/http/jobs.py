@@ -157,6 +157,33 @@ class Jobs(Case):
             self.assertAlmostEqual(found[frame], value, places=10, msg=frame)
         self.assertTrue(all(a <= b for a, b in zip(found[:15], found[1:16])) and all(a >= b for a, b in zip(found[15:], found[16:])))
 
+    def test_light_curve(self):
+        """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""
+        asked = {'scene': {'image': IMAGE, 'time': 0}, 'keyframes': [{'frame': 4, 'scene': {'time': 6}}], 'output': 'light-curve'}
+        job = self.post(asked)
+        self.assertEqual(self.until(job, 'done')['output'], 'light-curve')
+        answer = self.daemon.get(self.at(job, '/result'))
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/json'))
+        names = ['frame', 't', 'flux', 'centroid_x', 'centroid_y', 'spots_flux', 'spots_centroid_x', 'spots_centroid_y', 'width', 'height']
+        frames = answer.json()['frames']
+        self.assertEqual(frames[0], dict(zip(names, [0, 0, 0, None, 0, 0, None, None, 32, 18])))
+        self.assertEqual(frames[3], dict(zip(names, [3, 4.5, 4.5, 2.25, -4.5, 1.125, 3, 0.25, 32, 18])))
+        self.assertEqual([f['frame'] for f in frames], list(range(5)))
+        table = self.daemon.get(self.at(job, '/result'), Accept='text/csv')
+        self.assertEqual((table.status, table.header('Content-Type')), (200, 'text/csv'))
+        lines = table.body.decode().split('\n')
+        self.assertEqual((lines[0], lines[1], lines[4], len(lines)), (','.join(names), '0,0,0,,0,0,,,32,18', '3,4.5,4.5,2.25,-4.5,1.125,3,0.25,32,18', 7))
+        self.assertEqual(self.daemon.get(self.at(job, '/result?format=csv')).body, table.body)
+        self.assertEqual(self.daemon.get(self.at(job, '/result'), Accept='application/json;q=0.5, text/csv;q=0.4').body, answer.body)
+        self.assertProblem(self.daemon.get(self.at(job, '/result'), Accept='image/png'), 406)
+        for rest in ('?format=png', '?format=zip', '?format=stream', '?format=csv&frame=1'):
+            self.assertProblem(self.daemon.get(self.at(job, '/result' + rest)), 422, 'invalid-parameters')
+        head = self.daemon.request('HEAD', self.at(job, '/result'))
+        self.assertEqual((head.status, head.body), (200, b''))
+        self.assertEqual(self.until(self.post({'scene': SCENE, 'output': 'pictures'}), 'done')['output'], 'pictures')
+        slow = self.post({'scene': SLOW, 'output': 'light-curve'})
+        self.assertProblem(self.daemon.get(self.at(slow, '/result')), 409)
+
     def test_progress(self):
         job = self.post({'scenes': [{**SCENE, 'time': 300}] * 4})
         seen = []
@@ -313,6 +340,8 @@ class Jobs(Case):
                 ({'scene': {}, 'keyframes': [{'frame': 2, 'scene': {'camera': {'x': 1}}}]}, 422, '/keyframes/0/scene/camera/x'),
                 ({'scene': {}, 'keyframes': [key], 'frames': 3}, 422, '/frames'), ({'scene': {}, 'keyframes': [key], 'frames': 10001}, 422, '/frames'),
                 ({'scene': {}, 'keyframes': [key], 'interpolation': 'cubic'}, 422, '/interpolation'),
+                ({'scene': {}, 'output': 'curve'}, 422, '/output'), ({'scenes': [{}], 'output': 1}, 422, '/output'),
+                ({'scenes': [{}, {'camera': {'projection': 'ring'}}], 'output': 'light-curve'}, 422, '/scenes/1/camera/projection'),
                 ({'scenes': [{}] * 10001}, 422, '/scenes'), ({'scenes': [{}, {'accuracy': {'tolerance': 1e-15}}]}, 422, '/scenes/1/accuracy/tolerance'),
                 # valid at both ends, with the disk's edge inside the ISCO between them
                 ({'scene': {'spacetime': {'spin': -0.9}, 'disk': {'outer': 9.5}},

@@ -189,6 +189,38 @@ class Kerrd(unittest.TestCase):
         self.particles(crowd, '?count=10')
         self.assertLess(time.monotonic() - begun, 5)
 
+    def event(self, session, words):
+        """The first event of a session that holds the words."""
+        with self.daemon.connect(20) as s:
+            s.sendall(f'GET /v1/sessions/{session["id"]}/events HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+            text = b''
+            while True:
+                text += s.recv(4096)
+                for line in text.split(b'\n')[:-1]:
+                    if line.startswith(b'data:') and words in line:
+                        return json.loads(line[5:].decode())
+
+    def test_a_light_curve_is_that_of_events_and_of_the_command_line(self):
+        scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100}
+        job = self.daemon.post('/v1/jobs', {'scene': scene, 'keyframes': [{'frame': 6, 'scene': {'time': 130}}], 'output': 'light-curve'}).json()
+        alone = subprocess.run([daemon.COMMAND[0], 'light-curve', '-', '--to', '130', '-n', '7', '-f', 'csv'], input=json.dumps(scene).encode(),
+                               capture_output=True, timeout=60, check=True).stdout
+        while (status := self.daemon.get('/v1/jobs/' + job['id']).json())['state'] in ('waiting', 'running'):
+            time.sleep(0.05)
+        self.assertEqual(status['state'], 'done', status)
+        self.assertEqual(self.daemon.get('/v1/jobs/' + job['id'] + '/result?format=csv').body, alone)
+        row = self.daemon.get('/v1/jobs/' + job['id'] + '/result').json()['frames'][0]
+        session = self.open(scene)
+        event = self.event(session, b'"final":true')
+        light = event['light']
+        self.assertEqual(event['quality']['width'], 160)
+        for figure, name in zip([light['flux'], *light['centroid'], light['spots']['flux'], *light['spots']['centroid']],
+                                ('flux', 'centroid_x', 'centroid_y', 'spots_flux', 'spots_centroid_x', 'spots_centroid_y')):
+            self.assertAlmostEqual(figure / row[name], 1, delta=1e-14)
+        patch = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/merge-patch+json'}
+        self.assertEqual(self.daemon.request('PATCH', '/v1/sessions/' + session['id'], json.dumps({'spot1': None}), headers=patch).status, 200)
+        self.assertNotIn('light', self.event(session, b'"revision":2'))
+
     def test_a_vanished_client_stops_its_render(self):
         for _ in range(3):
             with self.daemon.connect() as s:

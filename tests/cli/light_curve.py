@@ -1,0 +1,56 @@
+"""kerrd light-curve: forms, times, and what is refused."""
+import csv
+import io
+import json
+import math
+
+from support import SMALL, Case, main, run
+
+
+class LightCurve(Case):
+    def rows(self, *args):
+        return list(csv.DictReader(io.StringIO(self.good("light-curve", *SMALL, *args, "-f", "csv").decode())))
+
+    def test_an_orbit(self):
+        rows = self.rows("--preset", "hot-spot", "-n", "9")
+        self.assertAlmostEqual(float(rows[-1]["t"]), 2 * math.pi * 27.5, delta=1e-9)
+        self.assertEqual([r["frame"] for r in rows], [str(i) for i in range(9)])
+        first, last = ([float(r[name]) for name in ("flux", "spots_flux", "spots_centroid_x", "spots_centroid_y")] for r in (rows[0], rows[-1]))
+        for a, b in zip(first, last):
+            self.assertAlmostEqual(a, b, delta=1e-4)
+        # The preset's hole is seen from below: clockwise, as GRAVITY saw it.
+        angles = [math.atan2(float(r["spots_centroid_y"]), float(r["spots_centroid_x"])) for r in rows]
+        for a, b in zip(angles, angles[1:]):
+            self.assertTrue(0.3 < (a - b) % (2 * math.pi) < 1.4, angles)
+
+    def test_forms(self):
+        options = ["light-curve", *SMALL, "--preset", "hot-spot", "--from", "-5", "--to", "20.5", "-n", "3"]
+        table = self.good(*options, "-f", "csv")
+        document = self.good(*options)
+        self.good(*options, "-o", self.path("a.csv"))
+        self.good(*options, "-o", self.path("a.json"))
+        self.assertEqual((self.read("a.csv"), self.read("a.json")), (table, document))
+        frames = json.loads(document)["frames"]
+        self.assertEqual([f["t"] for f in frames], [-5, 7.75, 20.5])
+        for row, frame in zip(csv.DictReader(io.StringIO(table.decode())), frames):
+            self.assertEqual({k: float(v) for k, v in row.items()}, frame)
+
+    def test_without_a_spot(self):
+        rows = self.rows("--to", "50", "-n", "2")
+        self.assertEqual((rows[0]["spots_flux"], rows[0]["spots_centroid_x"], rows[0]["flux"]), ("0", "", rows[1]["flux"]))
+        self.assertGreater(float(rows[0]["flux"]), 1)
+
+    def test_refused(self):
+        self.bad(2, "--to is missing", "light-curve", "-n", "3")
+        self.bad(2, '--from: time is "x"', "light-curve", "--preset", "hot-spot", "--from", "x")
+        self.bad(2, "--to: time is 10000000000000", "light-curve", "--preset", "hot-spot", "--to", "1e13")
+        for words, option, value in ("--format png: json or csv", "-f", "png"), ("frames", "-n", "1"):
+            done = run("light-curve", option, value)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(words, done.stderr.decode())
+        self.bad(2, "areas of the ring projection are not to scale", "light-curve", "--preset", "photon-rings", "--to", "1")
+        self.bad(2, "spot2.r is 2 M, allowed is at least", "light-curve", "--set", "spot2.brightness=1", "--set", "spot2.r=2")
+
+
+if __name__ == "__main__":
+    main(needs_device=True)
