@@ -12,7 +12,8 @@ static const struct command {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "rays", kd_cli_rays },   { "orbit", kd_cli_orbit },
+    { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "particles", kd_cli_particles },
+    { "rays", kd_cli_rays },       { "orbit", kd_cli_orbit },
     { "physics", kd_cli_physics }, { "plan", kd_cli_plan },
     { "scene", kd_cli_scene },     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
     { "bench", kd_cli_bench },
@@ -33,7 +34,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
                 choice->command = &commands[i];
         if (!choice->command)
             argp_error(state,
-                       "there is no command \"%s\"; known are render, light-curve, rays, orbit, physics, plan, scene, presets, serve, doctor, bench",
+                       "there is no command \"%s\"; known are render, light-curve, particles, rays, orbit, physics, plan, scene, presets, serve, doctor, "
+                       "bench",
                        text);
         choice->index = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
@@ -50,6 +52,7 @@ static const struct argp argp = {
            "Commands (`kerrd COMMAND --help` says more):\n"
            "  render       a scene to a PNG file\n"
            "  light-curve  flux and centroid of a scene as its time goes on\n"
+           "  particles    where the particles of a scene are, as an array\n"
            "  rays         end points of listed rays: crossings, redshift, delay\n"
            "  orbit        path of a body round the hole, its constants and frequencies\n"
            "  physics      numbers of a hole, an orbit, a disk: one point or a curve\n"

@@ -9,7 +9,7 @@
 static const struct {
     const char *code;
     size_t size;
-} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_U1] = { "|u1", 1 } };
+} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 }, [KD_NPY_U1] = { "|u1", 1 } };
 
 size_t kd_npy_item_size(const struct kd_npy *array)
 {
@@ -160,7 +160,7 @@ static enum kd_status take_type(struct reader *r, enum kd_npy_type *out)
     for (char *p = code; *p; p++)
         if (*p < ' ' || *p > '~')
             *p = '?';
-    snprintf(what, sizeof what, "the element type is %s, taken are <f8 and |u1", code);
+    snprintf(what, sizeof what, "the element type is %s, taken are <f8, <f4 and |u1", code);
     return fail(r, what);
 }
 

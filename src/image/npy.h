@@ -1,6 +1,6 @@
 /* NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
  *
- * Numbers are 8-byte floats and bytes; an element is one number or a record of named ones, some of them short arrays
+ * Numbers are floats of 8 and 4 bytes, and bytes; an element is one number or a record of named ones, some of them short arrays
  * themselves. Whatever else NumPy can store is refused by name. */
 #ifndef KD_IMAGE_NPY_H
 #define KD_IMAGE_NPY_H
@@ -18,7 +18,7 @@ enum {
     KD_NPY_HEADER_MAX = 10000, /* as NumPy itself reads */
 };
 
-enum kd_npy_type { KD_NPY_F8, KD_NPY_U1 };
+enum kd_npy_type { KD_NPY_F8, KD_NPY_F4, KD_NPY_U1 };
 
 struct kd_npy_field {
     char name[KD_NPY_NAME]; /* letters, digits and _; "" when the elements are plain numbers */

@@ -3,7 +3,7 @@ import json
 
 from support import Case, main
 
-COMMANDS = ["render", "rays", "plan", "scene", "presets", "serve", "doctor"]
+COMMANDS = ["render", "particles", "rays", "plan", "scene", "presets", "serve", "doctor"]
 OPEN = '{"camera":'
 
 

@@ -52,6 +52,7 @@ static void plain_arrays(void **state)
         { "{'descr': '<f8', 'fortran_order': False, 'shape': (4,), }\n", 32, 1, { 4 } },
         { "{'descr': '<f8', 'fortran_order': False, 'shape': (), }\n", 8, 0, { 0 } },
         { "{'descr': '<f8', 'fortran_order': False, 'shape': (0, 2), }\n", 0, 2, { 0, 2 } },
+        { "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 2), }\n", 24, 2, { 3, 2 } },
         { "{\"shape\":(2,2),\"fortran_order\":False,\"descr\":\"|u1\"}", 4, 2, { 2, 2 } },
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
@@ -101,7 +102,7 @@ static void refused(void **state)
         { ARRAY("'<f8'", "True", "(2, 2)"), "Fortran", 32 },
         { ARRAY("'<f8'", "true", "(2, 2)"), "neither", 32 },
         { ARRAY("'>f8'", "False", "(2, 2)"), "element type is >f8", 32 },
-        { ARRAY("'<f4'", "False", "(2, 2)"), "element type is <f4", 16 },
+        { ARRAY("'<i4'", "False", "(2, 2)"), "element type is <i4, taken are <f8, <f4 and |u1", 16 },
         { ARRAY("'|O'", "False", "(2, 2)"), "element type is |O", 32 },
         { ARRAY("'\x01\xff'", "False", "(2, 2)"), "element type is ??", 32 },
         { ARRAY("'0123456789012345678'", "False", "(2, 2)"), "plain string", 32 },

@@ -1,0 +1,146 @@
+/* kerrd particles: where the particles of a scene are, as an array for NumPy. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/scene_options.h"
+#include "image/npy.h"
+#include "render/particle_list.h"
+#include "render/render.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const names[] = { "fields", "first", "stride", "count" };
+enum { KEY_FIELDS = 256, N_OPTIONS = sizeof names / sizeof *names };
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device, *output;
+    const char *given[N_OPTIONS]; /* NULL: not given */
+};
+
+static const struct argp_option table[] = {
+    { "output", 'o', "FILE.npy", 0, "where to write; - for standard output", 0 },
+    { "fields", KEY_FIELDS, "NAMES", 0, "columns, with commas between (default: x,y,z)", 0 },
+    { "first", KEY_FIELDS + 1, "N", 0, "number of the first particle (default: 0)", 0 },
+    { "stride", KEY_FIELDS + 2, "N", 0, "from one to the next (default: 1)", 0 },
+    { "count", KEY_FIELDS + 3, "N", 0, "how many (default: as many as there are)", 0 },
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    if (key >= KEY_FIELDS && key < KEY_FIELDS + N_OPTIONS) {
+        arguments->given[key - KEY_FIELDS] = text;
+        return 0;
+    }
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case 'o': arguments->output = text; return 0;
+    case ARGP_KEY_END:
+        if (!arguments->output)
+            argp_error(state, "-o FILE.npy is missing");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* The bytes of the file: what is ready, made slice by slice. */
+struct source {
+    struct kd_renderer *renderer;
+    struct kd_particle_list list;
+    struct kd_buffer ready;
+    size_t at, listed;
+    enum kd_status status;
+    struct kd_error error;
+};
+
+static enum kd_status header(struct source *s)
+{
+    struct kd_npy array = { .shape = { s->list.n }, .n_dimensions = 1, .n_fields = s->list.n_columns };
+    for (size_t i = 0; i < s->list.n_columns; i++) {
+        snprintf(array.fields[i].name, sizeof array.fields[i].name, "%s", kd_particle_column_name(s->list.columns[i]));
+        array.fields[i].type = KD_NPY_F4;
+    }
+    return kd_npy_write_header(&array, &s->ready) ? kd_error_set(&s->error, KD_ENOMEM, "out of memory for the header") : KD_OK;
+}
+
+static enum kd_status more(struct source *s)
+{
+    size_t left = s->list.n - s->listed, n = left < KD_PARTICLE_LIST_SLICE ? left : KD_PARTICLE_LIST_SLICE;
+    size_t bytes = n * kd_particle_list_row(&s->list);
+    float *rows = malloc(bytes);
+    s->ready.size = s->at = 0;
+    enum kd_status status = rows ? kd_particle_list_fill(s->renderer, &s->list, s->listed, n, rows, &s->error) : KD_ENOMEM;
+    if (!rows || (!status && kd_buffer_append(&s->ready, rows, bytes)))
+        status = kd_error_set(&s->error, KD_ENOMEM, "out of memory for %zu particles", n);
+    free(rows);
+    s->listed += n;
+    return status;
+}
+
+static size_t produce(void *user, void *to, size_t size)
+{
+    struct source *s = user;
+    if (s->at == s->ready.size && s->listed == s->list.n)
+        return 0;
+    if (s->at == s->ready.size && (s->status = more(s)))
+        return KD_FILE_STOP;
+    size_t left = s->ready.size - s->at, n = left < size ? left : size;
+    memcpy(to, s->ready.data + s->at, n);
+    s->at += n;
+    return n;
+}
+
+static enum kd_status prepare(const struct arguments *arguments, struct source *s)
+{
+    struct kd_scene scene;
+    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, &s->error);
+    if (!status)
+        status = kd_particle_list_init(&s->list, &scene, &s->error);
+    for (size_t i = 0; i < N_OPTIONS && !status; i++)
+        if (arguments->given[i])
+            status = kd_particle_list_set(&s->list, names[i], arguments->given[i], &s->error);
+    if (!status)
+        status = kd_particle_list_settle(&s->list, 0, &s->error);
+    if (!status)
+        status = kd_file_check(arguments->output, &s->error);
+    if (!status)
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &s->renderer, &s->error);
+    return status ? status : header(s);
+}
+
+int kd_cli_particles(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
+                                                  { &kd_cli_device_argp, 0, NULL, 0 },
+                                                  { &kd_cli_log_argp, 0, NULL, 0 },
+                                                  { 0 } };
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Where the particles of a scene are at its time, and how they move, as an NPY array: a record a particle.\v"
+               "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md says what they are.",
+        .children = children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+    struct source source = { 0 };
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    source.status = prepare(&arguments, &source);
+    enum kd_status status = source.status ? KD_OK : kd_file_stream(arguments.output, produce, &source, &error);
+    if (source.status == KD_EDEVICE && source.renderer)
+        kd_cli_device_lost(&source.error);
+    if (source.status)
+        status = source.status, error = source.error;
+    kd_renderer_destroy(source.renderer);
+    kd_particle_list_finish(&source.list);
+    kd_buffer_finish(&source.ready);
+    kd_scene_options_finish(&arguments.scene);
+    return status ? kd_cli_fail(&error) : KD_EXIT_OK;
+}
