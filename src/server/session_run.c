@@ -129,10 +129,17 @@ static struct kd_frame_cost cost_of(const struct kd_frame *frame)
 
 void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
 {
-    struct kd_frame_cost cost = { .total_ms = plan->estimate_ms };
-    for (size_t i = 0; i < plan->n_passes; i++)
-        add_cost(&cost, plan->passes[i].name, plan->passes[i].estimate_ms);
-    kd_governor_expect(&s->governor, &cost);
+    struct kd_frame_cost traced = { .total_ms = plan->estimate_ms }, reused = { .total_ms = plan->estimate_ms, .lens_reused = true };
+    for (size_t i = 0; i < plan->n_passes; i++) {
+        const struct kd_plan_pass *pass = &plan->passes[i];
+        add_cost(&traced, pass->name, pass->estimate_ms);
+        if (!strcmp(pass->name, "trace") || !strcmp(pass->name, "audit"))
+            reused.total_ms -= pass->estimate_ms;
+        else
+            add_cost(&reused, pass->name, pass->estimate_ms);
+    }
+    kd_governor_expect(&s->governor, &traced);
+    kd_governor_expect(&s->governor, &reused);
 }
 
 /* On the render thread, unlocked: the next frame may be traced while this one is encoded. */
