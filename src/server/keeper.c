@@ -58,10 +58,10 @@ static bool step_down(struct kd_server *server, double *since)
         kd_jobs_close(server->jobs);
         if (atomic_load(&server->abandon)) {
             kd_render_queue_cancel(server->renders);
-            kd_rays_queue_cancel(server->rays);
+            kd_turns_cancel(server->rays);
             kd_turns_cancel(server->turns);
         }
-        if (kd_render_queue_unfinished(server->renders) || kd_rays_queue_unfinished(server->rays) ||
+        if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
             kd_turns_unfinished(server->turns))
             return false;
         stop_listening(server);

@@ -24,7 +24,7 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
           kd_render_queue_unfinished(s->renders) },
         { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.", 1e-3 * kd_render_queue_backlog_ms(s->renders) },
-        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_rays_queue_unfinished(s->rays) },
+        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_turns_unfinished(s->rays) },
         { "sessions", "gauge", "Live sessions.", kd_sessions_count(s->sessions) },
         { "session_frames_total", "counter", "Frames of sessions encoded.", (double)kd_sessions_frames(s->sessions) },
         { "bodies_bytes", "gauge", "Bodies being received.", (double)atomic_load(&s->body_bytes) },

@@ -5,6 +5,7 @@
 #include "server/clock.h"
 #include "server/negotiate.h"
 #include "server/reply.h"
+#include "server/task.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -79,24 +80,20 @@ static void resume(struct kd_orbits_job *job)
     }
 }
 
-static bool stopped(void *user)
+static enum kd_status over(struct kd_orbits_job *job, struct kd_error *error)
 {
-    struct kd_orbits_job *job = user;
     pthread_mutex_lock(&job->lock);
     bool gone = !job->mhd || kd_socket_abandoned(job->socket);
     pthread_mutex_unlock(&job->lock);
-    return gone || kd_turns_cancelled(job->server->turns) || kd_clock_ms() > job->deadline_ms;
+    return kd_task_over(job->server, job->server->turns, gone, job->deadline_ms, error);
 }
 
-static enum kd_status why_stopped(struct kd_orbits_job *job, struct kd_error *error)
+static bool stopped(void *user)
 {
-    if (kd_clock_ms() > job->deadline_ms)
-        return kd_error_set(error, KD_ETOOBIG, "the integration was given up after %u s, as long as this server lets one take",
-                            job->server->longest_s);
-    return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
+    struct kd_error error;
+    return over(user, &error) != KD_OK;
 }
 
-/* Count the answer's bytes as held, or say that there are too many. */
 static enum kd_status hold(struct kd_orbits_job *job, struct kd_error *error)
 {
     const struct kd_orbit_request *r = &job->request;
@@ -104,13 +101,7 @@ static enum kd_status hold(struct kd_orbits_job *job, struct kd_error *error)
     size_t bytes = job->format == KD_ORBIT_NDJSON ? 2 * FULL : rows * BYTES_PER_SAMPLE + r->n * BYTES_PER_ORBIT;
     if (r->many)
         bytes += kd_orbit_batch_bytes(r);
-    size_t held = atomic_load(&job->server->reply_bytes);
-    do {
-        if (held && held + bytes > KD_REPLIES_MAX)
-            return kd_error_set(error, KD_EBUSY, "too many answers wait for their clients to take them");
-    } while (!atomic_compare_exchange_weak(&job->server->reply_bytes, &held, held + bytes));
-    job->held = bytes;
-    return KD_OK;
+    return kd_task_hold(job->server, bytes, &job->held, error);
 }
 
 static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *error)
@@ -118,8 +109,7 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
     struct kd_buffer *body = &job->owner->body;
     enum kd_status status = kd_orbit_request_json(&job->request, body->data ? (const char *)body->data : "", body->size, error);
     job->malformed = status == KD_EINVAL && !*error->pointer;
-    atomic_fetch_sub(&job->server->body_bytes, body->size);
-    kd_buffer_finish(body);
+    kd_task_drop_body(job->owner);
     if (!status)
         status = hold(job, error);
     if (!status)
@@ -180,16 +170,15 @@ static enum kd_turn take_turn(struct kd_turns_job *turns)
     struct kd_error error = { 0 };
     if (job->state == READING)
         job->queue_ms = (job->begun_ms = kd_clock_ms()) - job->submitted_ms;
-    if (stopped(job)) {
-        enum kd_status status = why_stopped(job, &error);
+    enum kd_status status = over(job, &error);
+    if (status)
         return end(job, status, &error);
-    }
     if (job->state == RUNNING && job->request.many)
         return kd_orbit_feed_help(&job->feed) ? KD_TURN_MORE : KD_TURN_LAST;
     if (job->state == RUNNING)
         return one_piece(job);
     job->state = RUNNING;
-    enum kd_status status = read_body(job, &error);
+    status = read_body(job, &error);
     return status ? end(job, status, &error) : KD_TURN_MORE;
 }
 
@@ -198,7 +187,9 @@ static void done(struct kd_turns_job *turns)
     struct kd_orbits_job *job = (struct kd_orbits_job *)turns;
     struct kd_error error = { 0 };
     if (!job->status && job->request.many) {
-        enum kd_status status = stopped(job) ? why_stopped(job, &error) : kd_orbit_feed_more(&job->feed, &job->out, &error);
+        enum kd_status status = over(job, &error);
+        if (!status)
+            status = kd_orbit_feed_more(&job->feed, &job->out, &error);
         end(job, status, &error);
     }
     pthread_mutex_lock(&job->lock);
@@ -303,10 +294,8 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
 {
     struct kd_server *server = request->server;
     struct kd_orbits_job *job = calloc(1, sizeof *job);
-    if (!job || !request->connection) {
-        free(job);
+    if (!job)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    }
     job->turns.turn = take_turn;
     job->turns.done = done;
     job->server = server;
@@ -329,8 +318,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
 
 enum MHD_Result kd_handle_orbits(struct kd_request *request)
 {
-    struct kd_server *server = request->server;
-    struct kd_error error = { 0 };
+    enum MHD_Result refused;
 
     if (request->orbits)
         return deliver(request);
@@ -342,11 +330,7 @@ enum MHD_Result kd_handle_orbits(struct kd_request *request)
     if (request->target.n_pairs)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_ORBIT,
                                                                 .detail = "parameters belong to the document, not to the query" });
-    if (atomic_load(&server->phase) >= KD_REFUSING)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                                                .retry_after = 1,
-                                                                .detail = "the server is stopping and takes no new orbits" });
-    if (kd_turns_admit(server->turns, &error))
-        return refuse(request, &error, false);
+    if (!kd_task_admit(request, request->server->turns, "orbits", &refused))
+        return refused;
     return submit(request, (enum kd_orbit_format)format);
 }

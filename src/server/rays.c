@@ -1,5 +1,6 @@
 /* POST /v1/rays, from the request to the stream of the answer. */
 #include "server/negotiate.h"
+#include "server/rays_work.h"
 #include "server/reply.h"
 
 #include <math.h>
@@ -12,17 +13,6 @@
 #define BLOCK (64u << 10) /* of the answer made at a time, some tenths of a millisecond */
 #define TEXT_PER_RAY 180  /* bytes, without its crossings; a guess for the deadline of taking the answer */
 #define TEXT_PER_CROSSING 110
-
-void kd_rays_job_destroy(struct kd_rays_job *job)
-{
-    if (!job)
-        return;
-    struct kd_request *request = job->user;
-    atomic_fetch_sub(&request->server->reply_bytes, job->held);
-    kd_rays_request_finish(&job->request);
-    kd_rays_answer_finish(&job->answer);
-    free(job);
-}
 
 /* The answer on its way out; it outlives the request where a client takes it slowly. */
 struct outgoing {
@@ -51,14 +41,14 @@ static void release(void *cls)
 
 static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_format format)
 {
-    struct kd_rays_job *job = request->rays;
+    struct kd_rays_job *job = (struct kd_rays_job *)request->task;
     struct outgoing *out = calloc(1, sizeof *out);
     if (!out)
         return NULL;
     out->server = request->server;
-    out->held = job->held;
+    out->held = job->task.held;
     out->answer = job->answer;
-    job->held = 0;
+    job->task.held = 0;
     job->answer = (struct kd_rays_answer) { 0 };
     if (!kd_rays_stream_init(&out->stream, &out->answer, format, NULL))
         return out;
@@ -72,8 +62,8 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
     struct kd_buffer text = { 0 };
     char timing[120], accuracy[160];
     const char *sentence;
-    snprintf(timing, sizeof timing, "queue;dur=%.3f, read;dur=%.3f, trace;dur=%.3f", job->queue_ms, job->read_ms,
-             job->trace_ms);
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, read;dur=%.3f, trace;dur=%.3f",
+             job->task.begun_ms - job->task.submitted_ms, job->read_ms, job->trace_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
     MHD_add_response_header(response, "Vary", "Accept");
     int n = snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s steps=%u undecided=%zu", answer->n,
@@ -101,32 +91,21 @@ static int choose_format(struct kd_request *request)
     return npy > json ? KD_RAYS_NPY : json ? KD_RAYS_JSON : -1;
 }
 
-/* In seconds, until what is accepted now should be done. */
-static unsigned retry_after(struct kd_server *server)
-{
-    double s = ceil(kd_rays_queue_backlog_ms(server->rays) * 1e-3);
-    return s < 1 ? 1 : s > 120 ? 120 : (unsigned)s;
-}
-
-static enum MHD_Result refuse(struct kd_request *request, struct kd_error *error, bool malformed)
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed)
 {
     struct kd_problem problem = kd_problem_from(error);
     if (error->status == KD_EINVAL)
         problem.type = malformed ? KD_PROBLEM_MALFORMED_JSON : KD_PROBLEM_INVALID_RAYS;
-    if (error->status == KD_EBUSY)
-        problem.retry_after = retry_after(request->server);
     return kd_reply_problem(request, &problem);
 }
 
 static enum MHD_Result deliver(struct kd_request *request)
 {
-    struct kd_rays_job *job = request->rays;
-    if (job->status == KD_ECANCELLED)
+    struct kd_rays_job *job = (struct kd_rays_job *)request->task;
+    if (job->task.status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
-    if (job->status) {
-        job->error.status = job->status;
-        return refuse(request, &job->error, job->malformed);
-    }
+    if (job->task.status)
+        return refuse(request, &job->task.error, job->malformed);
     enum kd_rays_format format = (enum kd_rays_format)choose_format(request);
     struct outgoing *out = take_answer(request, format);
     if (!out)
@@ -144,20 +123,6 @@ static enum MHD_Result deliver(struct kd_request *request)
     MHD_add_response_header(response, "Content-Type", format == KD_RAYS_NPY ? KD_NPY_TYPE : JSON_TYPE);
     describe(response, job, &out->answer);
     return kd_reply_send(request, MHD_HTTP_OK, response);
-}
-
-/* On a worker: the request is suspended, so its body is nobody else's. */
-static void body_read(struct kd_rays_job *job)
-{
-    struct kd_request *request = job->user;
-    atomic_fetch_sub(&request->server->body_bytes, request->body.size);
-    kd_buffer_finish(&request->body);
-}
-
-static void wake(struct kd_rays_job *job)
-{
-    struct kd_request *request = job->user;
-    MHD_resume_connection(request->mhd);
 }
 
 /* Parameters that an array has no place for; a JSON body has a place for all of them. */
@@ -179,50 +144,13 @@ static enum kd_status read_query(const struct kd_target *target, bool npy, struc
     return status;
 }
 
-static bool admitted(struct kd_request *request, struct kd_problem *problem, struct kd_error *error)
-{
-    struct kd_server *server = request->server;
-    *problem = (struct kd_problem) { .type = KD_PROBLEM_STOPPING,
-                                     .retry_after = 1,
-                                     .detail = "the server is stopping and takes no new requests for rays" };
-    if (atomic_load(&server->phase) >= KD_REFUSING)
-        return false;
-    if (!kd_rays_queue_admit(server->rays, error))
-        return true;
-    *problem = kd_problem_from(error);
-    problem->retry_after = retry_after(server);
-    return false;
-}
-
-static enum MHD_Result submit(struct kd_request *request, const struct kd_rays_request *rays, bool npy)
-{
-    struct kd_rays_job *job = calloc(1, sizeof *job);
-    if (!job || !request->connection) {
-        free(job);
-        return kd_reply_problem(request,
-                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    }
-    job->request = *rays;
-    job->npy = npy;
-    job->body = &request->body;
-    job->socket = kd_connection_socket(request->connection);
-    job->read = body_read;
-    job->done = wake;
-    job->user = request;
-    request->rays = job;
-    /* First: a job may be done before push returns. Suspended, the request and its socket outlive the job. */
-    MHD_suspend_connection(request->mhd);
-    kd_rays_queue_push(request->server->rays, job);
-    return MHD_YES;
-}
-
 enum MHD_Result kd_handle_rays(struct kd_request *request)
 {
     struct kd_rays_request rays;
-    struct kd_problem problem;
     struct kd_error error = { 0 };
+    enum MHD_Result refused;
 
-    if (request->rays)
+    if (request->task)
         return deliver(request);
     if (choose_format(request) < 0)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
@@ -232,7 +160,13 @@ enum MHD_Result kd_handle_rays(struct kd_request *request)
     kd_rays_request_init(&rays);
     if (read_query(&request->target, npy, &rays, &error))
         return refuse(request, &error, false);
-    if (!admitted(request, &problem, &error))
-        return kd_reply_problem(request, &problem);
-    return submit(request, &rays, npy);
+    if (!kd_task_admit(request, request->server->rays, "requests for rays", &refused))
+        return refused;
+    struct kd_rays_job *job = kd_rays_job_create(request);
+    if (!job)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    job->request = rays;
+    job->npy = npy;
+    request->task = &job->task;
+    return kd_task_submit(&job->task);
 }

@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "orbit/request.h"
+#include "render/rays_request.h"
 #include "server/clock.h"
 #include "server/negotiate.h"
 #include "server/orbits.h"
@@ -87,7 +88,6 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
         kd_frame_finish(&request->job->frame);
         free(request->job);
     }
-    kd_rays_job_destroy(request->rays);
     kd_orbits_job_abandon(request->orbits);
     kd_particles_job_destroy(request->particles);
     kd_task_destroy(request->task);

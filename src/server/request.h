@@ -21,7 +21,6 @@ struct kd_request {
     bool head, begun, body_announced, close;
     struct kd_buffer body;
     struct kd_render_job *job; /* of a render under way; owned */
-    struct kd_rays_job *rays;  /* of a request for rays under way; owned */
     struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
     struct kd_particles_job *particles; /* of particles being listed; owned */
     struct kd_task *task;      /* of what workers compute; owned */
@@ -32,7 +31,6 @@ struct kd_request {
     unsigned status; /* of the reply, for the log */
 };
 
-void kd_rays_job_destroy(struct kd_rays_job *job);       /* rays.c; accepts NULL */
 void kd_particles_job_destroy(struct kd_particles_job *job); /* session_particles.c; accepts NULL */
 
 void kd_live_abandon(struct kd_request *request);  /* live.c: nobody waits for a frame any more */

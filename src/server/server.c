@@ -118,8 +118,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         return status;
     }
     set_etag_tail(server);
-    status = kd_rays_queue_create(or_default(params->queue, 16), server->renders, &server->reply_bytes, KD_REPLIES_MAX,
-                                  &server->rays, error);
+    status = kd_turns_create(or_default(params->queue, 16), &server->rays, error);
     if (!status)
         status = kd_turns_create(or_default(params->queue, 16), &server->turns, error);
     if (status) {
@@ -205,7 +204,7 @@ void kd_server_destroy(struct kd_server *server)
     if (server->jobs)
         kd_jobs_close(server->jobs);
     kd_turns_destroy(server->turns);
-    kd_rays_queue_destroy(server->rays);
+    kd_turns_destroy(server->rays);
     kd_render_queue_destroy(server->renders);
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);

@@ -1,13 +1,12 @@
 /* What the parts of the HTTP service share. Private to src/server.
  *
  * Threads: libmicrohttpd's one thread runs every request handler; the render queue has its render thread and
- * encoders, the queue of ray requests its workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
+ * encoders, those who take turns (turns.h) their workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
 #ifndef KD_SERVER_SERVICE_H
 #define KD_SERVER_SERVICE_H
 
 #include "server/connections.h"
 #include "server/jobs.h"
-#include "server/rays_queue.h"
 #include "server/render_queue.h"
 #include "server/server.h"
 #include "server/turns.h"
@@ -48,8 +47,8 @@ struct kd_server {
     unsigned drain_ms, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
-    struct kd_rays_queue *rays;
-    struct kd_turns *turns; /* orbits, long quantities */
+    struct kd_turns *rays;  /* requests for them */
+    struct kd_turns *turns; /* orbits, long quantities, jobs being checked */
     struct kd_sessions *sessions;
     struct kd_jobs *jobs;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */

@@ -7,9 +7,9 @@
 
 #define TURN_MS 10.
 
-enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, int socket, double deadline_ms, struct kd_error *error)
+enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms, struct kd_error *error)
 {
-    if (kd_turns_cancelled(queue) || kd_socket_abandoned(socket))
+    if (gone || kd_turns_cancelled(queue))
         return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
     if (kd_clock_ms() > deadline_ms)
         return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take", server->longest_s);
@@ -33,8 +33,8 @@ static enum kd_turn take_turn(struct kd_turns_job *turns)
     double now = kd_clock_ms();
     if (!(task->begun_ms > 0))
         task->begun_ms = now;
-    int socket = kd_connection_socket(request->connection);
-    kd_task_fail(task, kd_task_over(request->server, task->queue, socket, task->deadline_ms, &error), &error);
+    bool gone = kd_socket_abandoned(kd_connection_socket(request->connection));
+    kd_task_fail(task, kd_task_over(request->server, task->queue, gone, task->deadline_ms, &error), &error);
     return task->status ? KD_TURN_LAST : task->work(task, now + TURN_MS);
 }
 

@@ -35,8 +35,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
 /* HTTP thread, after kd_task_admit. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
-/* Why one must end that was begun then and may go on until then; KD_OK: it need not. Any thread. */
-enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, int socket, double deadline_ms, struct kd_error *error);
+/* Why one must end now whose client may have gone, and which may go on until then; KD_OK: it need not. Any thread. */
+enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms, struct kd_error *error);
 /* Count bytes of an answer as held, to be subtracted from server->reply_bytes by whoever holds them; KD_EBUSY: too many are. */
 enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held, struct kd_error *error);
 /* The body is not needed any more. While the request is suspended it is nobody else's. */

@@ -53,13 +53,14 @@ static void unpark(struct kd_turns *turns, struct kd_turns_job *job)
     append(turns, job);
 }
 
-static void park(struct kd_turns *turns, struct kd_turns_job *job)
+static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
 {
-    if (job->woken || atomic_load(&turns->cancel)) {
+    if (job->woken || (atomic_load(&turns->cancel) && !away)) {
         append(turns, job);
         return;
     }
     job->parked = true;
+    job->away = away;
     job->next = turns->parked;
     turns->parked = job;
 }
@@ -80,8 +81,8 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
         job->over = true;
     if (job->over)
         take_out(turns, job);
-    else if (turn == KD_TURN_PARK)
-        park(turns, job);
+    else if (turn == KD_TURN_PARK || turn == KD_TURN_AWAY)
+        park(turns, job, turn == KD_TURN_AWAY);
     else
         append(turns, job);
     if (!job->over || job->workers)
@@ -185,8 +186,11 @@ void kd_turns_cancel(struct kd_turns *turns)
 {
     pthread_mutex_lock(&turns->lock);
     atomic_store(&turns->cancel, true);
-    while (turns->parked)
-        unpark(turns, turns->parked);
+    for (struct kd_turns_job *job = turns->parked, *next; job; job = next) {
+        next = job->next;
+        if (!job->away)
+            unpark(turns, job);
+    }
     pthread_mutex_unlock(&turns->lock);
 }
 

@@ -8,7 +8,8 @@
 
 enum kd_turn {
     KD_TURN_MORE, /* there is another piece */
-    KD_TURN_PARK, /* there is, but not before kd_turns_wake */
+    KD_TURN_PARK, /* there is, but not before kd_turns_wake, or kd_turns_cancel */
+    KD_TURN_AWAY, /* there is, but not before kd_turns_wake: somebody else has it meanwhile */
     KD_TURN_LAST, /* nothing is left to begin */
 };
 
@@ -18,7 +19,7 @@ struct kd_turns_job {
     bool shared;                                    /* several workers at once from the next turn on; a turn may set it */
     /* the queue's own */
     struct kd_turns_job *next;
-    bool listed, parked, woken, over;
+    bool listed, parked, away, woken, over;
     unsigned workers;
 };
 
@@ -36,7 +37,7 @@ void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job);
 void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job);
 unsigned kd_turns_unfinished(struct kd_turns *turns);
 
-/* From now on kd_turns_cancelled holds, which jobs look at in their turns, and nothing stays parked. Any thread. */
+/* From now on kd_turns_cancelled holds, which jobs look at in their turns, and nothing stays parked but what is away. Any thread. */
 void kd_turns_cancel(struct kd_turns *turns);
 bool kd_turns_cancelled(struct kd_turns *turns);
 
