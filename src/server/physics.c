@@ -62,14 +62,9 @@ static enum form accepted(struct kd_request *request, const struct kd_quantity *
 static enum kd_status read_query(const struct kd_target *target, struct kd_quantity_request *quantity, enum form *form,
                                  struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
+    enum kd_status status = kd_target_distinct(target, error);
     for (size_t i = 0; i < target->n_pairs && !status; i++) {
         const char *name = target->pairs[i].name, *value = target->pairs[i].value;
-        for (size_t k = 0; k < i && !status; k++)
-            if (!strcmp(target->pairs[k].name, name))
-                status = kd_error_field(error, "", "the query gives %.100s twice", name);
-        if (status)
-            break;
         if (strcmp(name, "format"))
             status = kd_quantity_request_set(quantity, name, value, error);
         else if (!strcmp(value, "json") || !strcmp(value, "csv") || !strcmp(value, "wav"))

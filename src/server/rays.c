@@ -129,18 +129,12 @@ static enum MHD_Result deliver(struct kd_request *request)
 static enum kd_status read_query(const struct kd_target *target, bool npy, struct kd_rays_request *request,
                                  struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
-    for (size_t i = 0; i < target->n_pairs && !status; i++) {
-        const char *name = target->pairs[i].name;
-        for (size_t k = 0; k < i && !status; k++)
-            if (!strcmp(target->pairs[k].name, name))
-                status = kd_error_field(error, "", "the query gives %.100s twice", name);
-        if (!status && !npy)
-            status = kd_error_field(error, "", "the query may hold parameters beside a body of " KD_NPY_TYPE
-                                    " only; in JSON they belong to the document");
-        if (!status)
-            status = kd_rays_request_set(request, name, target->pairs[i].value, error);
-    }
+    enum kd_status status = kd_target_distinct(target, error);
+    if (!status && target->n_pairs && !npy)
+        status = kd_error_field(error, "", "the query may hold parameters beside a body of " KD_NPY_TYPE
+                                " only; in JSON they belong to the document");
+    for (size_t i = 0; i < target->n_pairs && !status; i++)
+        status = kd_rays_request_set(request, target->pairs[i].name, target->pairs[i].value, error);
     return status;
 }
 

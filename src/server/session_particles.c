@@ -123,15 +123,9 @@ static enum kd_status allocate(struct kd_particles_job *job, struct kd_error *er
 
 static enum kd_status read_query(const struct kd_target *target, struct kd_particle_list *list, struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
-    for (size_t i = 0; i < target->n_pairs && !status; i++) {
-        const char *name = target->pairs[i].name;
-        for (size_t k = 0; k < i && !status; k++)
-            if (!strcmp(target->pairs[k].name, name))
-                status = kd_error_field(error, "", "the query gives %.100s twice", name);
-        if (!status)
-            status = kd_particle_list_set(list, name, target->pairs[i].value, error);
-    }
+    enum kd_status status = kd_target_distinct(target, error);
+    for (size_t i = 0; i < target->n_pairs && !status; i++)
+        status = kd_particle_list_set(list, target->pairs[i].name, target->pairs[i].value, error);
     return status ? status : kd_particle_list_settle(list, BYTES_MAX, error);
 }
 

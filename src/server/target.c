@@ -95,6 +95,15 @@ const char *kd_target_value(const struct kd_target *target, const char *name)
     return NULL;
 }
 
+enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error)
+{
+    for (size_t i = 1; i < target->n_pairs; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(target->pairs[k].name, target->pairs[i].name))
+                return kd_error_field(error, "", "the query gives %.100s twice", target->pairs[i].name);
+    return KD_OK;
+}
+
 bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out)
 {
     const char *text = kd_target_value(target, name);

@@ -25,6 +25,8 @@ struct kd_target {
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
 void kd_target_finish(struct kd_target *target);
 
+/* KD_EINVAL: the query gives one twice. */
+enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
 /* A parameter of the query, NULL: it is not given. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
 /* The same as a whole number, or what holds without it; false: it is not one, or above most. */
