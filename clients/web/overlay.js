@@ -1,7 +1,7 @@
-// Lines over the picture. Each is made of numbers of /v1/physics, at infinity where the image plane is that of the numbers;
+// Lines over the picture. Each is made of numbers of /v1/physics: places on the image plane, or directions from a camera that is near;
 // what is done with them here is to look through the camera at them.
 import { byId, el, latest, svg } from './dom.js';
-import { number, t } from './i18n.js';
+import { number, t, tell } from './i18n.js';
 import { physics } from './server.js';
 import * as link from './link.js';
 
@@ -42,14 +42,17 @@ const path = (points, closed) => {
 };
 
 const at_infinity = scene => scene.get('camera.r') === 'infinity';
-const hole = scene => ({ spin: scene.get('spacetime.spin'), inclination_deg: scene.get('camera.inclination_deg') });
+const hole = scene => ({
+  spin: scene.get('spacetime.spin'),
+  inclination_deg: scene.get('camera.inclination_deg'),
+  ...(at_infinity(scene) ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer') }),
+});
 
 async function shadow(scene, look) {
   const far = at_infinity(scene);
   const { values: v } = await physics('shadow', {
     ...hole(scene),
     angle_deg: '0:358:180',
-    ...(far ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer') }),
   });
   const points = far
     ? v.alpha.map((alpha, i) => look.plane(alpha, v.beta[i]))
@@ -64,20 +67,29 @@ async function shadow(scene, look) {
   };
 }
 
+// Why a circle has no image to draw.
+const refusals = {
+  '/r': t(
+    'light of this circle does not reach this camera from further in: drawn for cameras well outside it',
+    'la luce di questo cerchio non arriva a questa camera da più vicino al buco: si disegna per camere ben fuori da esso',
+  ),
+  '/inclination_deg': t('a line, seen from the plane itself', 'una linea, vista dal piano stesso'),
+};
+
 // The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it is seen far spread, more points are asked for.
 async function circle(scene, look, r, order = 0) {
-  if (!at_infinity(scene)) throw new Error(t('drawn for a camera at infinity', 'si disegna con la camera all’infinito'));
-  const ask = async phi_deg => {
-    const { parameters, values: v } = await physics('redshift', { ...hole(scene), r, phi_deg });
-    const [alpha, beta] = order ? [v.alpha_1, v.beta_1] : [v.alpha, v.beta];
-    return alpha.map((a, i) => ({ phi: parameters.phi_deg[i], at: a == null ? null : look.plane(a, beta[i]) }));
+  const far = at_infinity(scene);
+  const ask = async angle_deg => {
+    const { parameters, values: v } = await physics('ring-image', { ...hole(scene), r, order, angle_deg });
+    const seen = i => (far ? look.plane(v.alpha[i], v.beta[i]) : look.direction(v.inwards[i], v.right[i], v.up[i]));
+    return parameters.angle_deg.map((angle, i) => ({ angle, at: seen(i) }));
   };
   const rough = await ask('0:360:121'),
     fine = [];
   for (const [i, here] of rough.entries()) {
     const next = rough[i + 1],
       gap = here.at && next?.at ? Math.hypot(next.at[0] - here.at[0], next.at[1] - here.at[1]) : 0;
-    fine.push(...(gap > 12 ? (await ask(`${here.phi}:${next.phi}:${Math.min(Math.ceil(gap / 6), 40)}`)).slice(0, -1) : [here]));
+    fine.push(...(gap > 12 ? (await ask(`${here.angle}:${next.angle}:${Math.min(Math.ceil(gap / 6), 40)}`)).slice(0, -1) : [here]));
   }
   return path(fine.map(point => point.at));
 }
@@ -184,7 +196,7 @@ export function buildOverlays(root, stage, scene) {
       look = camera(scene, width, height),
       groups = [];
     for (const [name, make] of overlays) {
-      notes.get(name).textContent = '';
+      tell(notes.get(name), '');
       if (!chosen.has(name)) continue;
       try {
         if (scene.get('camera.projection') === 'ring') throw new Error(t('not in this projection', 'non in questa proiezione'));
@@ -198,7 +210,7 @@ export function buildOverlays(root, stage, scene) {
         );
         notes.get(name).textContent = words;
       } catch (error) {
-        notes.get(name).textContent = error.message;
+        tell(notes.get(name), refusals[error.pointer] ?? error.message);
       }
     }
     layer.setAttribute('viewBox', `0 0 ${width} ${height}`);

@@ -6,6 +6,7 @@
 
 #define STEP (2 * M_PI / 64) /* of chi from node to node */
 #define LEAST_STEP 1e-5
+#define TABLE 1e-7 /* of ln r: a table needs no more */
 #define TURN 1.0    /* of phi from node to node, at most: near pi its direction would be a guess */
 #define STRETCH 0.2 /* of ln rho, at most: where the image has a corner, beside the axis, phi can make a whole turn */
 
@@ -20,21 +21,21 @@ static void place(const struct kd_ring *ring, double chi, double log_rho, double
 /* ln(r_n/r), or -INFINITY for a ray that is captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
-    struct kd_null_ray ray = { .spin = ring->spin, .radius = INFINITY, .cos_theta = ring->cos_theta,
+    struct kd_null_ray ray = { .spin = ring->spin, .radius = ring->observer_r, .cos_theta = ring->cos_theta,
                                .sin_theta = ring->sin_theta, .orders = ring->order + 1 };
     place(ring, chi, log_rho, &ray.alpha, &ray.beta);
     struct kd_null_path path = kd_null_trace_fast(&ray);
     if (path.crossings <= ring->order)
-        return path.fate == KD_NULL_CAPTURED ? -INFINITY : INFINITY;
+        return path.status != KD_NULL_NO_RAY && path.fate == KD_NULL_CAPTURED ? -INFINITY : INFINITY;
     *crossing = path.crossing[ring->order];
     return log(crossing->r / ring->radius);
 }
 
 /* Towards ln r_n = ln r along chi from a guess: out to where the sign differs, then halved until both ends have a crossing,
- * then by Illinois' rule. Good to 1e-7: it feeds a table. */
-static bool approach(const struct kd_ring *ring, double chi, double *log_rho, struct kd_null_crossing *crossing)
+ * then by Illinois' rule, until |ln r_n/r| is below the bound. */
+static bool approach(const struct kd_ring *ring, double chi, double bound, double *log_rho, struct kd_null_crossing *crossing)
 {
-    double step = 0.02, at = *log_rho, f = mismatch(ring, chi, at, crossing), other, g = f;
+    double h = INFINITY, step = 0.02, at = *log_rho, f = mismatch(ring, chi, at, crossing), other, g = f;
     for (other = at; (f < 0) == (g < 0) && step < 40; step *= 2) {
         at = other, f = g;
         other += f < 0 ? step : -step;
@@ -43,9 +44,9 @@ static bool approach(const struct kd_ring *ring, double chi, double *log_rho, st
     for (int i = 0, side = 0; i < 200 && fabs(other - at) > 1e-15 * fabs(at); i++) {
         bool linear = isfinite(f) && isfinite(g);
         double middle = linear ? (at * g - other * f) / (g - f) : 0.5 * (at + other);
-        double h = mismatch(ring, chi, middle, crossing);
+        h = mismatch(ring, chi, middle, crossing);
         *log_rho = middle;
-        if (fabs(h) < 1e-7)
+        if (fabs(h) < bound)
             return true;
         if ((h < 0) == (f < 0)) {
             at = middle, f = h;
@@ -57,7 +58,7 @@ static bool approach(const struct kd_ring *ring, double chi, double *log_rho, st
             side = 2;
         }
     }
-    return false;
+    return fabs(h) < TABLE; /* what was left was rounding */
 }
 
 /* x less the whole turns that take it nearest to 0. */
@@ -74,7 +75,7 @@ static bool add_node(struct kd_ring *ring, double *step)
         double chi = ring->chi[k] + *step, log_rho = ring->log_rho[k];
         if (chi > 2 * M_PI - 0.5 * LEAST_STEP)
             chi = 2 * M_PI;
-        if (!approach(ring, chi, &log_rho, &crossing))
+        if (!approach(ring, chi, TABLE, &log_rho, &crossing))
             return false;
         double change = turn(crossing.phi - ring->phi[k]);
         bool coarse = fabs(change) > TURN || fabs(log_rho - ring->log_rho[k]) > STRETCH;
@@ -89,14 +90,22 @@ static bool add_node(struct kd_ring *ring, double *step)
     }
 }
 
-bool kd_ring_init(struct kd_ring *ring, double spin, double inclination, double r, int order)
+struct kd_ring kd_ring_plain(double spin, double inclination, double observer_r, double r, int order)
 {
-    *ring = (struct kd_ring) { .spin = spin, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
-                               .flatten = cos(inclination), .radius = r, .order = order };
+    return (struct kd_ring) { .spin = spin, .observer_r = observer_r, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
+                              .flatten = cos(inclination), .radius = r, .order = order };
+}
+
+/* A guess: next to the critical curve, or where the ring would be without lensing. */
+static double around(const struct kd_ring *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
+
+bool kd_ring_init(struct kd_ring *ring, double spin, double inclination, double observer_r, double r, int order)
+{
+    *ring = kd_ring_plain(spin, inclination, observer_r, r, order);
     struct kd_null_crossing crossing;
     double step = STEP;
-    ring->log_rho[0] = log(order ? 5.2 : r + 1);
-    if (!approach(ring, 0, &ring->log_rho[0], &crossing))
+    ring->log_rho[0] = around(ring);
+    if (!approach(ring, 0, TABLE, &ring->log_rho[0], &crossing))
         return false;
     ring->phi[0] = crossing.phi;
     ring->nodes = 1;
@@ -111,7 +120,7 @@ bool kd_ring_init(struct kd_ring *ring, double spin, double inclination, double 
 static bool azimuth(const struct kd_ring *ring, double phi, double chi, double *log_rho, double *miss)
 {
     struct kd_null_crossing crossing;
-    bool found = approach(ring, chi, log_rho, &crossing);
+    bool found = approach(ring, chi, TABLE, log_rho, &crossing);
     *miss = found ? turn(crossing.phi - phi) : NAN;
     return found;
 }
@@ -192,8 +201,24 @@ bool kd_ring_find(const struct kd_ring *ring, double phi, struct kd_ring_point *
     if (!isfinite(size) || !isfinite(mismatch(ring, chi, log_rho, &crossing)))
         return false;
     point->residual = size;
+    point->phi = crossing.phi;
     point->delay = crossing.delay;
     point->sense = crossing.sense;
     place(ring, chi, log_rho, &point->alpha, &point->beta);
     return size <= 1e-8;
+}
+
+bool kd_ring_seen(const struct kd_ring *ring, double chi, struct kd_ring_point *point)
+{
+    struct kd_null_crossing crossing;
+    double log_rho = around(ring);
+    *point = (struct kd_ring_point) { 0 };
+    if (!approach(ring, chi, 1e-12, &log_rho, &crossing))
+        return false;
+    point->phi = crossing.phi;
+    point->delay = crossing.delay;
+    point->sense = crossing.sense;
+    point->residual = log(crossing.r / ring->radius);
+    place(ring, chi, log_rho, &point->alpha, &point->beta);
+    return true;
 }

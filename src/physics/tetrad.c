@@ -33,3 +33,11 @@ struct kd_tetrad kd_tetrad_static(double a, double r, double u, double s)
                                 .p = sqrt(sigma),
                                 .root_delta = sqrt(delta) };
 }
+
+/* alpha = -L/(E sin(theta)) and beta = p_theta/E, with m_phi = -right and m_theta = up, solved for them. */
+struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, double alpha, double beta)
+{
+    double right = (frame->e0 * alpha + frame->l0) / (frame->l1 + frame->e1 * alpha), energy = frame->e0 - frame->e1 * right;
+    double up = beta * energy / frame->p;
+    return (struct kd_look) { right, up, sqrt(fmax(0, 1 - right * right - up * up)), energy };
+}

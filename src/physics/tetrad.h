@@ -19,4 +19,9 @@ struct kd_tetrad kd_tetrad_zamo(double a, double r, double u, double s);
 /* At rest with respect to infinity; outside the ergosphere, else NaN. */
 struct kd_tetrad kd_tetrad_static(double a, double r, double u, double s);
 
+/* Where the photon with the labels alpha, beta of null_geodesic.h is seen that arrives moving outwards: a unit vector, right along
+ * +phi, up along -theta, inwards along -r; what flies along m is seen along -m. energy: at infinity, over the one measured. */
+struct kd_look { double right, up, inwards, energy; };
+struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, double alpha, double beta);
+
 #endif
