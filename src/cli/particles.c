@@ -125,7 +125,8 @@ int kd_cli_particles(int argc, char **argv)
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
         .doc = "Where the particles of a scene are at its time, and how they move, as an NPY array: a record a particle.\v"
-               "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md says what they are.",
+               "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md says what "
+               "they are.",
         .children = children,
     };
     struct arguments arguments = { 0 };

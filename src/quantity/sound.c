@@ -35,7 +35,8 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         snprintf(pointer, sizeof pointer, "/%s", quantity->parameters[i].name);
         if (request->axes[i].count > 1)
-            return kd_error_field(error, pointer, "%s is a range of %zu values, allowed in a sound is one", pointer + 1, request->axes[i].count);
+            return kd_error_field(error, pointer, "%s is a range of %zu values, allowed in a sound is one", pointer + 1,
+                                  request->axes[i].count);
     }
     double t = request->axes[parameter(quantity, "t")].first;
     if (t != 0)
@@ -58,9 +59,10 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
     double low = four_digits(mass * hz / KD_SOUND_HZ_MAX, true), high = four_digits(mass * hz / KD_SOUND_HZ_MIN, false);
     if (hz >= KD_SOUND_HZ_MIN && hz <= KD_SOUND_HZ_MAX)
         return KD_OK;
-    return kd_error_field(error, "/mass_msun", "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are "
-                          "masses from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one", mass, hz, KD_SOUND_HZ_MIN,
-                          KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
+    return kd_error_field(error, "/mass_msun",
+                          "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; heard are %g to %g Hz: allowed are masses "
+                          "from %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f for this one",
+                          mass, hz, KD_SOUND_HZ_MIN, KD_SOUND_HZ_MAX, low, high, ceil(log2(KD_SOUND_HZ_MIN / natural)),
                           floor(log2(KD_SOUND_HZ_MAX / natural)));
 }
 
@@ -106,11 +108,13 @@ static sf_count_t get(void *data, sf_count_t size, void *user)
 static void describe(SNDFILE *file, const struct kd_quantity_answer *answer)
 {
     const struct kd_quantity *quantity = answer->request.quantity;
-    char text[400] = "";
-    for (size_t i = 0; i < quantity->n_parameters; i++)
-        snprintf(text + strlen(text), sizeof text - strlen(text), "%s=%.10g ", quantity->parameters[i].name, answer->request.axes[i].first);
-    for (size_t i = 0; quantity->approximations[i]; i++)
-        snprintf(text + strlen(text), sizeof text - strlen(text), "; %s", quantity->approximations[i]);
+    char text[400];
+    size_t n = 0;
+    for (size_t i = 0; i < quantity->n_parameters && n < sizeof text; i++)
+        n += (size_t)snprintf(text + n, sizeof text - n, "%s%s=%.10g", i ? " " : "", quantity->parameters[i].name,
+                              answer->request.axes[i].first);
+    for (size_t i = 0; quantity->approximations[i] && n < sizeof text; i++)
+        n += (size_t)snprintf(text + n, sizeof text - n, "; %s", quantity->approximations[i]);
     sf_set_string(file, SF_STR_TITLE, quantity->summary);
     sf_set_string(file, SF_STR_COMMENT, text);
 }

@@ -83,8 +83,8 @@ static void fill_spots(struct kd_spot_block *out, const struct kd_scene *scene)
     }
 }
 
-/* 1 + style.ringdown A(t), A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n = 0 from style.ringdown_time on. It is the hole
- * that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings as |a| does. */
+/* 1 + style.ringdown A(t), A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n = 0 from style.ringdown_time on. It is the
+ * hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings as |a| does. */
 static double ringing(const struct kd_scene *scene)
 {
     double t = scene->top.time - scene->style.ringdown_time;

@@ -160,8 +160,8 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
     if (scene->style.ringdown == 0 || fabs(scene->spacetime.spin) <= KD_QNM_SPIN_MAX)
         return KD_OK;
     return kd_error_field(error, "/style/ringdown",
-                          "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of them rings "
-                          "alone", show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
+                          "style.ringdown is %s, allowed is 0 with spacetime.spin %s: beyond %s the modes of a hole crowd and none of "
+                          "them rings alone", show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
 }
 
 /* The rest of what accuracy.* may not say together depends on the device: render/engine.h. */

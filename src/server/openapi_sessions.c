@@ -6,8 +6,9 @@ void kd_openapi_strike_body(cJSON *operation)
 {
     cJSON_AddItemToObject(operation, "requestBody",
                           cJSON_Parse("{\"required\":false,\"content\":{\"application/json\":{\"schema\":{\"type\":\"object\","
-                                      "\"additionalProperties\":false,\"properties\":{\"amplitude\":{\"type\":\"number\",\"minimum\":0,"
-                                      "\"maximum\":1,\"description\":\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}"));
+                                      "\"additionalProperties\":false,\"properties\":{\"amplitude\":{\"type\":\"number\","
+                                      "\"minimum\":0,\"maximum\":1,\"description\":"
+                                      "\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}"));
 }
 
 void kd_openapi_particles_parameters(cJSON *list)
@@ -27,7 +28,8 @@ void kd_openapi_particles_parameters(cJSON *list)
         cJSON_AddItemToArray(list, o);
     }
     cJSON *fields = cJSON_Parse("{\"name\":\"fields\",\"in\":\"query\",\"style\":\"form\",\"explode\":false,\"description\":"
-                                "\"columns of a row; x,y,z without it\",\"schema\":{\"type\":\"array\",\"uniqueItems\":true,\"items\":{}}}");
+                                "\"columns of a row; x,y,z without it\",\"schema\":{\"type\":\"array\",\"uniqueItems\":true,"
+                                "\"items\":{}}}");
     cJSON *schema = cJSON_GetObjectItemCaseSensitive(fields, "schema");
     cJSON *names = cJSON_AddArrayToObject(cJSON_GetObjectItemCaseSensitive(schema, "items"), "enum");
     for (int i = 0; i < KD_PARTICLE_N_COLUMNS; i++)

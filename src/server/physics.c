@@ -95,7 +95,8 @@ static enum MHD_Result unknown(struct kd_request *request)
 static enum kd_status hold(struct job *job, const struct kd_quantity_request *asked, struct kd_error *error)
 {
     size_t numbers = asked->quantity->n_outputs + asked->quantity->n_parameters;
-    size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER) + (job->form == FORM_WAV ? KD_SOUND_BYTES : 0);
+    size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER);
+    bytes += job->form == FORM_WAV ? KD_SOUND_BYTES : 0;
     return kd_task_hold(job->task.request->server, bytes, &job->task.held, error);
 }
 
@@ -136,9 +137,9 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (task->status)
         return refuse(request, &task->error);
     request->reply_bytes = job->text.size;
+    const char *type = job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE;
     struct MHD_Response *response =
-        job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE)
-                              : kd_reply_text(request, &job->text, job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : JSON_TYPE);
+        job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE) : kd_reply_text(request, &job->text, type);
     if (!response)
         return MHD_NO;
     snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms,
@@ -193,7 +194,8 @@ enum MHD_Result kd_handle_quantity(struct kd_request *request)
     if (form == FORM_NONE) {
         char detail[80];
         snprintf(detail, sizeof detail, "%s is offered as %s", quantity->name, offered(quantity));
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity), .detail = detail });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered(quantity),
+                                                                .detail = detail });
     }
     return begin(request, &asked, form);
 }

@@ -103,7 +103,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (!response)
         return MHD_NO;
     describe(response, &job->list);
-    snprintf(timing, sizeof timing, "queue;dur=%.3f, particles;dur=%.3f", kd_clock_ms() - job->begun_ms - job->spent_ms, job->spent_ms);
+    double waited_ms = kd_clock_ms() - job->begun_ms - job->spent_ms;
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, particles;dur=%.3f", waited_ms, job->spent_ms);
     MHD_add_response_header(response, "Server-Timing", timing);
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
@@ -142,7 +143,9 @@ static enum MHD_Result submit(struct kd_request *request)
         return refuse(request, &error);
     kd_render_queue_capacity(server->renders, &capacity);
     job->begun_ms = kd_clock_ms();
-    job->device = (struct kd_render_job) { .run = list_slice, .sliced = true, .socket = kd_connection_socket(request->connection), .done = slice_done };
+    job->device = (struct kd_render_job) {
+        .run = list_slice, .sliced = true, .socket = kd_connection_socket(request->connection), .done = slice_done,
+    };
     job->device.plan.estimate_ms = (double)slice_of(job) * capacity.ns_per_particle * 1e-6;
     /* First: it may be done before push returns. Suspended, the request and its socket outlive the job. */
     MHD_suspend_connection(request->mhd);
@@ -168,7 +171,8 @@ enum MHD_Result kd_handle_session_particles(struct kd_request *request)
     request->particles = job;
     job->request = request;
     if (kd_particle_list_init(&job->list, &state.scene, &error))
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = error.pointer, .detail = error.message });
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = error.pointer,
+                                                                .detail = error.message });
     if (read_query(&request->target, &job->list, &error))
         return refuse(request, &error);
     if (!request->head)

@@ -195,8 +195,8 @@ static enum MHD_Result strike(struct kd_request *request, struct kd_session *ses
     if (rate > 0)
         return patch(request, session, text, strlen(text));
     kd_number_format(time, rate);
-    snprintf(detail, sizeof detail, "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what rings, "
-             "rings as time goes on", time);
+    snprintf(detail, sizeof detail, "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what "
+             "rings, rings as time goes on", time);
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = "/motion/time_rate",
                                                             .detail = detail });
 }

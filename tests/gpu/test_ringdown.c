@@ -75,7 +75,8 @@ static void follow(const char *name, struct kd_scene scene)
     assert_memory_equal(rung.pixels, direct.pixels, 2 * samples(&direct));
     kd_frame_finish(&rung);
     for (size_t k = 0; k < 2 * sizeof times / sizeof *times; k++) {
-        double t = times[k / 2], amplitude = amplitudes[k % 2], gain = 1 + amplitude * expected(scene.spacetime.spin, t), sum = 0, squares = 0;
+        double t = times[k / 2], amplitude = amplitudes[k % 2], sum = 0, squares = 0;
+        double gain = 1 + amplitude * expected(scene.spacetime.spin, t);
         scene.accuracy.orders = orders;
         scene.top.time = STRUCK + t;
         scene.style.ringdown = 0;
