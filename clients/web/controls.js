@@ -34,7 +34,7 @@ const only = {
     pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
     ring: ['ring_decades_max', 'ring_decades_min'],
   },
-  model: { particles: ['particles', 'seed', 'density_index', 'epicycles'] },
+  model: { particles: ['particles', 'seed', 'density_index', 'plunging', 'plunging_temperature', 'epicycles'] },
 };
 const open = ['spacetime', 'camera'];
 const living = ['time', 'motion.time_rate', 'disk.particles', 'disk.seed']; // stand beside what starts and stops time

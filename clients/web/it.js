@@ -121,6 +121,14 @@ export const fields = {
     'Indice di densità',
     'Le particelle per area calano come r a questa potenza; 2 ne mette altrettante in ogni ottava di r (modello: particelle)',
   ],
+  'disk.plunging': [
+    'Caduta',
+    'Quota delle particelle che cadono dall’ISCO con la sua energia e il suo momento angolare; nessuna se disk.inner non è "isco" (modello: particelle)',
+  ],
+  'disk.plunging_temperature': [
+    'Temperatura della caduta',
+    'Temperatura del gas che cade, rispetto alla massima del disco; 0: non si vede (modello: particelle)',
+  ],
   'disk.epicycles': [
     'Epicicli',
     'Massime oscillazioni in latitudine, in radianti, e in r su r, queste ultime per (κ/Ω)², che si annulla all’ISCO (modello: particelle)',
@@ -235,6 +243,8 @@ export const sentences = {
     'particelle: luce veloce: tutto il disco è mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'particles: over the delay of light they go round on their guiding circles':
     'particelle: nel ritardo della luce girano sui loro cerchi guida',
+  "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is its surface density over the disk's at the ISCO; no stress, no heating":
+    'particelle: dentro l’ISCO il gas cade libero con la sua E e il suo L; grigio, di una sola temperatura scelta, con profondità ottica pari alla sua densità superficiale su quella del disco all’ISCO; niente sforzi, niente riscaldamento',
   'colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance':
     'colore: i corpi neri fuori dal gamut sRGB sono portati al suo bordo a pari luminanza',
   "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time":

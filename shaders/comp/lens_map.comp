@@ -5,8 +5,8 @@
  * period is STEPS equal steps of the radial equation, the same for every ray, without a search and without divergence.
  * From the last crossing before it escapes, a ray goes on with the full vector equation of the angles.
  *
- * Planes: w of each order (0: none); with PHI the azimuth of each; with SKY cos(theta) and phi of the escape, and the fate.
- * Azimuths are source minus observer. */
+ * Planes: w of each order (0: none); with PHI the azimuth of each; with FALL w' of each; with SKY cos(theta) and phi of the
+ * escape, and the fate. Azimuths are source minus observer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
@@ -23,6 +23,7 @@ layout(constant_id = 1) const uint STEPS = 8; /* a half period; a multiple of 4 
 layout(constant_id = 2) const bool FINITE = false;
 layout(constant_id = 3) const bool PHI = false;
 layout(constant_id = 4) const bool SKY = false;
+layout(constant_id = 6) const bool FALL = false;
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -63,7 +64,8 @@ void main()
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses;
     float h = polar.first * (1.0 / float(STEPS));
-    for (uint n = 0; n < (PHI ? 2 * ORDERS : ORDERS); n++)
+    const uint falls = PHI ? 2 * ORDERS : ORDERS, planes = falls + (FALL ? ORDERS : 0);
+    for (uint n = 0; n < planes; n++)
         lens[at + n * cam.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
@@ -94,6 +96,8 @@ void main()
             lens[at + n * cam.stride] = y.w;
             if (PHI)
                 lens[at + (ORDERS + n) * cam.stride] = -(psi + chi + fall);
+            if (FALL)
+                lens[at + (falls + n) * cam.stride] = y.dw;
             if (SKY) {
                 above = -above;
                 last = kd_path_crossing(m, y, psi, chi + fall, above);
@@ -107,7 +111,7 @@ void main()
         kd_escape end = kd_path_escape(m, ray, last);
         if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
             end.fate = KD_FATE_UNDECIDED;
-        at += (PHI ? 2 * ORDERS : ORDERS) * cam.stride;
+        at += planes * cam.stride;
         lens[at] = end.u;
         lens[at + cam.stride] = -end.phi;
         lens[at + 2 * cam.stride] = end.fate;

@@ -2,7 +2,7 @@
  *
  * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four nodes around it.
  * A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its neighbour on the right, so that
- * two additions do. */
+ * two additions do. Those that fall are laid out by phase and by azimuth at the ISCO (src/render/plunging.h). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "interface.h"
@@ -11,6 +11,7 @@
 
 layout(constant_id = 0) const bool SWING = true; /* there are epicycles */
 layout(constant_id = 1) const bool LIST = false;
+layout(constant_id = 2) const bool PLUNGE = false; /* those at hand fall; of a list those with low numbers */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -30,17 +31,37 @@ kd_turn swing(uint random, uint phase)
     return t;
 }
 
-void share_out(float row, uint phi)
+/* On the grid from word `first`. */
+void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
 {
-    if (row < 0.0 || row > float(push.rows)) /* beyond the edge for now */
+    if (row < 0.0 || row > float(rows)) /* beyond the edge for now */
         return;
-    uint i = min(uint(row), push.rows - 1), j = phi >> (32 - push.columns_log2);
+    uint i = min(uint(row), rows - 1), j = phi >> (32 - columns_log2);
     uint upper = uint((row - float(i)) * float(push.unit) + 0.5), lower = push.unit - upper;
-    float right = float((phi << push.columns_log2) >> 8) * (1.0 / 16777216.0);
+    float right = float((phi << columns_log2) >> 8) * (1.0 / 16777216.0);
     uint lower_right = uint(float(lower) * right + 0.5), upper_right = uint(float(upper) * right + 0.5);
-    uint at = (i << push.columns_log2) + j;
+    uint at = first + (i << columns_log2) + j;
     atomicAdd(grid[at], (lower - lower_right) | lower_right << 16);
-    atomicAdd(grid[at + (1 << push.columns_log2)], (upper - upper_right) | upper_right << 16);
+    atomicAdd(grid[at + (1 << columns_log2)], (upper - upper_right) | upper_right << 16);
+}
+
+/* One that falls is back at its start when it is at its end, on another lap and so at another azimuth. Beyond the ends of the
+ * curve its grid, as far as it reaches, holds those of the laps before and after. */
+uint launch(uint random, uint lap) { return kd_hash(random + kd_hash(lap)) + push.turn; }
+
+void plunge(uint random, uint n)
+{
+    uint own = kd_hash(random + 0x9e3779b9u), phase = own + push.phase, lap = push.lap + (phase < own ? 1 : 0);
+    if (LIST) {
+        grid[3 * n] = phase;
+        grid[3 * n + 1] = launch(random, lap);
+        grid[3 * n + 2] = 0;
+        return;
+    }
+    uint back = (push.lead_rows + push.lap_rows - 1) / push.lap_rows;
+    float row = float(push.lead_rows) + (float(phase >> 8) * (1.0 / 16777216.0) - float(back)) * float(push.lap_rows);
+    for (lap += back; row <= float(push.plunge_rows); row += float(push.lap_rows), lap--)
+        share_out(row, launch(random, lap), push.plunge_at, push.plunge_rows, push.plunge_columns_log2);
 }
 
 void main()
@@ -48,9 +69,13 @@ void main()
     uint n = gl_GlobalInvocationID.x;
     if (n >= push.count)
         return;
-    uint i = push.first + n * push.stride, k, low;
-    umulExtended(2 * i + 1, push.per_particle, k, low); /* equal shares, in order of radius: neighbours meet on the grid */
-    uint random = kd_hash(i ^ push.key), phi = random + guides[k].phi;
+    uint i = push.first + n * push.stride, k, low, random = kd_hash(i ^ push.key);
+    if (PLUNGE && (!LIST || i < push.plunging)) {
+        plunge(random, n);
+        return;
+    }
+    umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low); /* equal shares, in order of radius: neighbours meet on the grid */
+    uint phi = random + guides[k].phi;
     float row = guides[k].row;
     if (SWING) {
         kd_turn t = swing(kd_hash(random + 0x9e3779b9u), guides[k].radial);
@@ -62,6 +87,6 @@ void main()
         grid[3 * n + 1] = phi;
         grid[3 * n + 2] = SWING ? floatBitsToUint(push.tilt * swing(kd_hash(random + 0x3c6ef372u), guides[k].vertical).c) : 0;
     } else {
-        share_out(row, phi);
+        share_out(row, phi, 0, push.rows, push.columns_log2);
     }
 }

@@ -27,6 +27,7 @@ layout(constant_id = 12) const bool PARTICLES = false; /* the grid of particles 
 layout(constant_id = 13) const bool SLOW = false; /* particles and spots as they were when the light left them */
 layout(constant_id = 14) const uint SPOTS = 0;    /* hot spots that are on */
 layout(constant_id = 15) const bool RINGDOWN = false; /* the hole was struck: image orders 1 and up ring */
+layout(constant_id = 16) const bool PLUNGE = false; /* some particles fall from the ISCO; the map holds w' */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -36,10 +37,11 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot { KD_SPOT_FIELDS_(F, U) };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
-    float pad[KD_TRANSFER_HEADER - 16];
+    float pad[KD_TRANSFER_HEADER - 31];
     kd_spot spots[KD_SPOT_MAX];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
+    vec2 plunge_table[KD_PLUNGE_TABLE];
 } tr;
 layout(set = 0, binding = 2) writeonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 3) readonly buffer Density { float density[]; };
@@ -73,49 +75,72 @@ vec4 colour(float log_t)
     return mix(tr.colour_table[k], tr.colour_table[k + 1], place - float(k));
 }
 
-/* Emitted light of the disk at w = 1/r, seen with the ray's constants; alpha: its opacity here. */
-vec4 disk_light(float w, float energy, float momentum)
+/* A black body of t, over the disk's largest temperature. */
+vec3 black_body(float t)
+{
+    vec4 c = colour(tr.log_t_peak + log2(max(t, 1e-20)));
+    float t4 = t * t * t * t;
+    return c.rgb * (VISIBLE ? t4 * exp2(c.w) : t4);
+}
+
+/* What shines at a crossing: its temperature over the disk's largest, as it is seen, and its opacity. */
+struct kd_gas { float t, alpha; };
+
+/* The disk at w = 1/r, seen with the ray's constants. */
+kd_gas disk_gas(float w, float energy, float momentum)
 {
     float r = 1.0 / w;
     if (r < tr.r_in || r > tr.r_out)
-        return vec4(0.0);
+        return kd_gas(0.0, 0.0);
     float y = sqrt(max(1.0 - tr.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
     uint i = min(uint(y), KD_DISK_TABLE - 2);
     float t = mix(tr.disk_table[i], tr.disk_table[i + 1], y - float(i)); /* T r^(3/4) over T_peak */
     float w34 = sqrt(w * sqrt(w));
-    t *= w34;
-
-    t *= shift(w, energy, momentum);
-    vec4 c = colour(tr.log_t_peak + log2(max(t, 1e-20)));
-    float t4 = t * t * t * t;
-    float brightness = VISIBLE ? t4 * exp2(c.w) : t4;
+    t *= w34 * shift(w, energy, momentum);
 
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((tr.r_out - r) / max(tr.r_out - tr.taper_r, 1e-6), 0.0, 1.0);
     float fade = f * f * (3.0 - 2.0 * f);
-    return vec4(c.rgb * brightness, tr.opacity * fade);
+    return kd_gas(t, tr.opacity * fade);
 }
 
-/* The grid at a row and an azimuth in turns. What goes round with the row's Omega was at `turn` a time `ago`, and is ahead now. */
-float density_of_row(uint i, float turn, float ago)
+/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and the one after. */
+struct kd_place { uint first, rows, columns; float row, before, after; };
+
+/* Of the disk. What goes round with a row's Omega was at `turn` a time `ago`, and is ahead now. */
+float ahead(uint row, float ago)
 {
-    if (SLOW) {
-        float r = tr.r_in * exp2(float(i) / tr.rows_octave);
-        turn += ago * (0.5 / KD_PI) / (r * sqrt(r) + cam.spin);
-    }
-    float column = (turn - floor(turn)) * float(tr.columns);
-    uint j = uint(column), at = i * tr.columns;
-    return mix(density[at + (j & (tr.columns - 1))], density[at + ((j + 1) & (tr.columns - 1))], column - float(j));
+    float r = tr.r_in * exp2(float(row) / tr.rows_octave);
+    return ago * (0.5 / KD_PI) / (r * sqrt(r) + cam.spin);
 }
 
-/* Particles at w = 1/r and this azimuth over the number expected: bilinear between the nodes of the grid. */
-float density_at(float w, float phi, float ago)
+kd_place disk_place(float w, float turn, float ago)
 {
     float row = clamp(-log2(w * tr.r_in) * tr.rows_octave, 0.0, float(tr.rows));
-    float turn = (phi + tr.azimuth) * (0.5 / KD_PI);
-    uint i = min(uint(row), tr.rows - 1);
-    return mix(density_of_row(i, turn, ago), density_of_row(i + 1, turn, ago), row - float(i));
+    kd_place o = kd_place(0, tr.rows, tr.columns, row, turn, turn);
+    if (SLOW) {
+        uint i = min(uint(row), tr.rows - 1);
+        o.before += ahead(i, ago);
+        o.after += ahead(i + 1, ago);
+    }
+    return o;
 }
+
+float density_of_row(kd_place at, uint row, float turn)
+{
+    float column = (turn - floor(turn)) * float(at.columns);
+    uint j = uint(column), first = at.first + row * at.columns;
+    return mix(density[first + (j & (at.columns - 1))], density[first + ((j + 1) & (at.columns - 1))], column - float(j));
+}
+
+/* Particles over the number expected: bilinear between the nodes. */
+float density_at(kd_place at)
+{
+    uint i = min(uint(at.row), at.rows - 1);
+    return mix(density_of_row(at, i, at.before), density_of_row(at, i + 1, at.after), at.row - float(i));
+}
+
+#include "plunge.glsl"
 
 /* Hot spots at w = 1/r and this azimuth, whose light left them so long before that which shows spots[].phi; alpha: its luminance.
  * The gas of each place shines, with the g of its own orbit: the figure goes round with its centre, what it is made of shears.
@@ -187,19 +212,32 @@ void main()
                     }
                     if (w <= 0.0)
                         break;
-                    vec4 c = DISK ? disk_light(w, energy, momentum) : vec4(0.0);
+                    kd_gas gas = kd_gas(0.0, 0.0);
+                    if (DISK)
+                        gas = disk_gas(w, energy, momentum);
                     float phi = PARTICLES || SPOTS > 0 ? lens[at + (ORDERS + n) * cam.stride] : 0.0;
                     float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
-                    if (PARTICLES && c.a > 0.0)
-                        c.rgb *= density_at(w, phi, ago);
+                    float number = 1.0; /* of particles, over that expected */
+                    if (PARTICLES) {
+                        float turn = (phi + tr.azimuth) * (0.5 / KD_PI);
+                        kd_place place = disk_place(w, turn, ago);
+                        bool falls = PLUNGE && w >= tr.plunge_first && w <= tr.plunge_last;
+                        if (falls)
+                            place = plunge_place(w, turn, ago);
+                        number = density_at(place);
+                        if (falls) {
+                            gas = plunge_gas(w, lens[at + ((SLOW ? 3 : 2) * ORDERS + n) * cam.stride], energy, momentum, number);
+                            number = 1.0;
+                        }
+                    }
                     float seen = RINGDOWN && n > 0 ? through * tr.ringing : through;
-                    light += seen * c.a * c.rgb;
+                    light += seen * gas.alpha * number * black_body(gas.t);
                     if (SPOTS > 0) { /* in the gas: its own element does not hide it */
                         vec4 spot = seen * spot_light(w, phi, ago, energy, momentum);
                         light += spot.rgb;
                         spots += spot.a;
                     }
-                    through *= 1.0 - c.a;
+                    through *= 1.0 - gas.alpha;
                     if (OPAQUE && through <= 0.0)
                         break;
                 }

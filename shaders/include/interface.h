@@ -36,7 +36,16 @@
     U(rows) U(columns)                    /* of the grid of particles */                                          \
     F(rows_octave)                        /* rows that r doubles in */                                            \
     F(delay)                              /* of the light that shows the grid as it is */                         \
-    F(ringing)                            /* what light of image orders 1 and up is multiplied by */
+    F(ringing)                            /* what light of image orders 1 and up is multiplied by */                    \
+    F(plunge_first) F(plunge_last)        /* w at the start and at the end of the plunge */                       \
+    F(plunge_energy) F(plunge_j)          /* of its gas: E, and L - aE */                                         \
+    F(plunge_temperature)                 /* over the disk's largest */                                           \
+    F(plunge_depth)                       /* optical depth where r |u^r| is 1, of as many particles as expected */ \
+    F(plunge_log) F(plunge_step)          /* of the table: its first place, and entries per unit */               \
+    F(plunge_laps) F(plunge_turns)        /* per M: from start to end; of the orbit at the ISCO */                \
+    U(plunge_at)                          /* the grid of the plunging particles behind the other one's */         \
+    U(plunge_rows) U(plunge_columns)                                                                              \
+    U(lap_rows) U(lead_rows)              /* from start to end; before the start */
 
 /* A hot spot, KD_SPOT_MAX of them behind the header. */
 #define KD_SPOT_FIELDS_(F, U)                                                                                  \
@@ -53,6 +62,7 @@
 #define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
 #define KD_COLOUR_LOG_MIN 6.0 /* 64 K */
 #define KD_COLOUR_LOG_MAX 30.0
+#define KD_PLUNGE_TABLE 512   /* phase and azimuth of the plunge, in turns, against log2 (r_isco - r)/(r - r+) */
 
 /* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
 #define KD_GUIDE_FIELDS_(F, U)                                                                                 \
@@ -65,7 +75,13 @@
     U(per_particle)          /* 2^31 radii/particles */                                                        \
     U(rows) U(columns_log2)                                                                                    \
     U(unit)                  /* weight of one particle */                                                      \
-    F(tilt)                  /* largest latitude, radians */
+    F(tilt)                  /* largest latitude, radians */                                                   \
+    U(plunging)              /* the first of all particles do, and this is how many */                         \
+    U(lap) U(phase)          /* of a plunge that began at time 0: whole ones, and turns of 2^32 */              \
+    U(turn)                  /* of the orbit at the ISCO */                                                    \
+    U(plunge_at)             /* their grid in the buffer of both */                                            \
+    U(plunge_rows) U(plunge_columns_log2)                                                                      \
+    U(lap_rows) U(lead_rows) /* as in the transfer kernel */
 
 #define KD_POST_FIELDS_(F, U)                                                                                  \
     F(gain)                  /* 2^exposure */                                                                  \

@@ -112,12 +112,12 @@ void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, 
     double x = px - c->middle_x, y = c->middle_y - py;
     double kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
     if (c->w0 == 0) {
-        *out = (struct kd_camera_label) { .alpha = kx, .beta = ky };
+        *out = (struct kd_camera_label) { .alpha = kx, .beta = ky, .energy = 1 };
         return;
     }
     double kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
     double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi;
     *out = (struct kd_camera_label) {
-        .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0,
+        .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0, .energy = energy,
     };
 }

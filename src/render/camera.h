@@ -24,6 +24,7 @@ double kd_camera_pixel(const struct kd_scene *scene);
 struct kd_camera_label {
     double alpha, beta;
     bool outward; /* at a finite radius: the traced ray starts away from the hole */
+    double energy; /* at infinity, per unit that the observer measures */
 };
 void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);
 

@@ -85,19 +85,19 @@ static enum kd_status trace_kernel(struct job *j, const struct kd_vk_pipeline **
     if (status)
         return status;
     const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t constants[] = { p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method };
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 6, out, j->error);
+    const uint32_t constants[] = { p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method, p->fall };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 7, out, j->error);
 }
 
 static enum kd_status transfer_kernel(struct job *j, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_disk *d = &j->scene->disk;
-    const uint32_t alpha = p->orders * (1 + p->phi + p->delay); /* the planes' order: kd_lens_listed */
+    const uint32_t alpha = p->orders * (1 + p->phi + p->delay + p->fall); /* the planes' order: kd_lens_listed */
     const uint32_t constants[] = {
         p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
         alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
-        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0,
+        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0, p->fall,
     };
     _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);

@@ -1,5 +1,6 @@
 #include "render/lens_listed.h"
 
+#include "physics/kerr.h"
 #include "render/camera.h"
 #include "render/rays_closed.h"
 #include "render/rays_device.h"
@@ -11,7 +12,7 @@
 struct work {
     const struct kd_plan *plan;
     size_t n;
-    double *alpha_beta;
+    double *alpha_beta, *energy;
     bool *outward;
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
@@ -20,6 +21,7 @@ struct work {
 static void finish(struct work *w)
 {
     free(w->alpha_beta);
+    free(w->energy);
     free(w->outward);
     free(w->crossings);
     free(w->ends);
@@ -30,23 +32,29 @@ static enum kd_status init(struct work *w, const struct kd_plan *plan, size_t n,
     uint32_t orders = plan->orders ? plan->orders : 1; /* the engines want one */
     *w = (struct work) { .plan = plan, .n = n };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
+    w->energy = malloc(n * sizeof *w->energy);
     w->outward = malloc(n * sizeof *w->outward);
     w->crossings = malloc(n * orders * sizeof *w->crossings);
     w->ends = malloc(n * sizeof *w->ends);
-    if (w->alpha_beta && w->outward && w->crossings && w->ends)
+    if (w->alpha_beta && w->energy && w->outward && w->crossings && w->ends)
         return KD_OK;
     finish(w);
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", n);
+}
+
+static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_setting *by)
+{
+    return (struct kd_rays_params) {
+        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
+        .orders = plan->orders ? plan->orders : 1, .engine = by->engine, .precision = by->precision, .steps = by->steps,
+    };
 }
 
 enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                              const struct kd_setting *by, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *ends, struct kd_error *error)
 {
-    const struct kd_rays_params params = {
-        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
-        .orders = plan->orders ? plan->orders : 1, .engine = by->engine, .precision = by->precision, .steps = by->steps,
-    };
+    const struct kd_rays_params params = params_of(scene, plan, by);
     if (by->engine == KD_ENGINE_CLOSED)
         return kd_rays_closed(&params, rays, false, crossings, ends, NULL, NULL, error);
     return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
@@ -74,6 +82,19 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
 }
 
+/* Outside the ISCO, where nothing falls, 0. */
+static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
+{
+    const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);
+    double isco = kd_kerr_isco(params.spin);
+    for (size_t i = 0; i < w->n; i++) {
+        const struct kd_ray_end *end = &w->ends[i];
+        double r = w->crossings[i * w->plan->orders + order].r;
+        to[i] = order < end->n_crossings && r < isco
+                    ? (float)(w->energy[i] * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)) : 0;
+    }
+}
+
 static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -85,7 +106,7 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
     }
 }
 
-static void fill(const struct work *w, float *planes)
+static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
     for (uint32_t k = 0; k < plan->orders; k++)
@@ -97,6 +118,9 @@ static void fill(const struct work *w, float *planes)
     for (uint32_t k = 0; plan->delay && k < plan->orders; k++)
         fill_delays(w, k, planes + k * w->n);
     planes += plan->delay ? plan->orders * w->n : 0;
+    for (uint32_t k = 0; plan->fall && k < plan->orders; k++)
+        fill_slopes(w, scene, k, planes + k * w->n);
+    planes += plan->fall ? plan->orders * w->n : 0;
     for (size_t i = 0; plan->ring && i < w->n; i++)
         planes[i] = (float)w->alpha_beta[2 * i];
     planes += plan->ring ? w->n : 0;
@@ -104,14 +128,15 @@ static void fill(const struct work *w, float *planes)
         fill_sky(w, planes, planes + w->n, planes + 2 * w->n);
 }
 
-static enum kd_status upload(struct kd_renderer *r, const struct work *w, const struct kd_lens_rows *rows, struct kd_error *error)
+static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene, const struct work *w, const struct kd_lens_rows *rows,
+                             struct kd_error *error)
 {
     struct kd_vk_buffer *staging;
     uint64_t bytes = 4 * (uint64_t)w->n;
     enum kd_status status = kd_vk_buffer_create(r->vk, bytes * w->plan->planes, KD_VK_UPLOAD, "listed lens map", &staging, error);
     if (status)
         return status;
-    fill(w, kd_vk_buffer_map(staging));
+    fill(w, scene, kd_vk_buffer_map(staging));
     for (uint32_t k = 0; k < w->plan->planes && !status; k++)
         status = kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes, error);
     if (!status)
@@ -126,6 +151,7 @@ static void keep(struct work *w, size_t i, const struct kd_camera_label *label)
 {
     w->alpha_beta[2 * i] = label->alpha;
     w->alpha_beta[2 * i + 1] = label->beta;
+    w->energy[i] = label->energy;
     w->outward[i] = label->outward;
 }
 
@@ -166,7 +192,7 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
     const struct kd_ray_labels labels = { w.alpha_beta, w.outward, w.n };
     status = kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error);
     if (!status)
-        status = upload(renderer, &w, rows, error);
+        status = upload(renderer, scene, &w, rows, error);
     for (size_t i = 0; i < w.n && !status; i++)
         *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
     finish(&w);

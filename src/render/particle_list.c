@@ -122,6 +122,7 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
     list->guides = malloc(list->grid.radii * sizeof *list->guides);
     if (!list->guides)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the orbits of particles");
+    list->plunge = kd_plunge_of(a);
     for (uint32_t k = 0; k < list->grid.radii; k++) {
         const struct kd_particle_orbit o = kd_particle_orbit(&list->scene, list->grid.radii, k);
         list->guides[k] = (struct kd_particle_guide) { o, kd_kerr_energy(a, o.r), kd_kerr_momentum(a, o.r) };
@@ -157,6 +158,16 @@ static void fill_rates(double *row, const struct kd_particle_list *list, uint32_
     row[KD_PARTICLE_dlatitude_dt] = -list->scene.disk.epicycles * s.vertical * o->vertical * sin(o->vertical * t + s.vertical_phase);
 }
 
+static void fill_fall(double *row, const struct kd_plunge *plunge)
+{
+    const struct kd_plunge_velocity u = kd_plunge_velocity(plunge, row[KD_PARTICLE_r]);
+    row[KD_PARTICLE_energy] = plunge->energy;
+    row[KD_PARTICLE_angular_momentum] = plunge->momentum;
+    row[KD_PARTICLE_dr_dt] = u.ur / u.ut;
+    row[KD_PARTICLE_dphi_dt] = u.uphi / u.ut;
+    row[KD_PARTICLE_dlatitude_dt] = 0;
+}
+
 static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle, const struct kd_particle_place *place)
 {
     double r = place->r, phi = place->phi * (2 * M_PI / 4294967296.0), a = list->scene.spacetime.spin;
@@ -169,6 +180,10 @@ static void fill_row(double *row, const struct kd_particle_list *list, uint32_t 
     row[KD_PARTICLE_z] = r * sin(place->latitude);
     if (!list->guides)
         return;
+    if (place->plunging) {
+        fill_fall(row, &list->plunge);
+        return;
+    }
     const struct kd_particle_guide *guide = &list->guides[kd_particle_guide(&list->grid, particle)];
     row[KD_PARTICLE_energy] = guide->energy;
     row[KD_PARTICLE_angular_momentum] = guide->momentum;

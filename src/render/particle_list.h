@@ -13,6 +13,7 @@
 #ifndef KD_RENDER_PARTICLE_LIST_H
 #define KD_RENDER_PARTICLE_LIST_H
 
+#include "physics/plunge.h"
 #include "render/particles.h"
 
 /* COLUMN(name, unit, help) */
@@ -23,8 +24,8 @@
     COLUMN(r, "M", "Boyer-Lindquist radius")                                                                   \
     COLUMN(phi, "radians", "azimuth, 0 to 2 pi")                                                               \
     COLUMN(latitude, "radians", "pi/2 - theta")                                                                \
-    COLUMN(energy, "1", "E of its guiding orbit, a constant")                                                  \
-    COLUMN(angular_momentum, "M", "L of its guiding orbit, a constant")                                        \
+    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant")                                                  \
+    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant")                                        \
     COLUMN(dr_dt, "1", "by coordinate time")                                                                   \
     COLUMN(dphi_dt, "1/M", "by coordinate time")                                                               \
     COLUMN(dlatitude_dt, "1/M", "by coordinate time")
@@ -47,6 +48,7 @@ struct kd_particle_list {
     enum kd_particle_column columns[KD_PARTICLE_N_COLUMNS];
     size_t n_columns;
     struct kd_particle_guide *guides; /* owned; NULL where no column needs them */
+    struct kd_plunge plunge;          /* what the others fall along, where they are needed */
 };
 
 /* KD_EINVAL at /disk/model: the scene has no particles. */

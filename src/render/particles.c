@@ -4,6 +4,7 @@
 #include "physics/kerr.h"
 #include "render/internal.h"
 #include "render/layout.h"
+#include "render/plunging.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,7 +12,10 @@
 #define PER_CELL 5.0 /* particles: the density scatters by a third, in spots some pixels wide */
 #define SLICE_MS 40.0
 #define GROUPS_MAX 65535u
-#define GUIDES_BYTES (KD_PARTICLE_RADII * sizeof(struct kd_guide)) /* what the rows expect follows: a multiple of 256 */
+/* In one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and those of the plunge. */
+#define GUIDES_BYTES (KD_PARTICLE_RADII * sizeof(struct kd_guide))
+#define EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
+#define TABLES_BYTES (GUIDES_BYTES + 2 * EXPECTED_BYTES)
 
 static double inner(const struct kd_scene *scene)
 {
@@ -45,6 +49,36 @@ static double density(const struct kd_scene *scene, double r)
     return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
 }
 
+/* Parcels of the gas that falls hold one particle each, and are three times as many round the ISCO as from start to end: about as wide
+ * as long where they are half-way. Light that took long to arrive shows parcels that are on their way no more, and what leaves
+ * the near side of the disk those that are to come: by so many M, at most, on a delay of a turn more for each two orders. */
+#define EARLY 20.0
+#define LATE 50.0
+#define LATE_PER_ORDER 25.0
+
+static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene)
+{
+    g->plunging = kd_plunging_is_on(scene) ? (uint32_t)round(scene->disk.plunging * g->count) : 0;
+    if (!g->plunging)
+        return;
+    double columns = sqrt(3.0 * g->plunging);
+    g->plunge_columns = 64;
+    while (g->plunge_columns < 2048 && g->plunge_columns * M_SQRT2 < columns)
+        g->plunge_columns *= 2;
+    g->lap_rows = (uint32_t)fmax(16, fmin((double)g->plunging / g->plunge_columns, 1024));
+    g->plunge_rows = g->lap_rows;
+    if (!scene->disk.slow_light)
+        return;
+    double rate = g->lap_rows / kd_plunging_of(scene).time;
+    g->lead_rows = (uint32_t)ceil(EARLY * rate);
+    double more = ceil((LATE + LATE_PER_ORDER * scene->accuracy.orders) * rate);
+    g->plunge_rows = (uint32_t)fmin(g->lead_rows + g->lap_rows + more, KD_PARTICLE_ROWS);
+}
+
+/* Words of either grid. */
+static uint64_t words(const struct kd_particle_grid *g) { return (g->rows + 1ull) * g->columns; }
+static uint64_t plunge_words(const struct kd_particle_grid *g) { return g->plunging ? (g->plunge_rows + 1ull) * g->plunge_columns : 0; }
+
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
 {
     if (scene->disk.model != KD_DISK_PARTICLES)
@@ -55,24 +89,26 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     while (g.columns < KD_PARTICLE_ROWS && g.columns * M_SQRT2 < columns)
         g.columns *= 2;
     g.rows = (uint32_t)fmax(4, fmin(g.count / (PER_CELL * g.columns), KD_PARTICLE_ROWS));
-    g.radii = g.count < KD_PARTICLE_RADII ? g.count : KD_PARTICLE_RADII;
+    plunge_grid(&g, scene);
+    uint32_t circling = g.count - g.plunging;
+    g.radii = circling < KD_PARTICLE_RADII ? circling : KD_PARTICLE_RADII;
     /* Particles are scattered at random: twice the mean of the fullest row and sixty-four more are never on one node. */
     double fullest = fmax(density(scene, inner(scene)), density(scene, scene->disk.outer)) * all;
     double unit = 65535 / (2 * fullest * g.count / ((double)g.rows * g.columns) + 64);
     g.unit = (uint32_t)fmax(1, fmin(unit, 1024));
-    g.bytes = 8ull * (g.rows + 1) * g.columns + GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1);
+    g.bytes = 8 * (words(&g) + plunge_words(&g)) + TABLES_BYTES;
     return g;
 }
 
 /* 2^31 radii over particles: what the kernel multiplies by, with the same rounding. */
 static uint32_t per_particle(const struct kd_particle_grid *grid)
 {
-    return (uint32_t)(((uint64_t)grid->radii << 31) / grid->count);
+    return (uint32_t)(((uint64_t)grid->radii << 31) / (grid->count - grid->plunging));
 }
 
 uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particle)
 {
-    return (uint32_t)((2ull * particle + 1) * per_particle(grid) >> 32);
+    return (uint32_t)((2ull * (particle - grid->plunging) + 1) * per_particle(grid) >> 32);
 }
 
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k)
@@ -139,7 +175,7 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
     enum { PARTS = 8 }; /* of the hat on each side */
-    double rows = rows_of(scene, grid), weight = (double)grid->count * grid->unit / grid->columns;
+    double rows = rows_of(scene, grid), weight = (double)(grid->count - grid->plunging) * grid->unit / grid->columns;
     for (uint32_t i = 0; i <= grid->rows; i++) {
         double sum = 0;
         for (int k = -PARTS; k < PARTS; k++) {
@@ -151,6 +187,22 @@ static void fill_expected(float *out, const struct kd_scene *scene, const struct
     }
 }
 
+/* The same of the plunge, whose particles are evenly spread in phase. */
+static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid)
+{
+    double weight = (double)grid->plunging * grid->unit / grid->plunge_columns / grid->lap_rows;
+    for (uint32_t i = 0; i <= grid->plunge_rows; i++)
+        out[i] = (float)((i == 0 || i == grid->plunge_rows ? 2 : 1) / weight);
+}
+
+/* A stream of N particles in a time P is one of N/(P 2 pi r |u^r|) particles per area in their own frame; n of them per ln r on
+ * circles, n/(2 pi r^2 u^t). */
+double kd_particle_plunge_depth(const struct kd_scene *scene)
+{
+    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), share = scene->disk.plunging;
+    return share / (1 - share) * isco * isco * kd_kerr_ut(a, isco) / (density(scene, isco) * kd_plunging_of(scene).time);
+}
+
 double kd_particle_delay(const struct kd_scene *scene)
 {
     return scene->disk.slow_light && isfinite(scene->camera.r) ? scene->camera.r : 0;
@@ -159,19 +211,20 @@ double kd_particle_delay(const struct kd_scene *scene)
 static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
                              const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
-    enum kd_status status = kd_store_at_least(r->vk, &p->guides, GUIDES_BYTES + 4 * (KD_PARTICLE_ROWS + 1),
-                                              KD_VK_UPLOAD, "orbits of particles", error);
+    enum kd_status status = kd_store_at_least(r->vk, &p->guides, TABLES_BYTES, KD_VK_UPLOAD, "orbits of particles", error);
     if (status)
         return status;
     char *to = kd_vk_buffer_map(p->guides);
     fill_guides((struct kd_guide *)to, scene, grid, time);
     fill_expected((float *)(to + GUIDES_BYTES), scene, grid);
+    if (grid->plunging)
+        fill_plunge_expected((float *)(to + GUIDES_BYTES + EXPECTED_BYTES), grid);
     return KD_OK;
 }
 
-static struct kd_particles_push push_of(const struct kd_scene *scene, const struct kd_particle_grid *grid)
+static struct kd_particles_push push_of(const struct kd_scene *scene, const struct kd_particle_grid *grid, double time)
 {
-    return (struct kd_particles_push) {
+    struct kd_particles_push push = {
         .key = key_of(scene),
         .stride = 1,
         .per_particle = per_particle(grid),
@@ -180,26 +233,38 @@ static struct kd_particles_push push_of(const struct kd_scene *scene, const stru
         .unit = grid->unit,
         .tilt = (float)scene->disk.epicycles,
     };
+    if (!grid->plunging)
+        return push;
+    const struct kd_plunging p = kd_plunging_of(scene);
+    double laps = time / p.time, whole = floor(laps);
+    push.plunging = grid->plunging;
+    push.lap = (uint32_t)(int64_t)whole;
+    push.phase = (uint32_t)(uint64_t)((laps - whole) * 4294967296.0);
+    push.turn = turns(p.omega, time);
+    push.plunge_at = (uint32_t)words(grid);
+    push.plunge_rows = grid->plunge_rows;
+    push.plunge_columns_log2 = (uint32_t)__builtin_ctz(grid->plunge_columns);
+    push.lap_rows = grid->lap_rows;
+    push.lead_rows = grid->lead_rows;
+    return push;
 }
 
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
-static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
-                                const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
+/* The particles from push->first up to `end`, which fall or do not: lavapipe takes both ways where a kernel has two. */
+static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene, bool plunge,
+                                struct kd_particles_push *push, uint32_t end, double ns_per_particle, struct kd_error *error)
 {
     const struct kd_vk_pipeline *kernel;
-    const uint32_t constants[] = { scene->disk.epicycles > 0, false };
-    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 2, &kernel, error);
-    if (!status)
-        status = kd_vk_fill(r->vk, p->grid, 0, 4ull * (grid->rows + 1) * grid->columns, 0, error);
-    struct kd_particles_push push = push_of(scene, grid);
+    const uint32_t constants[] = { scene->disk.epicycles > 0, false, plunge };
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
     double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)GROUPS_MAX * KD_GROUP_SIZE));
-    for (; push.first < grid->count && !status; push.first += push.count) {
-        uint32_t left = grid->count - push.first;
-        push.count = left < slice ? left : (uint32_t)slice;
+    for (; push->first < end && !status; push->first += push->count) {
+        uint32_t left = end - push->first;
+        push->count = left < slice ? left : (uint32_t)slice;
         const struct kd_vk_dispatch d = {
-            "particles", kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, &push,
-            { groups(push.count) },
+            "particles", kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push,
+            { groups(push->count) },
         };
         status = kd_vk_dispatch(r->vk, &d, error);
         if (!status)
@@ -208,31 +273,75 @@ static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, c
     return status;
 }
 
+/* From weights to densities, on one of the grids: from byte `at` of both, what its rows expect from byte `expected`. */
+static enum kd_status divide(struct kd_renderer *r, const struct kd_particles *p, uint64_t at, uint64_t expected, uint32_t rows,
+                             uint32_t columns, struct kd_error *error)
+{
+    const struct kd_vk_pipeline *kernel;
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_DENSITY, NULL, 0, &kernel, error);
+    if (status)
+        return status;
+    const struct kd_vk_dispatch d = {
+        "particles", kernel,
+        { { p->grid, at, 0, false },
+          { p->guides, expected, 0, false },
+          { p->density, at, 0, true } },
+        &columns, { groups(columns), rows + 1 },
+    };
+    return kd_vk_dispatch(r->vk, &d, error);
+}
+
 enum kd_status kd_particles_deposit(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
                                     const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
 {
-    uint64_t bytes = 4ull * (grid->rows + 1) * grid->columns;
-    const struct kd_vk_pipeline *kernel;
-    enum kd_status status = guides(r, p, scene, grid, scene->top.time - kd_particle_delay(scene), error);
+    uint64_t bytes = 4 * (words(grid) + plunge_words(grid));
+    double time = scene->top.time - kd_particle_delay(scene);
+    enum kd_status status = guides(r, p, scene, grid, time, error);
     if (!status)
         status = kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error);
     if (!status)
         status = kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error);
     if (!status)
-        status = share_out(r, p, scene, grid, ns_per_particle, error);
+        status = kd_vk_fill(r->vk, p->grid, 0, bytes, 0, error);
+    struct kd_particles_push push = push_of(scene, grid, time);
+    if (!status && grid->plunging)
+        status = share_out(r, p, scene, true, &push, grid->plunging, ns_per_particle, error);
     if (!status)
-        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_DENSITY, NULL, 0, &kernel, error);
-    if (status)
-        return status;
-    const struct kd_vk_dispatch d = {
-        "particles", kernel,
-        { { p->grid, 0, 0, false },
-          { p->guides, GUIDES_BYTES, 0, false },
-          { p->density, 0, 0, true } },
-        &grid->columns, { groups(grid->columns), grid->rows + 1 },
-    };
-    status = kd_vk_dispatch(r->vk, &d, error);
+        status = share_out(r, p, scene, false, &push, grid->count, ns_per_particle, error);
+    if (!status)
+        status = divide(r, p, 0, GUIDES_BYTES, grid->rows, grid->columns, error);
+    if (!status && grid->plunging)
+        status = divide(r, p, 4 * words(grid), GUIDES_BYTES + EXPECTED_BYTES, grid->plunge_rows, grid->plunge_columns, error);
     return status ? status : kd_vk_submit(r->vk, NULL, error);
+}
+
+/* What the device gives for a list: a row, or the phase of a plunge in turns of 2^32; an azimuth; a latitude. */
+struct listed {
+    union { float row; uint32_t phase; };
+    uint32_t phi;
+    float latitude;
+};
+
+static void places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid, const struct listed *got, uint32_t first,
+                      uint32_t stride, size_t n, struct kd_particle_place *out)
+{
+    double rows = rows_of(scene, grid), edge = inner(scene);
+    struct kd_plunging_path path;
+    if (first < grid->plunging) {
+        const struct kd_plunging plunging = kd_plunging_of(scene);
+        kd_plunging_path(&plunging, &path);
+    }
+    for (size_t i = 0; i < n; i++) {
+        struct kd_particle_place *o = &out[i];
+        *o = (struct kd_particle_place) { .phi = got[i].phi, .latitude = got[i].latitude, .plunging = first + i * stride < grid->plunging };
+        if (o->plunging) {
+            double turned, r = kd_plunging_radius(&path, got[i].phase / 4294967296.0, &turned);
+            o->r = (float)r;
+            o->phi += turns(2 * M_PI, turned);
+        } else {
+            o->r = (float)(edge * exp(got[i].row / rows));
+        }
+    }
 }
 
 enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene *scene, uint32_t first, uint32_t stride,
@@ -240,16 +349,16 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
 {
     const struct kd_particle_grid grid = kd_particle_grid(scene);
     const struct kd_vk_pipeline *kernel;
-    const uint32_t constants[] = { scene->disk.epicycles > 0, true };
-    struct kd_particles_push push = push_of(scene, &grid);
+    const uint32_t constants[] = { scene->disk.epicycles > 0, true, grid.plunging > 0 };
+    struct kd_particles_push push = push_of(scene, &grid, scene->top.time);
     push.first = first;
     push.stride = stride;
     push.count = (uint32_t)n;
     enum kd_status status = guides(r, &r->particles, scene, &grid, scene->top.time, error);
     if (!status)
-        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof *out, KD_VK_READBACK, "places of particles", error);
+        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof(struct listed), KD_VK_READBACK, "places of particles", error);
     if (!status)
-        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 2, &kernel, error);
+        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
     const struct kd_vk_dispatch d = {
         "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
         { groups(push.count) },
@@ -260,10 +369,8 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
         status = kd_vk_submit(r->vk, NULL, error);
     if (!status)
         status = kd_vk_wait(r->vk, 0, error);
-    const struct kd_particle_place *got = status ? NULL : kd_vk_buffer_map(r->particles.list);
-    double rows = rows_of(scene, &grid);
-    for (size_t i = 0; i < n && got; i++) /* the device gives rows */
-        out[i] = (struct kd_particle_place) { (float)(inner(scene) * exp(got[i].r / rows)), got[i].phi, got[i].latitude };
+    if (!status)
+        places_of(scene, &grid, kd_vk_buffer_map(r->particles.list), first, stride, n, out);
     return status;
 }
 

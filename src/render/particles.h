@@ -1,10 +1,11 @@
 /* The disk as particles. Each has a guiding orbit, one of `radii` circular ones that hold equal shares of the particles, an
- * azimuth, and small epicycles in r and theta, all from a hash of its number and the seed: nothing is stored. Where it is at any
- * time t is a closed form. Angular frequencies are known in double, and their phases at t reach the device as 32-bit fractions of
+ * azimuth, and small epicycles in r and theta, all from a hash of its number and the seed: nothing is stored. A share of them, those
+ * with the lowest numbers, falls from the ISCO instead (render/plunging.h), and begins anew at another azimuth, a hash of its
+ * number and of how often it has fallen. Where it is at any time t is a closed form. Angular frequencies are known in double, and their phases at t reach the device as 32-bit fractions of
  * a turn, whose sums wrap exactly: no t is too late.
  *
  * Rows of the grid are steps of log r from edge to edge, columns of azimuth. The number found at a node over the number expected
- * there multiplies the light of the smooth disk.
+ * there multiplies the light of the smooth disk. Those that fall have a grid of their own, of phases and of azimuths at the ISCO.
  *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of Kerr),
  *
@@ -19,6 +20,7 @@
 #include "base/error.h"
 #include "scene/scene.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -32,13 +34,16 @@ struct kd_particle_grid {
     uint32_t count; /* of particles; 0: the disk is smooth */
     uint32_t radii;
     uint32_t rows, columns; /* intervals; columns a power of 2 */
+    uint32_t plunging;      /* of the particles; 0: there is no grid for them */
+    uint32_t plunge_rows, plunge_columns; /* the same of that grid */
+    uint32_t lap_rows, lead_rows;         /* from the start of the plunge to its end; before the start, for slow light */
     uint32_t unit;          /* weight of one particle: what a node can hold is 16 bits */
     uint64_t bytes;         /* on the device */
 };
 /* A valid scene's. Cells are about square, a handful of particles in each. */
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene);
 
-/* The guiding orbit of a particle: in order of radius, equal shares but for rounding. */
+/* The guiding orbit of a particle that does not fall: in order of radius, equal shares but for rounding. */
 uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particle);
 
 /* The guiding radius inside which there is the share q of the particles. */
@@ -56,6 +61,10 @@ struct kd_particle_swing {
 };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
+/* Optical depth of the plunging gas in the mean where r |u^r| is 1, in a scene that has any: that of its surface density, in its own
+ * frame, over the disk's just outside the ISCO. A particle counts as much inside as outside. */
+double kd_particle_plunge_depth(const struct kd_scene *scene);
+
 /* How long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
@@ -64,11 +73,12 @@ enum kd_status kd_particles_deposit(struct kd_renderer *renderer, struct kd_part
                                     const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error);
 
 /* Render thread only: places of the particles first, first + stride, ..., n of them, at scene->top.time, as the device
- * computes them: r in M, phi in turns of 2^32, latitude in radians. */
+ * computes them: Boyer-Lindquist r in M and phi in turns of 2^32, latitude in radians. */
 struct kd_particle_place {
     float r;
     uint32_t phi;
     float latitude;
+    bool plunging; /* with the ISCO's energy and angular momentum; else round a guiding orbit */
 };
 enum kd_status kd_particles_places(struct kd_renderer *renderer, const struct kd_scene *scene, uint32_t first, uint32_t stride,
                                    size_t n, struct kd_particle_place *out, struct kd_error *error);

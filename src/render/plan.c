@@ -2,6 +2,7 @@
 
 #include "physics/kerr.h"
 #include "render/accuracy.h"
+#include "render/plunging.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,9 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, particles && !d->slow_light,
         "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
     say(plan, particles && d->slow_light, "particles: over the delay of light they go round on their guiding circles");
+    say(plan, plan->fall,
+        "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is its "
+        "surface density over the disk's at the ISCO; no stress, no heating");
     say(plan, plan->spots, "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
                            "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place");
     say(plan, plan->spots, "spots: their brightness and colour are chosen, not computed; they absorb nothing");
@@ -80,6 +84,7 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     key.accuracy.steps = (int32_t)plan->setting.steps;
     key.disk.model = plan->phi ? KD_DISK_PARTICLES : KD_DISK_NONE; /* who alone asks for azimuths */
     key.disk.slow_light = plan->delay;
+    key.disk.plunging = plan->fall ? 0.5 : 0;
     key.sky.model = plan->sky ? KD_SKY_GRID : KD_SKY_NONE;
     return kd_scene_hash(&key, plan->lens_key);
 }
@@ -231,7 +236,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool radii = isinf(scene->camera.r) && !plan->phi && !plan->sky;
+    bool radii = isinf(scene->camera.r) && !plan->phi && !plan->fall && !plan->sky;
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
@@ -275,6 +280,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.phi = needs->phi;
     plan.delay = needs->delay;
     plan.light = needs->light;
+    plan.fall = needs->fall;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     plan.sky = needs->sky;
     plan.particles = kd_particle_grid(scene);
@@ -288,7 +294,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     enum kd_status status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.planes = plan.orders * (1 + plan.phi + plan.delay) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
+    plan.planes = plan.orders * (1 + plan.phi + plan.delay + plan.fall) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
 
@@ -311,6 +317,7 @@ struct kd_needs kd_needs_of(const struct kd_scene *scene)
         .disk = scene->disk.model != KD_DISK_NONE,
         .phi = lumps,
         .delay = lumps && scene->disk.slow_light,
+        .fall = kd_plunging_is_on(scene) && scene->disk.plunging_temperature > 0,
         .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
         .light = spots_of(scene) && scene->camera.projection != KD_PROJECTION_RING,
     };

@@ -48,6 +48,7 @@ struct kd_plan {
     uint32_t spots;                 /* that are on: their own luminance is kept beside the radiance */
     bool light;                     /* flux and centroid are measured */
     bool delay;                     /* the lens map holds delays of light, behind its azimuths */
+    bool fall;                      /* and w', the slope of the traced ray's w = 1/r in Mino time, behind those */
     bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
     uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */
@@ -80,7 +81,7 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
-    bool disk, phi, delay, sky; /* crossing radii; their azimuths; their delays; directions of escape and fates */
+    bool disk, phi, delay, fall, sky; /* crossing radii; their azimuths; delays; radial slopes; directions of escape and fates */
     bool light;                 /* and that flux and centroid be measured, as they are whenever a spot is on */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);

@@ -136,13 +136,13 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* Which way the photon moves inside the ISCO the closed form says; a ray that falls in never turned. */
-static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, const struct kd_ray_end *end,
+/* Which way the photon moves inside the ISCO the closed form says; a ray that set out inwards and falls in never turned. */
+static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
                             uint32_t crossing)
 {
-    if (end->fate == KD_RAY_CAPTURED)
+    if (end->fate == KD_RAY_CAPTURED && !outward)
         return true;
-    const struct kd_null_ray ray = ray_of(p, alpha_beta, false);
+    const struct kd_null_ray ray = ray_of(p, alpha_beta, outward);
     const struct kd_null_path path = kd_null_trace_fast(&ray);
     return (int)crossing >= path.crossings || path.crossing[crossing].sense > 0;
 }
@@ -154,7 +154,19 @@ void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_b
     for (size_t i = 0; i < n; i++)
         for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
             struct kd_ray_crossing *c = &crossings[i * params->orders + k];
-            bool outwards = c->r >= isco || leaves_outwards(params, alpha_beta + 2 * i, &ends[i], k);
+            bool outwards = c->r >= isco || leaves_outwards(params, alpha_beta + 2 * i, false, &ends[i], k);
             c->g = redshift(params, alpha_beta + 2 * i, c->r, outwards);
         }
+}
+
+/* w'^2 = W^2 - D K w^2, as in shaders/include/radial_step.glsl, which keeps its digits next to the horizon. */
+double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end, uint32_t k,
+                     double r)
+{
+    double a = p->spin, s = sine(p->inclination_deg), c = cosine(p->inclination_deg), w2 = 1 / (r * r);
+    double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;
+    double d = (1 - kd_kerr_horizon(a) / r) * (1 - kd_kerr_inner_horizon(a) / r);
+    double carter = (alpha - a) * (alpha + a) * c * c + beta * beta + j * j;
+    double slope = sqrt(fmax(0, all * all - d * carter * w2));
+    return leaves_outwards(p, alpha_beta, outward, end, k) ? slope : -slope;
 }

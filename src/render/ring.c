@@ -35,5 +35,7 @@ double kd_ring_distance(const struct kd_ring *ring, uint32_t y)
 struct kd_camera_label kd_ring_label(const struct kd_ring *ring, const struct kd_critical_point *p, uint32_t y)
 {
     double d = kd_ring_distance(ring, y);
-    return (struct kd_camera_label) { .alpha = p->alpha + d * (p->alpha - ring->curve.centre), .beta = p->beta + d * p->beta };
+    return (struct kd_camera_label) {
+        .alpha = p->alpha + d * (p->alpha - ring->curve.centre), .beta = p->beta + d * p->beta, .energy = 1,
+    };
 }

@@ -6,6 +6,7 @@
 #include "physics/qnm.h"
 #include "physics/ringdown.h"
 #include "render/particles.h"
+#include "render/plunging.h"
 
 #include <math.h>
 
@@ -95,6 +96,36 @@ static double ringing(const struct kd_scene *scene)
     return 1 + scene->style.ringdown * kd_ringdown_wave(mode.omega, t);
 }
 
+/* Both t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the other. */
+static void fill_plunge(struct kd_transfer_data *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
+{
+    const struct kd_plunging p = kd_plunging_of(scene);
+    double r0 = p.curve.isco, r_h = p.curve.horizon;
+    double first = log2((r0 - p.start) / (p.start - r_h)), last = log2((r0 - p.end) / (p.end - r_h));
+    for (int i = 0; i < KD_PLUNGE_TABLE; i++) {
+        double ratio = exp2(first + (last - first) * i / (KD_PLUNGE_TABLE - 1)), r = (r0 + ratio * r_h) / (1 + ratio);
+        const struct kd_plunging_place at = kd_plunging_at(&p, r);
+        out->plunge[i][0] = (float)at.phase;
+        out->plunge[i][1] = (float)at.turns;
+    }
+    struct kd_transfer_block *b = &out->block;
+    b->plunge_first = (float)(1 / p.start);
+    b->plunge_last = (float)(1 / p.end);
+    b->plunge_energy = (float)p.curve.energy;
+    b->plunge_j = (float)(p.curve.momentum - scene->spacetime.spin * p.curve.energy);
+    b->plunge_temperature = (float)scene->disk.plunging_temperature;
+    b->plunge_depth = (float)kd_particle_plunge_depth(scene);
+    b->plunge_log = (float)first;
+    b->plunge_step = (float)((KD_PLUNGE_TABLE - 1) / (last - first));
+    b->plunge_laps = (float)(1 / p.time);
+    b->plunge_turns = (float)(p.omega / (2 * M_PI));
+    b->plunge_at = (grid->rows + 1) * grid->columns;
+    b->plunge_rows = grid->plunge_rows;
+    b->plunge_columns = grid->plunge_columns;
+    b->lap_rows = grid->lap_rows;
+    b->lead_rows = grid->lead_rows;
+}
+
 void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, bool fill_colour)
 {
     const struct kd_disk *disk = &scene->disk;
@@ -128,4 +159,6 @@ void kd_tables_fill(struct kd_transfer_data *out, const struct kd_scene *scene, 
         .rows_octave = (float)(grid.rows / log2(disk->outer / r_in)),
         .ringing = (float)ringing(scene),
     };
+    if (grid.plunging)
+        fill_plunge(out, scene, &grid);
 }

@@ -14,6 +14,7 @@ struct kd_transfer_data {
     struct kd_spot_block spots[KD_SPOT_MAX];
     float disk[KD_DISK_TABLE];
     float colour[KD_COLOUR_TABLE][4];
+    float plunge[KD_PLUNGE_TABLE][2];
 };
 
 /* Fill from a valid scene. About 20 ms: the colour table, which no scene changes, is kept by the caller between calls:

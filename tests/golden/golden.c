@@ -38,6 +38,9 @@ static const struct shot {
       "\"spot1\":{\"brightness\":1,\"r\":3,\"size\":0.5,\"phase_deg\":200,\"temperature_k\":4000},"
       "\"spot2\":{\"brightness\":0.5,\"r\":7,\"size\":1.5,\"phase_deg\":100},"
       "\"spot3\":{\"brightness\":0.3,\"r\":12,\"phase_deg\":-20,\"index\":-1},\"time\":70,\"style\":{\"exposure\":0}," SIZE "}" },
+    { "plunging", NULL,
+      "{\"time\":1000,\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":40,\"field_m\":18},"
+      "\"disk\":{\"model\":\"particles\",\"outer\":18,\"plunging_temperature\":0.9},\"style\":{\"exposure\":1}," SIZE "}" },
     { "retrograde", NULL, "{\"spacetime\":{\"spin\":-0.9}," SIZE "}" },
     { "zamo", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,"

@@ -2,6 +2,7 @@
  * differences; parts of a list, and what is refused. */
 #include "render/particle_list.h"
 
+#include "physics/kerr.h"
 #include "physics/orbit.h"
 #include "render_support.h"
 
@@ -15,6 +16,7 @@ static struct kd_scene scene_of(double spin, double epicycles)
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 30000;
     scene.disk.epicycles = epicycles;
+    scene.disk.plunging = 0;
     return scene;
 }
 
@@ -86,6 +88,35 @@ static struct constants constants_of(double a, const struct row *p)
     double norm = gtt + 2 * gtp * p->dphi + gpp * p->dphi * p->dphi + sigma / delta * p->dr * p->dr + sigma * p->dlatitude * p->dlatitude;
     double ut = 1 / sqrt(-norm);
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
+}
+
+/* Those that fall: their rates are those of a body with the ISCO's E and L, which are what the list says. Next to the horizon the norm, to
+ * which both are worked out from floats, is all but 0. */
+static void test_falling(void **state)
+{
+    (void)state;
+    static const double spins[] = { -0.9, 0, 0.95 };
+    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+        struct kd_scene scene = scene_of(spins[s], 0);
+        scene.disk.plunging = 0.2;
+        double isco = kd_kerr_isco(spins[s]), energy = kd_kerr_energy(spins[s], isco), momentum = kd_kerr_momentum(spins[s], isco), worst = 0;
+        size_t n, fell = 0;
+        struct row *rows = all_at(&scene, "777.5", &n);
+        for (size_t i = 0; i < n; i++) {
+            bool falls = 3 + 29 * i < 6000;
+            assert_true(falls == (rows[i].r < isco * (1 - 1e-6)));
+            if (!falls)
+                continue;
+            const struct constants c = constants_of(spins[s], &rows[i]);
+            fell++;
+            assert_true(rows[i].dr < 0 && rows[i].latitude == 0 && rows[i].dlatitude == 0);
+            assert_true(fabs(rows[i].energy / energy - 1) < 1e-6 && fabs(rows[i].momentum / momentum - 1) < 1e-6);
+            worst = fmax(worst, -c.norm * fmax(fabs(c.energy / energy - 1), fabs(c.momentum / momentum - 1)));
+        }
+        printf("a = %g: E and L of %zu that fall, from rates, within %.1e over the norm\n", spins[s], fell, worst);
+        assert_true(fell == 207 && worst < 1e-6);
+        test_free(rows);
+    }
 }
 
 /* The guiding orbit by physics/orbit.c; on it rates and constants are of one orbit, about it they are to first order: what is left
@@ -214,7 +245,7 @@ int main(void)
     if (code)
         return code;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_phase), cmocka_unit_test(test_constants), cmocka_unit_test(test_rates),
+        cmocka_unit_test(test_phase), cmocka_unit_test(test_falling), cmocka_unit_test(test_constants), cmocka_unit_test(test_rates),
         cmocka_unit_test(test_parts), cmocka_unit_test(test_refused),
     };
     return close_renderer(cmocka_run_group_tests_name("lists of particles", tests, NULL, NULL));

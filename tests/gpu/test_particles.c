@@ -16,6 +16,7 @@ static struct kd_scene particle_scene(double spin, double epicycles)
     scene.spacetime.spin = spin;
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 20000;
+    scene.disk.plunging = 0; /* test_plunging.c */
     scene.disk.epicycles = epicycles;
     return scene;
 }

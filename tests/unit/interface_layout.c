@@ -210,7 +210,7 @@ static void particles_kernel(void **state)
 static void transfer_buffer(void **state)
 {
     (void)state;
-    same(&transfer, "Transfer", transfer_fields, COUNT(transfer_fields), 4); /* padding, spots and two tables */
+    same(&transfer, "Transfer", transfer_fields, COUNT(transfer_fields), 5); /* padding, spots and three tables */
     same(&transfer, "kd_spot", spot_fields, COUNT(spot_fields), 0);
     assert_int_equal(sizeof(struct kd_spot_block), 4 * COUNT(spot_fields));
     const struct {
@@ -221,6 +221,7 @@ static void transfer_buffer(void **state)
         { "spots", offsetof(struct kd_transfer_data, spots), sizeof(struct kd_spot_block) },
         { "disk_table", offsetof(struct kd_transfer_data, disk), sizeof(float) },
         { "colour_table", offsetof(struct kd_transfer_data, colour), sizeof(float[4]) },
+        { "plunge_table", offsetof(struct kd_transfer_data, plunge), sizeof(float[2]) },
     };
     uint32_t id = struct_called(&transfer, "Transfer");
     for (size_t i = 0; i < COUNT(tables); i++) {
@@ -231,7 +232,8 @@ static void transfer_buffer(void **state)
     }
     /* as far as the kernel's tables reach, no further */
     assert_int_equal(sizeof(struct kd_transfer_data),
-                     4 * KD_TRANSFER_HEADER + sizeof(struct kd_spot_block) * KD_SPOT_MAX + 4 * KD_DISK_TABLE + 16 * KD_COLOUR_TABLE);
+                     4 * KD_TRANSFER_HEADER + sizeof(struct kd_spot_block) * KD_SPOT_MAX + 4 * KD_DISK_TABLE + 16 * KD_COLOUR_TABLE +
+                         8 * KD_PLUNGE_TABLE);
 }
 
 int main(void)

@@ -1,0 +1,205 @@
+/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any time, and against
+ * the steady stream that they are to be; and that those who are off cost nothing. */
+#include "render/particles.h"
+
+#include "physics/kerr.h"
+#include "render/plunging.h"
+#include "render_support.h"
+
+#include <math.h>
+
+#define COUNT 20000
+#define FALLING 4000
+
+static struct kd_scene plunging_scene(double spin)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = 160;
+    scene.image.height = 90;
+    scene.spacetime.spin = spin;
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = COUNT;
+    scene.disk.plunging = (double)FALLING / COUNT;
+    return scene;
+}
+
+static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
+{
+    scene->top.time = time;
+    OK(kd_particles_places(renderer, scene, 0, 1, FALLING, out, &error));
+}
+
+/* dr/dt and dphi/dt of a body with the ISCO's E and L that falls: the inverse metric raises them, u.u = -1 gives u^r. */
+static void slopes(double a, double r, double *dr, double *dphi)
+{
+    double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco), delta = r * r - 2 * r + a * a;
+    double pp = r * r + a * a + 2 * a * a / r, ut = (pp * e - 2 * a * l / r) / delta, up = (2 * a * e / r + (1 - 2 / r) * l) / delta;
+    *dr = -sqrt(fmax(e * ut - l * up - 1, 0) * delta) / r / ut;
+    *dphi = up / ut;
+}
+
+/* Runge and Kutta's fourth order. */
+static void integrate(double a, double time, double *r, double *phi)
+{
+    enum { STEPS = 400 };
+    double h = time / STEPS, k[4], w[4];
+    for (int i = 0; i < STEPS; i++) {
+        slopes(a, *r, &k[0], &w[0]);
+        slopes(a, *r + h / 2 * k[0], &k[1], &w[1]);
+        slopes(a, *r + h / 2 * k[1], &k[2], &w[2]);
+        slopes(a, *r + h * k[2], &k[3], &w[3]);
+        *r += h / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3]);
+        *phi += h / 6 * (w[0] + 2 * w[1] + 2 * w[2] + w[3]);
+    }
+}
+
+static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
+
+/* What is at (r, phi) falls on along its geodesic, or begins anew; whether early, late or before 0. The float that
+ * reports r is worth 6e-8 of it at either end. */
+static void test_geodesics(void **state)
+{
+    (void)state;
+    static const double spins[] = { -0.9, 0, 0.5, 0.9, 0.998 }, times[] = { 0, 1e4, -1e4, 1e9 };
+    static struct kd_particle_place start[FALLING], then[FALLING];
+    const double step = 12.5;
+    double worst[2] = { 0 };
+    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+        struct kd_scene scene = plunging_scene(spins[s]);
+        const struct kd_plunging p = kd_plunging_of(&scene);
+        for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
+            int fell = 0, anew = 0;
+            places_at(&scene, times[k], start);
+            places_at(&scene, times[k] + step, then);
+            for (int i = 0; i < FALLING; i++) {
+                assert_true(start[i].plunging && start[i].latitude == 0);
+                assert_true(start[i].r <= (float)p.start && start[i].r >= (float)p.end);
+                if (then[i].r > start[i].r) {
+                    anew++;
+                    continue;
+                }
+                fell++;
+                if (i % 40)
+                    continue;
+                double r = start[i].r, phi = 0;
+                integrate(spins[s], step, &r, &phi);
+                double off_r = fabs(then[i].r / r - 1), off_phi = fabs(remainder(angle(then[i].phi - start[i].phi) - phi, 2 * M_PI));
+                if (!(off_r < 1e-6 && off_phi < 2e-6))
+                    fail_msg("a = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", spins[s], times[k], start[i].r, then[i].r, r,
+                             off_phi);
+                worst[0] = fmax(worst[0], off_r);
+                worst[1] = fmax(worst[1], off_phi);
+            }
+            double share = step / p.time, sigma = sqrt(FALLING * share * (1 - share));
+            if (!(fabs(anew - FALLING * share) < 4 * sigma && fell + anew == FALLING))
+                fail_msg("a = %g, t = %g: %d begin anew, not %g", spins[s], times[k], anew, FALLING * share);
+        }
+    }
+    printf("plunges over %g M: r within %.2g, phi within %.2g rad\n", step, worst[0], worst[1]);
+}
+
+/* A steady stream, at any time: uniform in coordinate time along the curve, and in azimuth; each lap has another azimuth, and the
+ * same one whenever one looks. */
+static void test_stream(void **state)
+{
+    (void)state;
+    enum { BINS = 8 };
+    static struct kd_particle_place at[FALLING], later[FALLING], again[FALLING];
+    struct kd_scene scene = plunging_scene(0.7);
+    const struct kd_plunging p = kd_plunging_of(&scene);
+    static const double times[] = { 0, -777, 123456.789 };
+    for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
+        int phases[BINS] = { 0 }, turns[BINS] = { 0 }, same = 0;
+        places_at(&scene, times[k], at);
+        places_at(&scene, times[k] + p.time, later);
+        places_at(&scene, times[k], again);
+        assert_memory_equal(at, again, sizeof at);
+        for (int i = 0; i < FALLING; i++) {
+            phases[(int)fmin(BINS - 1, BINS * kd_plunging_at(&p, at[i].r).phase)]++;
+            turns[at[i].phi >> 29]++;
+            assert_true(fabs(later[i].r / at[i].r - 1) < 1e-6);
+            double lag = remainder(angle(later[i].phi - at[i].phi) - p.omega * p.time, 2 * M_PI);
+            same += fabs(lag) < 0.01;
+        }
+        double mean = FALLING / BINS, sigma = sqrt(mean * (1 - 1.0 / BINS));
+        for (int b = 0; b < BINS; b++)
+            assert_true(fabs(phases[b] - mean) < 4 * sigma && fabs(turns[b] - mean) < 4 * sigma);
+        assert_true(same < 40); /* by chance 13 */
+    }
+}
+
+/* w' of the lens map, integrated in single, against what the constants of the ray say in double, with the sign of the closed form. */
+static void test_slopes(void **state)
+{
+    (void)state;
+    static const double cameras[] = { INFINITY, 20, 3 };
+    for (size_t v = 0; v < 3; v++) {
+        struct kd_scene scene = plunging_scene(0.3);
+        scene.camera.inclination_deg = 70;
+        scene.camera.r = cameras[v];
+        scene.camera.observer = KD_OBSERVER_ZAMO;
+        scene.camera.field_m = 20;
+        scene.camera.fov_deg = v == 1 ? 50 : 120;
+        scene.camera.yaw_deg = v == 2 ? 180 : 0;
+        float *planes[2];
+        struct kd_plan plan[2];
+        struct kd_capacity c;
+        kd_renderer_capacity(renderer, &c);
+        for (int k = 0; k < 2; k++) {
+            scene.accuracy.precision = 1 + (k ? KD_PRECISION_F64 : KD_PRECISION_F32);
+            OK(kd_scene_validate(&scene, &error));
+            OK(kd_plan_make(&scene, &c, &plan[k], &error));
+            assert_true(plan[k].fall && plan[k].planes == 3 * plan[k].orders && plan[k].path == (k ? KD_LENS_LISTED : KD_LENS_MAP));
+            planes[k] = test_malloc(4 * plan[k].planes * plan[k].rays);
+            OK(kd_render_lens(renderer, &scene, &plan[k], planes[k], NULL, &error));
+        }
+        uint64_t n = plan[0].rays, orders = plan[0].orders;
+        double isco = kd_kerr_isco(0.3), worst = 0;
+        int signs[2] = { 0 }, far = 0;
+        for (uint64_t at = 0; at < orders * n; at++) {
+            double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][at + 2 * orders * n], planes[1][at + 2 * orders * n] };
+            if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 && 1 / w[0] > 1.02 * kd_kerr_horizon(0.3)))
+                continue; /* not of both, or next to the critical curve */
+            double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
+            far += off > 1e-3;
+            worst = fmax(worst, off);
+            signs[dw[1] > 0]++;
+        }
+        printf("slopes, camera at %g: %d inwards, %d outwards, within %.2g\n", cameras[v], signs[1], signs[0], worst);
+        assert_true(signs[1] + signs[0] > 300 && signs[0] > 30 && far == 0);
+        test_free(planes[0]);
+        test_free(planes[1]);
+    }
+}
+
+/* Without them neither planes nor a second grid. */
+static void test_off(void **state)
+{
+    (void)state;
+    struct kd_scene scenes[4];
+    struct kd_plan plans[4];
+    struct kd_capacity c;
+    kd_renderer_capacity(renderer, &c);
+    for (int k = 0; k < 4; k++)
+        scenes[k] = plunging_scene(0.5);
+    scenes[1].disk.plunging = 0;
+    scenes[2].disk.inner = 6;
+    scenes[3].disk.plunging_temperature = 0;
+    for (int k = 0; k < 4; k++)
+        OK(kd_plan_make(&scenes[k], &c, &plans[k], &error));
+    assert_true(plans[0].fall && plans[0].particles.plunging == FALLING && plans[0].planes == 3 * plans[0].orders);
+    for (int k = 1; k < 4; k++)
+        assert_true(!plans[k].fall && plans[k].planes == 2 * plans[k].orders && strcmp(plans[k].lens_key, plans[0].lens_key));
+    assert_true(!plans[1].particles.plunging && !plans[2].particles.plunging && plans[3].particles.plunging == FALLING);
+    assert_true(plans[1].particles.bytes < plans[0].particles.bytes && !plans[1].particles.plunge_rows);
+    assert_true(plans[0].n_approximations == plans[1].n_approximations + 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_geodesics), cmocka_unit_test(test_stream), cmocka_unit_test(test_slopes),
+                                        cmocka_unit_test(test_off) };
+    int code = open_renderer();
+    return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}

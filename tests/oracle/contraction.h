@@ -1,0 +1,24 @@
+/* Redshift of gas that plunges from the ISCO, by contraction with the metric. */
+#ifndef KD_TESTS_CONTRACTION_H
+#define KD_TESTS_CONTRACTION_H
+
+#include "physics/kerr.h"
+
+#include <math.h>
+
+/* g = 1/(-k.u) with every component written out: the inverse metric raises k, u^r from u.g.u = -1 with the E
+ * and L of the ISCO, k_r from k.g.k = 0. Nothing here knows of potentials. */
+static inline double redshift_of_plunge(double a, double r, double lambda, double eta, double sign)
+{
+    double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco);
+    double delta = r * r - 2 * r + a * a, pp = r * r + a * a + 2 * a * a / r;
+    double itt = -pp / delta, itp = -2 * a / (r * delta), ipp = (1 - 2 / r) / delta, irr = delta / (r * r);
+    double ut = -itt * e + itp * l, up = -itp * e + ipp * l,
+           energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;
+    double ur_down = -sqrt((energy2 - 1) / irr); /* inwards; k_theta^2 = eta at the equator */
+    double null = -itt + 2 * itp * lambda - ipp * lambda * lambda - eta / (r * r);
+    double kr_down = sign * sqrt(null / irr);
+    return 1 / (ut - lambda * up - irr * kr_down * ur_down);
+}
+
+#endif
