@@ -129,6 +129,29 @@ static void ranges_are_checked_again(void **state)
     }
 }
 
+/* A session draws a new frame when something that can be seen has moved. */
+static void what_moves(void **state)
+{
+    (void)state;
+    static const struct { const char *json; bool moves; } cases[] = {
+        { "{}", false },
+        { "{\"motion\":{\"time_rate\":5,\"azimuth_rate_deg\":5}}", false },
+        { "{\"motion\":{\"time_rate\":5},\"spot3\":{\"brightness\":1}}", true },
+        { "{\"motion\":{\"azimuth_rate_deg\":5},\"spot2\":{\"brightness\":1}}", true },
+        { "{\"spot1\":{\"brightness\":1}}", false },
+        { "{\"motion\":{\"time_rate\":5},\"disk\":{\"model\":\"particles\"}}", true },
+        { "{\"motion\":{\"azimuth_rate_deg\":-5},\"sky\":{\"model\":\"grid\"}}", true },
+        { "{\"motion\":{\"time_rate\":5},\"sky\":{\"model\":\"grid\"}}", false },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_scene scene;
+        kd_scene_defaults(&scene);
+        assert_int_equal(support_parse(&scene, cases[i].json, NULL), KD_OK);
+        if (kd_scene_moves(&scene) != cases[i].moves)
+            fail_msg("%s: it %s", cases[i].json, cases[i].moves ? "does not move" : "moves");
+    }
+}
+
 static void presets_are_valid(void **state)
 {
     (void)state;
@@ -192,6 +215,7 @@ int main(void)
         cmocka_unit_test(fields_fit_each_other),      cmocka_unit_test(inner_edge_may_touch_the_isco),
         cmocka_unit_test(ranges_are_checked_again),   cmocka_unit_test(presets_are_valid),
         cmocka_unit_test(presets_show_what_they_say), cmocka_unit_test(unknown_preset_names_the_known),
+        cmocka_unit_test(what_moves),
     };
     return cmocka_run_group_tests_name("scene rules", tests, NULL, NULL);
 }
