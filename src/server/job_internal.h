@@ -38,6 +38,7 @@ struct kd_jobs {
     struct kd_job_frame *rendering;
     unsigned behind;
     uint64_t bytes;
+    uint64_t frames; /* finished here, of all */
     bool closed;
 };
 

@@ -2,6 +2,7 @@
 #include "server/clock.h"
 #include "server/job_routes.h"
 #include "server/reply.h"
+#include "server/scene_source.h"
 #include "server/task.h"
 
 #include <cjson/cJSON.h>
@@ -125,7 +126,7 @@ static enum kd_turn work(struct kd_task *task, double until_ms)
     const struct kd_buffer *body = &task->request->body;
     const char *text = body->data ? (const char *)body->data : "";
     struct kd_error error = { 0 };
-    enum kd_status status = d->read ? KD_OK : kd_job_spec_parse(text, body->size, &d->draft.spec, &error);
+    enum kd_status status = d->read ? KD_OK : kd_job_spec_parse(text, body->size, d->draft.preset, &d->draft.spec, &error);
     d->read = true;
     if (!status)
         status = kd_jobs_check(jobs, &d->draft, until_ms, &error);
@@ -148,12 +149,13 @@ static enum MHD_Result deliver(struct kd_request *request)
 enum MHD_Result kd_handle_jobs(struct kd_request *request)
 {
     struct kd_turns *workers = request->server->turns;
+    const char *preset = kd_target_value(&request->target, "preset");
+    struct kd_error error = { 0 };
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (request->target.n_pairs)
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS,
-                                                                .detail = "parameters belong to the document, not to the query" });
+    if (kd_scene_query_check(&request->target, false, &error))
+        return refuse(request, &error, false);
     if (!kd_task_admit(request, workers, "jobs", &refused))
         return refused;
     struct draft *d = calloc(1, sizeof *d);
@@ -162,6 +164,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     kd_task_init(&d->task, request, workers);
     d->task.work = work;
     d->task.free = destroy;
+    snprintf(d->draft.preset, sizeof d->draft.preset, "%s", preset ? preset : "");
     client_of(request, d->client, sizeof d->client);
     request->task = &d->task;
     if (request->body.size <= SMALL && work(&d->task, kd_clock_ms() + MOMENT_MS) == KD_TURN_LAST)

@@ -122,6 +122,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
     job->have[number] = 1;
     job->finished++;
     job->finished_here++;
+    job->all->frames++;
     job->bytes += size;
     job->all->bytes += size;
     job->revision++;

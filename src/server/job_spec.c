@@ -13,6 +13,7 @@
 
 struct reader {
     struct kd_job_spec *spec;
+    struct kd_scene base;
     const cJSON *scene, *scenes, *keyframes, *frames, *interpolation, *output;
     struct kd_error *error;
 };
@@ -106,7 +107,7 @@ static enum kd_status read_list(struct reader *r)
         struct kd_job_key *key = &spec->keys[spec->n_keys];
         snprintf(pointer, sizeof pointer, "/scenes/%zu", spec->n_keys);
         key->frame = (unsigned)spec->n_keys++;
-        kd_scene_defaults(&key->scene);
+        key->scene = r->base;
         status = read_scene(r, item, pointer, false, &key->scene);
     }
     spec->frames = (unsigned)n;
@@ -118,7 +119,7 @@ static enum kd_status read_keyframe(struct reader *r, const cJSON *item, size_t 
     struct kd_job_spec *spec = r->spec;
     const cJSON *frame = NULL, *scene = NULL;
     char pointer[40], at[60];
-    unsigned number;
+    unsigned number = 0;
     snprintf(pointer, sizeof pointer, "/keyframes/%zu", index);
     if (!cJSON_IsObject(item))
         return not_a(r, item, pointer, "an object with frame and scene");
@@ -165,7 +166,7 @@ static enum kd_status read_sequence(struct reader *r)
     if (status)
         return status;
     spec->n_keys = 1;
-    kd_scene_defaults(&spec->keys[0].scene);
+    spec->keys[0].scene = r->base;
     status = read_scene(r, r->scene, "/scene", false, &spec->keys[0].scene);
     for (const cJSON *item = r->keyframes ? r->keyframes->child : NULL; item && !status; item = item->next)
         status = read_keyframe(r, item, i++);
@@ -184,7 +185,7 @@ static enum kd_status read_output(struct reader *r)
     return r->spec->curve || !strcmp(word, "pictures") ? KD_OK : not_a(r, r->output, "/output", "\"pictures\" or \"light-curve\"");
 }
 
-enum kd_status kd_job_spec_parse(const char *text, size_t length, struct kd_job_spec *out, struct kd_error *error)
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out, struct kd_error *error)
 {
     struct kd_job_spec spec = { 0 };
     struct reader r = { .spec = &spec, .error = error };
@@ -192,7 +193,10 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, struct kd_job_
                                       { "frames", &r.frames }, { "interpolation", &r.interpolation },
                                       { "output", &r.output } };
     cJSON *root = NULL;
-    enum kd_status status = kd_tree_parse(text, length, KD_JOB_BODY_MAX, VALUES_MAX, &root, error);
+    kd_scene_defaults(&r.base);
+    enum kd_status status = *preset ? inside(&r, kd_scene_preset(&r.base, preset, error), "/preset") : KD_OK;
+    if (!status)
+        status = kd_tree_parse(text, length, KD_JOB_BODY_MAX, VALUES_MAX, &root, error);
     if (!status && !cJSON_IsObject(root))
         status = not_a(&r, root, "", "an object");
     if (!status)

@@ -175,6 +175,8 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
         !copy_text(o, "token", out->token, sizeof out->token) || strlen(out->token) != KD_SECRET_TOKEN - 1 ||
         !copy_text(o, "error", out->error, sizeof out->error) || !copy_text(o, "state", state, sizeof state))
         return false;
+    if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* jobs of versions without have none */
+        *out->preset = 0;
     double attempts = number(o, "attempts");
     out->attempts = attempts > 0 && attempts < 1e6 ? (unsigned)attempts : 0;
     for (int i = 0; i < (int)(sizeof states / sizeof *states); i++)
@@ -258,6 +260,7 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
     cJSON_AddNumberToObject(o, "created", record->created);
     cJSON_AddNumberToObject(o, "ended", record->ended);
     cJSON_AddNumberToObject(o, "attempts", record->attempts);
+    cJSON_AddStringToObject(o, "preset", record->preset);
     cJSON_AddStringToObject(o, "error", record->error);
     char *text = cJSON_PrintUnformatted(o);
     cJSON_Delete(o);

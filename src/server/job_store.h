@@ -16,6 +16,7 @@ struct kd_job_record {
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 until then */
     unsigned attempts;     /* times a server has gone on with it since its latest frame */
+    char preset[32];       /* that its scenes are merged over; "": none */
     char error[480];       /* of a failed one */
 };
 

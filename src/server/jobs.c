@@ -138,7 +138,7 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
     struct kd_job_spec spec = { 0 };
     struct kd_error error = { 0 };
     char why[sizeof error.message] = "";
-    if (kd_job_spec_parse((const char *)request->data, request->size, &spec, &error))
+    if (kd_job_spec_parse((const char *)request->data, request->size, known->preset, &spec, &error))
         snprintf(why, sizeof why, "the request cannot be read any more: %.400s", error.message);
     kd_buffer_finish(request);
     struct kd_job *job = create(all, &spec);
@@ -258,6 +258,7 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
     } else {
         job->estimate_ms = draft->ms;
         job->record.created = kd_job_now_s();
+        memcpy(job->record.preset, draft->preset, sizeof job->record.preset);
         snprintf(job->client, sizeof job->client, "%s", client);
         status = enter(all, job, text, length, quota, error);
     }
@@ -349,3 +350,16 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     pthread_mutex_unlock(&all->lock);
 }
 
+void kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
+{
+    pthread_mutex_lock(&all->lock);
+    *out = (struct kd_jobs_counts) { .frames = all->frames, .bytes = all->bytes };
+    for (const struct kd_job *job = all->first; job; job = job->link) {
+        out->waiting += kd_job_is_active(job);
+        out->done += job->record.state == KD_JOB_DONE;
+        out->failed += job->record.state == KD_JOB_FAILED;
+    }
+    out->running = out->waiting > 0; /* the oldest */
+    out->waiting -= out->running;
+    pthread_mutex_unlock(&all->lock);
+}

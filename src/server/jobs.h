@@ -38,6 +38,7 @@ struct kd_job_draft {
     struct kd_job_spec spec;
     unsigned checked; /* frames; spec.frames: all */
     double ms;        /* that they take, by their plans */
+    char preset[32];  /* as the spec was parsed with */
 };
 /* Further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
@@ -63,6 +64,13 @@ struct kd_job_status {
     char error[480];
 };
 void kd_job_status(struct kd_job *job, struct kd_job_status *out);
+
+struct kd_jobs_counts {
+    unsigned waiting, running, done, failed;
+    uint64_t frames; /* finished by this server */
+    uint64_t bytes;  /* of the frames of all jobs */
+};
+void kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* As kd_job_store_get. */
 int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);

@@ -15,23 +15,42 @@ static enum kd_status add_answers(struct kd_buffer *out, struct kd_server *serve
     return status;
 }
 
+static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_counts *jobs)
+{
+    return kd_buffer_printf(out, "# HELP kerrd_jobs Jobs that are kept, by state.\n# TYPE kerrd_jobs gauge\n"
+                                 "kerrd_jobs{state=\"waiting\"} %u\nkerrd_jobs{state=\"running\"} %u\n"
+                                 "kerrd_jobs{state=\"done\"} %u\nkerrd_jobs{state=\"failed\"} %u\n",
+                            jobs->waiting, jobs->running, jobs->done, jobs->failed);
+}
+
 enum MHD_Result kd_handle_metrics(struct kd_request *request)
 {
     struct kd_server *s = request->server;
     struct kd_buffer text = { 0 };
+    struct kd_sessions_counts sessions;
+    struct kd_jobs_counts jobs;
+    kd_sessions_counts(s->sessions, &sessions);
+    kd_jobs_counts(s->jobs, &jobs);
     const struct { const char *name, *type, *help; double value; } rows[] = {
         { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
         { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
           kd_render_queue_unfinished(s->renders) },
         { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.", 1e-3 * kd_render_queue_backlog_ms(s->renders) },
         { "rays_unfinished", "gauge", "Requests for rays under way.", kd_turns_unfinished(s->rays) },
-        { "sessions", "gauge", "Live sessions.", kd_sessions_count(s->sessions) },
-        { "session_frames_total", "counter", "Frames of sessions encoded.", (double)kd_sessions_frames(s->sessions) },
+        { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.", kd_turns_unfinished(s->turns) },
+        { "sessions", "gauge", "Live sessions.", sessions.sessions },
+        { "session_viewers", "gauge", "Requests and streams that follow sessions.", sessions.viewers },
+        { "session_frames_total", "counter", "Frames of sessions encoded.", (double)sessions.frames },
+        { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)sessions.bytes },
+        { "job_frames_total", "counter", "Frames of jobs finished.", (double)jobs.frames },
+        { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)jobs.bytes },
         { "bodies_bytes", "gauge", "Bodies being received.", (double)atomic_load(&s->body_bytes) },
-        { "replies_bytes", "gauge", "Pictures and rays not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
+        { "replies_bytes", "gauge", "Pictures, rays and orbits not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
         { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
     };
     enum kd_status status = add_answers(&text, s);
+    if (!status)
+        status = add_jobs(&text, &jobs);
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
         status = add(&text, rows[i].name, rows[i].type, rows[i].help, rows[i].value);
     return kd_reply_json(request, status, &text, request->route->answer);

@@ -74,6 +74,8 @@ static void add_parameters(cJSON *operation, const struct kd_route *route, bool 
         if (!post)
             add_fields(list, schema, "");
     }
+    if (route->takes == KD_TAKES_JOB)
+        add_parameter(list, "query", "preset", false, string_type());
     if (route->takes == KD_TAKES_RAYS)
         kd_openapi_rays_parameters(list);
     if (route->takes == KD_TAKES_PARTICLES)

@@ -21,7 +21,7 @@ static void pointer_of(const char *name, char *out, size_t size)
     out[n] = 0;
 }
 
-static enum kd_status check_pairs(const struct kd_target *target, bool fields, struct kd_error *error)
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
@@ -72,7 +72,7 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
     bool post = !strcmp(request->method, "POST"), malformed = false;
 
     kd_scene_defaults(scene);
-    enum kd_status status = check_pairs(&request->target, !post, error);
+    enum kd_status status = kd_scene_query_check(&request->target, !post, error);
     if (!status)
         status = apply_preset(&request->target, scene, error);
     if (!status && post) {

@@ -40,7 +40,7 @@ struct kd_sessions {
     pthread_mutex_t lock;
     struct kd_session *first;
     unsigned count;
-    uint64_t frames;
+    uint64_t frames, bytes; /* published */
     bool closed;
     double looked_ms;
     struct kd_png_live *encoders[KD_ENCODERS];

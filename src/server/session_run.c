@@ -178,6 +178,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_live_frame_release(s->latest);
     s->latest = frame;
     s->all->frames++;
+    s->all->bytes += frame->png.size;
     kd_session_wake(s);
 }
 

@@ -119,12 +119,18 @@ bool kd_session_owned(const struct kd_session *s, const char *token)
     return kd_secret_equal(s->token, token);
 }
 
+static unsigned viewers_of(const struct kd_session *s) /* locked */
+{
+    unsigned n = 0;
+    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
+        n++;
+    return n;
+}
+
 static void state(const struct kd_session *s, struct kd_session_state *out) /* locked */
 {
     *out = (struct kd_session_state) { .scene = kd_session_scene(s, kd_clock_ms()), .revision = s->revision,
-                                       .frame = s->latest ? s->latest->number : 0 };
-    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
-        out->viewers++;
+                                       .viewers = viewers_of(s), .frame = s->latest ? s->latest->number : 0 };
 }
 
 void kd_session_state(struct kd_session *s, struct kd_session_state *out)
@@ -182,20 +188,13 @@ void kd_sessions_close(struct kd_sessions *all)
     pthread_mutex_unlock(&all->lock);
 }
 
-unsigned kd_sessions_count(struct kd_sessions *all)
+void kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out)
 {
     pthread_mutex_lock(&all->lock);
-    unsigned n = all->count;
+    *out = (struct kd_sessions_counts) { .sessions = all->count, .frames = all->frames, .bytes = all->bytes };
+    for (const struct kd_session *s = all->first; s; s = s->next)
+        out->viewers += viewers_of(s);
     pthread_mutex_unlock(&all->lock);
-    return n;
-}
-
-uint64_t kd_sessions_frames(struct kd_sessions *all)
-{
-    pthread_mutex_lock(&all->lock);
-    uint64_t n = all->frames;
-    pthread_mutex_unlock(&all->lock);
-    return n;
 }
 
 void kd_sessions_destroy(struct kd_sessions *all)

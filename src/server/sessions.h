@@ -69,7 +69,10 @@ struct kd_live_frame *kd_viewer_next(struct kd_viewer *viewer, bool *over, struc
 void kd_sessions_sweep(struct kd_sessions *all);
 /* No new sessions, all viewers told that it is over; what is being rendered finishes. */
 void kd_sessions_close(struct kd_sessions *all);
-unsigned kd_sessions_count(struct kd_sessions *all);
-uint64_t kd_sessions_frames(struct kd_sessions *all); /* published so far, of all */
+struct kd_sessions_counts {
+    unsigned sessions, viewers;
+    uint64_t frames, bytes; /* published so far, of all; of those, once each */
+};
+void kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out);
 
 #endif

@@ -58,8 +58,8 @@ class Case(daemon.Case):
             self.daemon.request('DELETE', self.at(job), headers=self.owner(job))
         super().tearDown()
 
-    def post(self, body, server=None):
-        answer = (server or self.daemon).post('/v1/jobs', body)
+    def post(self, body, server=None, query=''):
+        answer = (server or self.daemon).post('/v1/jobs' + query, body)
         self.assertEqual(answer.status, 202, answer.body)
         job = answer.json()
         self.assertEqual(answer.header('Location'), '/v1/jobs/' + job['id'])
@@ -147,6 +147,34 @@ class Jobs(Case):
         self.assertEqual(all_of('image', 'width'), [32] * 4 + [36] * 5)
         self.assertEqual([s['sky']['model'] for s in scenes], ['none'] * 4 + ['grid'] * 5)
         self.assertEqual([s['style']['exposure'] for s in scenes], ['auto'] * 4 + [1] * 5)  # a word steps, too
+
+    def test_preset(self):
+        face_on = self.daemon.get('/v1/presets/face-on').json()['camera']['inclination_deg']
+        job = self.post({'scenes': [{'image': IMAGE}, {'image': IMAGE, 'camera': {'inclination_deg': 33}}]}, query='?preset=face-on')
+        self.assertEqual([scene_of(png)['camera']['inclination_deg'] for png in self.frames(job).values()], [face_on, 33])
+        job = self.post({'scene': {'image': IMAGE}, 'keyframes': [{'frame': 2, 'scene': {'camera': {'inclination_deg': face_on + 1}}}]},
+                        query='?preset=face-on')
+        self.assertEqual([scene_of(png)['camera']['inclination_deg'] for png in self.frames(job).values()],
+                         [face_on, face_on + 0.5, face_on + 1])
+
+    def metrics(self):
+        text = self.daemon.get('/metrics').body.decode()
+        return {name: float(value) for name, value in (line.rsplit(' ', 1) for line in text.splitlines() if line[0] != '#')}
+
+    def test_metrics(self):
+        before = self.metrics()
+        done = self.post({'scenes': [SCENE] * 3})
+        size = self.until(done, 'done')['bytes']
+        self.until(self.post({'scene': {**SCENE, 'time': -3}}), 'failed')
+        self.post({'scene': SLOW})
+        self.post({'scene': SLOW})
+        after = self.metrics()
+
+        def grown(name):
+            return after['kerrd_' + name] - before['kerrd_' + name]
+        self.assertEqual([after[f'kerrd_jobs{{state="{s}"}}'] for s in ('waiting', 'running')], [1, 1])
+        self.assertEqual([grown(f'jobs{{state="{s}"}}') for s in ('done', 'failed')], [1, 1])
+        self.assertEqual((grown('job_frames_total'), grown('job_bytes')), (3, size))
 
     def test_smooth(self):
         at = {0: 10, 10: 20, 15: 80, 40: 75, 50: 75}
@@ -350,7 +378,9 @@ class Jobs(Case):
                 problem = self.assertProblem(self.daemon.post('/v1/jobs', body), status, 'malformed-json' if status == 400 else 'invalid-job')
                 if pointer:
                     self.assertEqual(problem['pointer'], pointer)
-        self.assertProblem(self.daemon.post('/v1/jobs?preset=x', {'scene': {}}), 422, 'invalid-parameters')
+        for query, pointer in (('preset=x', '/preset'), ('preset=' + 'x' * 40, '/preset'), ('preset=face-on&preset=face-on', '/preset'),
+                               ('spacetime.spin=0', '/spacetime/spin')):
+            self.assertProblem(self.daemon.post('/v1/jobs?' + query, {'scene': {}}), 422, 'invalid-job', pointer)
         self.assertProblem(self.daemon.post('/v1/jobs', {'scenes': [{'image': {'width': 20000, 'height': 20000, 'samples': 8}}]}), 422, 'too-large',
                            '/scenes/0')
         job = self.post({'scenes': [SCENE] * 2})
@@ -458,6 +488,17 @@ class State(Case):
                     self.assertEqual(server.request('DELETE', self.at(j), headers=self.owner(j)).status, 204)
                 self.assertTrue(daemon.eventually(lambda: not self.folders()))
                 self.assertEqual(server.stop(), 0)
+
+    def test_its_preset_outlives_the_server(self):
+        server = self.start()
+        job = self.post({'scenes': [{**SCENE, 'time': 200}] * 4}, server, '?preset=schwarzschild')
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 1))
+        self.assertEqual(server.stop(), 0)
+        server = self.start()
+        self.until(job, 'done', server)
+        with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+            self.assertEqual({scene_of(z.read(n))['spacetime']['spin'] for n in z.namelist()}, {0})
+        self.assertEqual(server.stop(), 0)
 
     def test_what_ends_the_server_is_given_up(self):
         server = self.start()

@@ -276,6 +276,18 @@ class Sessions(daemon.Case):
         number = int(self.frame(smooth).header('Kerrd-Frame'))
         self.assertEqual(self.frame(smooth, number + 8, 700).status, 204)
 
+    def test_metrics(self):
+        def now():
+            text = self.daemon.get('/metrics').body.decode()
+            return {name: float(value) for name, value in re.findall(r'^kerrd_session(\w*) (.*)$', text, re.M)}
+        session, before = self.open(), now()
+        size = len(self.frame(session).body)
+        with self.stream(session, '/events', 'text/event-stream'):
+            self.assertTrue(daemon.eventually(lambda: now()['_viewers'] == before['_viewers'] + 1))
+        after = now()
+        self.assertEqual((after['s'], after['_frames_total'], after['_bytes_total']),
+                         (1, before['_frames_total'] + 1, before['_bytes_total'] + size))
+
     def test_nobody_watches_nothing_is_drawn(self):
         session = self.open(MOVING)
         number = int(self.frame(session).header('Kerrd-Frame'))
