@@ -5,7 +5,7 @@ import { caption, showAccuracy } from './accuracy.js';
 import { buildControls } from './controls.js';
 import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
-import { buildLiving } from './living.js';
+import { buildLiving, hasSpots } from './living.js';
 import { buildOverlays } from './overlay.js';
 import { buildPresets, openPreset } from './presets.js';
 import { Scene } from './scene.js';
@@ -42,6 +42,7 @@ function goTo(name) {
     other === view ? button.setAttribute('aria-current', 'page') : button.removeAttribute('aria-current');
   }
   document.body.dataset.view = view;
+  document.dispatchEvent(new Event('viewchange'));
   link.set('view', view === 'lensing' ? null : view);
   if (!opened.has(view)) (opened.add(view), views[view]?.().catch(error => sayWrong(error.message)));
 }
@@ -94,6 +95,16 @@ async function watch(scene) {
     stage.dataset.samples = frame.samples;
     complain('', '');
     showAccuracy(frame, scene);
+    followLight();
+  }
+
+  // The light of spots, once there are any.
+  let light = null;
+  function followLight() {
+    const wanted = hasSpots(scene);
+    byId('light').hidden = !wanted;
+    if (wanted) light ??= import('./light.js').then(({ buildLight }) => buildLight(byId('light'), scene));
+    light?.then(follow => follow(source.address(), wanted));
   }
 
   async function refuse(error) {
@@ -115,6 +126,7 @@ async function watch(scene) {
   const showShare = share(scene, size);
   built({ complain, drawOverlays });
 
+  for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, followLight);
   scene.addEventListener('change', () => {
     stage.dataset.final = false;
     source.refresh();

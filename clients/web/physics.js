@@ -12,6 +12,31 @@ const axis = (label, more) => ({ label, ...more });
 const outside = far => async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:141` });
 const radius = t('radius r / M', 'raggio r / M');
 
+// What rings too low or too high for ears is shifted by whole octaves, to a few hundred Hz.
+const heard = { least: 20, most: 20000, best: 300 };
+
+function listen(v, { t: _, ...asked }) {
+  const [hertz] = v.frequency_hz,
+    octaves = hertz < heard.least || hertz > heard.most ? Math.round(Math.log2(heard.best / hertz)) : 0;
+  const url = physicsUrl('qnm', { ...asked, shift_octaves: octaves }) + '&format=wav',
+    sound = new Audio();
+  sound.preload = 'none';
+  sound.src = url;
+  const shift = octaves
+    ? t(
+        `${number(Math.abs(octaves))} octaves ${octaves > 0 ? 'higher' : 'lower'}, and ${octaves > 0 ? 'faster' : 'slower'}, than it is, so that ears hear it`,
+        `${number(Math.abs(octaves))} ottave più ${octaves > 0 ? 'in alto' : 'in basso'} e più ${octaves > 0 ? 'veloce' : 'lento'} del vero, perché si senta`,
+      )
+    : '';
+  return el(
+    'p',
+    { class: 'row' },
+    el('button', { type: 'button', onclick: () => sound.play() }, t('Hear it', 'Ascolta')),
+    el('a', { class: 'button', href: url, download: 'ringdown.wav' }, t('Save WAV', 'Salva WAV')),
+    shift && el('span', { class: 'help' }, shift),
+  );
+}
+
 const charts = [
   {
     name: 'deflection',
@@ -130,6 +155,7 @@ const charts = [
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
     ],
     query: { t: '0:90:241' },
+    after: listen,
     equation:
       '<mi>h</mi><mo>=</mo><msup><mi>e</mi><mrow><msub><mi>ω</mi><mi>I</mi></msub><mi>t</mi></mrow></msup><mi>cos</mi><mo>(</mo><msub><mi>ω</mi><mi>R</mi></msub><mi>t</mi><mo>)</mo><mo>,</mo><mspace width="1em"/><mi>Q</mi><mo>=</mo><mfrac><msub><mi>ω</mi><mi>R</mi></msub><mrow><mo>−</mo><mn>2</mn><msub><mi>ω</mi><mi>I</mi></msub></mrow></mfrac>',
     show: (v, p) => ({
@@ -277,6 +303,7 @@ function card(chart, known) {
     figure = plot(),
     sources = el('p', { class: 'sources', lang: 'en' });
   const fault = el('p', { class: 'fault', role: 'status' }),
+    after = el('div', {}),
     formula = el('p', { class: 'formula' });
   const parameter = Object.fromEntries(known.parameters.map(p => [p.name, p]));
   const form = buildForm(
@@ -296,6 +323,7 @@ function card(chart, known) {
       const shown = chart.show(answer.values, answer.parameters, also);
       const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
       figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
+      if (chart.after) after.replaceChildren(chart.after(answer.values, asked));
       sources.textContent = answer.sources.join('; ');
       fault.textContent = '';
     } catch (error) {
@@ -311,6 +339,7 @@ function card(chart, known) {
     chart.inputs.length ? inputs : null,
     fault,
     figure,
+    chart.after ? after : null,
     el('details', {}, el('summary', {}, t('Where this comes from', 'Da dove viene')), sources),
   );
   return { node, draw };

@@ -81,6 +81,24 @@ function table(spec) {
   );
 }
 
+// The numbers of a spec under a heading, made when they are opened; what is live stays meanwhile as it was then.
+export function numbers(id) {
+  const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
+    links = el('p', {});
+  const details = el('details', {}, el('summary', {}, t('The numbers', 'I numeri')), box, links);
+  let spec = null;
+  const fill = () => details.open && spec && box.replaceChildren(...table(spec));
+  details.addEventListener('toggle', fill);
+  details.show = next => {
+    spec = next;
+    if (!spec.live) fill();
+    links.replaceChildren(
+      ...(spec.csv ? [el('a', { href: spec.csv + '&format=csv', download: '' }, t('All of them as CSV', 'Tutti, in CSV'))] : []),
+    );
+  };
+  return details;
+}
+
 function drawMarks(u, marks) {
   const { ctx, bbox } = u,
     ratio = devicePixelRatio;
@@ -131,18 +149,16 @@ function key(style) {
   return svg('svg', { viewBox: '0 0 26 8', class: 'key', 'aria-hidden': 'true' }, svg('path', { class: `line line-${style}`, d: 'M0 4H26' }));
 }
 
-// spec: { title, note, csv, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label }] }.
+// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label }] }.
 // Returns the figure, with a method draw(spec) that puts other numbers into it.
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
   const chart = el('div', { class: 'chart', role: 'slider', tabindex: 0, 'aria-labelledby': id });
   const legend = el('ul', { class: 'legend', 'aria-label': t('Curves: press to hide or show', 'Curve: premi per nasconderle o mostrarle') });
-  const numbers = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
-    note = el('p', { class: 'help' }),
-    links = el('p', {});
-  const details = el('details', {}, el('summary', {}, t('The numbers', 'I numeri')), numbers, links);
-  const figure = el('figure', { class: 'plot' }, caption, chart, legend, note, details);
+  const note = el('p', { class: 'help' }),
+    list = numbers(id);
+  const figure = el('figure', { class: 'plot' }, caption, chart, legend, note, list);
   let spec = null,
     made = '',
     u = null,
@@ -246,13 +262,7 @@ export function plot(first) {
     chart.setAttribute('aria-valuemin', limits.x[0]);
     chart.setAttribute('aria-valuemax', limits.x[1]);
     render();
-    details.ontoggle = () => {
-      if (details.open) numbers.replaceChildren(...table(spec));
-    };
-    details.ontoggle();
-    links.replaceChildren(
-      ...(spec.csv ? [el('a', { href: spec.csv + '&format=csv', download: '' }, t('All of them as CSV', 'Tutti, in CSV'))] : []),
-    );
+    list.show(spec);
   }
 
   const moves = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10, Home: -Infinity, End: Infinity };

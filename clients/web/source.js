@@ -52,6 +52,7 @@ const visible = () =>
 
 // scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
 //   refresh()      to be called whenever the scene or the window has changed
+//   address()      of the session, or null
 //   strike()       the hole, once the server knows the scene as it is
 export function openSource(scene, size, shown, failed) {
   let session = null,
@@ -175,6 +176,7 @@ export function openSource(scene, size, shown, failed) {
       clearTimeout(timer);
       put();
     },
+    address: () => session?.url ?? null,
     strike() {
       striking = true;
       put();

@@ -324,6 +324,7 @@ class Page(unittest.TestCase):
 
     def test_orbits(self):
         page = self.open('lang=en&view=orbits', '#orbit-picture .front')
+        self.assertEqual(page.locator('#orbits math').count(), 2)
         page.wait_for_selector('#orbit-plots canvas >> nth=1', state='attached')
         for plot in range(2):
             self.assertGreater(self.drawn(page, f'#orbit-plots canvas >> nth={plot}')['coloured'], 300, plot)
@@ -360,6 +361,16 @@ class Page(unittest.TestCase):
         self.assertNotEqual(self.drawn(page, '#curve-qnm canvas')['hash'], before['hash'])
         self.assertIn('qnm.spin=0.95', page.url)
 
+    def test_a_ringdown_is_heard(self):
+        page = self.open('lang=en&view=physics&qnm.mass_msun=4e6', '#curve-qnm a[href*=wav]')
+        self.assertIn('16 octaves higher', page.inner_text('#curve-qnm'))
+        with page.expect_response('**/v1/physics/qnm*format=wav') as answer:
+            page.click('#curve-qnm button:has-text("Hear it")')
+        self.assertEqual((answer.value.status, answer.value.headers['content-type']), (206 if 'content-range' in answer.value.headers else 200, 'audio/wav'))
+        with page.expect_download() as download:
+            page.click('#curve-qnm a[href*=wav]')
+        self.assertEqual(pathlib.Path(download.value.path()).read_bytes()[:4], b'RIFF')
+
     def test_plots_are_read_by_keyboard(self):
         page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
         chart = page.locator('#curve-kerr .chart')
@@ -380,6 +391,7 @@ class Page(unittest.TestCase):
     def test_real_scale(self):
         page = self.open('lang=en&view=scale', '#scale-rows tr')
         self.assertIn('42 µas', page.inner_text('#scale-rows'))
+        self.assertEqual(page.locator('#scale math').count(), 3)
         self.shot(page, 'scale')
         page.select_option('#in-scale-hole', 'sgra')
         page.wait_for_selector('#scale-rows >> text=51.8 µas')
@@ -406,6 +418,15 @@ class Page(unittest.TestCase):
         for view, ready in (('lensing', AT_REST), ('physics', '#curves .card:last-child canvas'), ('orbits', '#orbit-picture .front')):
             page = self.open(f'lang=it&view={view}', ready, viewport={'width': 320, 'height': 640})
             self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 320, view)
+
+    def test_low(self):
+        page = self.open(viewport={'width': 1100, 'height': 420})
+        self.open_groups(page)
+        self.assertEqual(page.evaluate('() => document.documentElement.scrollHeight'), 420, 'the panel scrolls, the page does not')
+        page = self.open('lang=it', viewport={'width': 844, 'height': 390}, has_touch=True)
+        self.assertLess(page.locator('header').bounding_box()['height'], 60)
+        box = page.locator('#stage').bounding_box()
+        self.assertLess(box['y'] + box['height'], 320, 'there is room beside the picture to scroll by')
 
     def test_a_session_that_has_ended_is_opened_anew(self):
         page = self.open()
@@ -486,6 +507,30 @@ class Page(unittest.TestCase):
         page.click('#spot')
         page.wait_for_selector(FINE)
         self.assertEqual(self.pixels(page), other)
+
+    def test_the_light_of_a_spot(self):
+        page = self.open('lang=en&preset=hot-spot', '#light canvas')
+        page.fill('[data-path="motion.time_rate"] input[type=number]', '60')
+        page.keyboard.press('Enter')
+        start = self.clock(page)
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > start + 200, 30))
+        self.assertGreater(self.drawn(page, '#light canvas')['coloured'], 100)
+        page.click('#light summary >> nth=0')
+        page.wait_for_selector('#light tbody tr >> nth=5')
+        rows = [[float(cell.replace(',', '')) for cell in row.split()] for row in page.locator('#light tbody tr').all_inner_texts()]
+        times, everything, spots = zip(*rows)
+        self.assertEqual(sorted(times), list(times))
+        self.assertGreater(max(spots), 1.5 * min(spots))
+        self.assertTrue(all(a > s > 0 for a, s in zip(everything, spots)))
+        self.assertGreater(len(page.get_attribute('#light .track', 'd')), 100)
+        page.click('#play')
+        self.shot(page, 'hot-spot')
+        page.click('#spot')
+        page.wait_for_selector('#light', state='hidden')
+        page.wait_for_selector(FINE)
+        before = len(self.requests)
+        page.wait_for_timeout(800)
+        self.assertEqual(len(self.requests), before)
 
     def test_a_struck_hole_rings(self):
         page = self.open('lang=en&camera.inclination_deg=30', FINE)

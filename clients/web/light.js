@@ -1,0 +1,96 @@
+// The light of a picture with spots, as the session's events tell it frame by frame: its curve, and where its middle goes.
+import { byId, el, svg } from './dom.js';
+import { number, t } from './i18n.js';
+import { numbers, plot } from './plot.js';
+
+const kept = 1500; // points, at 20 to 45 a second
+const pace_ms = 200; // between two drawings
+
+const far = scene => scene.get('camera.r') === 'infinity';
+
+// The track to scale, the hole's place in its middle, with a bar.
+function drawTrack(picture, points, unit) {
+  const track = points.map(p => p.middle).filter(([x, y]) => x != null && y != null);
+  const reach = 1.25 * Math.max(...track.flat().map(Math.abs), 1e-6),
+    k = 100 / reach,
+    bar = 10 ** Math.floor(Math.log10(reach)),
+    at = ([x, y]) => `${(x * k).toFixed(2)} ${(-y * k).toFixed(2)}`;
+  picture.replaceChildren(
+    svg('path', { class: 'cross', d: 'M-4 0H4M0 -4V4' }),
+    svg('path', { class: 'track', d: track.length > 1 ? 'M' + track.map(at).join('L') : '' }),
+    ...track.slice(-1).map(([x, y]) => svg('circle', { class: 'body', r: 2.5, cx: x * k, cy: -y * k })),
+    svg('path', { class: 'bar', d: `M${(-bar * k) / 2} 88H${(bar * k) / 2}` }),
+    svg('text', { class: 'axis', x: 0, y: 97, 'text-anchor': 'middle' }, `${number(bar)} ${unit}`),
+  );
+}
+
+export function buildLight(root, scene) {
+  const curve = plot(),
+    picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': 'track-caption' });
+  const list = numbers('track-caption'),
+    track = el(
+      'figure',
+      { class: 'plot' },
+      el('figcaption', { id: 'track-caption' }, t('Where the middle of the spots’ light is seen', 'Dove si vede il centro della luce delle macchie')),
+      picture,
+      el('p', { class: 'help' }, t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
+      list,
+    );
+  root.append(curve, track);
+  let stream = null,
+    address = '',
+    points = [],
+    kind = '',
+    timer = 0;
+
+  function draw() {
+    timer = 0;
+    if (!points.length) return;
+    const sorted = points[0].time > points.at(-1).time ? points.toReversed() : points,
+      x = sorted.map(p => p.time),
+      unit = far(scene) ? 'M' : '°',
+      area = far(scene) ? 'M²' : 'sr';
+    curve.draw({
+      live: true,
+      title: t('Light curve', 'Curva di luce'),
+      note: t(
+        `In units of the disk’s largest brightness times ${area}. Of each frame as it comes, before exposure and tone; coarse ones are off by some tenths of a per cent.`,
+        `In unità della massima brillanza del disco per ${area}. Di ogni fotogramma che arriva, prima di esposizione e toni; quelli grossolani sbagliano di qualche decimo per cento.`,
+      ),
+      x: { label: t('time t / M', 'tempo t / M'), min: x[0], max: Math.max(x.at(-1), x[0] + 1) },
+      y: { label: t(`flux / ${area}`, `flusso / ${area}`), min: 0 },
+      series: [
+        { name: t('all', 'tutta'), x, y: sorted.map(p => p.all) },
+        { name: t('spots', 'macchie'), x, y: sorted.map(p => p.spots) },
+      ],
+    });
+    drawTrack(picture, points, unit);
+    list.show({
+      live: true,
+      x: { label: t('time t / M', 'tempo t / M') },
+      series: [0, 1].map(i => ({ name: far(scene) ? ['α / M', 'β / M'][i] : [t('right, °', 'destra, °'), t('up, °', 'alto, °')][i], x, y: sorted.map(p => p.middle[i]) })),
+    });
+  }
+
+  function take({ data }) {
+    const { time, light } = JSON.parse(data);
+    if (!light) return;
+    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0 });
+    const against = (time - points.at(-1)?.time) * scene.get('motion.time_rate') < 0;
+    if (now !== kind || against) points = []; // another scene, or another time
+    kind = now;
+    if (time === points.at(-1)?.time) points.pop(); // the same, seen finer
+    points = [...points.slice(1 - kept), { time, all: light.flux, spots: light.spots.flux, middle: light.spots.centroid ?? [null, null] }];
+    timer ||= setTimeout(draw, pace_ms);
+  }
+
+  // A stream counts as a viewer, so there is one only while somebody looks.
+  return function follow(to, wanted) {
+    wanted &&= !document.hidden && !byId('lensing').hidden;
+    if (stream && (!wanted || to !== address)) stream = stream.close() ?? null;
+    if (!wanted || stream || !to) return;
+    address = to;
+    stream = new EventSource(to + '/events');
+    stream.addEventListener('frame', take);
+  };
+}
