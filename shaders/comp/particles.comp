@@ -74,7 +74,8 @@ void main()
         plunge(random, n);
         return;
     }
-    umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low); /* equal shares, in order of radius: neighbours meet on the grid */
+    /* Equal shares, in order of radius: neighbours meet on the grid. */
+    umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low);
     uint phi = random + guides[k].phi;
     float row = guides[k].row;
     if (SWING) {

@@ -104,7 +104,8 @@ kd_gas disk_gas(float w, float energy, float momentum)
     return kd_gas(t, tr.opacity * fade);
 }
 
-/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and the one after. */
+/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and the one
+ * after. */
 struct kd_place { uint first, rows, columns; float row, before, after; };
 
 /* Of the disk. What goes round with a row's Omega was at `turn` a time `ago`, and is ahead now. */

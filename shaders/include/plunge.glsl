@@ -1,11 +1,12 @@
-/* Light of gas that plunges from the ISCO with its energy E and angular momentum L: src/render/plunging.h for the parcels it comes in.
+/* Light of gas that plunges from the ISCO with its energy E and angular momentum L: src/render/plunging.h for the parcels it
+ * comes in.
  *
- * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|) times the particles
- * over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D = Delta/r^2, J = L - aE,
+ * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|) times the
+ * particles over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D = Delta/r^2, J = L - aE,
  *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
- * the primed ones and w', which is positive where a ray traced back goes in and the light comes out, the light's.
- * Part of transfer.comp. */
+ * the primed ones and w', which is positive where a ray traced back goes in and the light comes out, the light's. Part of
+ * transfer.comp. */
 #ifndef KD_PLUNGE_GLSL
 #define KD_PLUNGE_GLSL
 
@@ -25,14 +26,16 @@ kd_gas plunge_gas(float w, float dw, float energy, float momentum, float number)
 {
     float a = cam.spin, w2 = w * w, d = (1.0 - w - cam.root * w) * (1.0 - w + cam.root * w);
     float gap = max(tr.r_isco * w - 1.0, 1e-12), ur = -sqrt(gap * (2.0 / 3.0) / tr.r_isco) * gap;
-    float own = tr.plunge_energy - a * tr.plunge_j * w2;
-    float ut = (1.0 + a * a * w2) * own / d + a * tr.plunge_j * w2;
-    float g = REDSHIFT ? 1.0 / ut : 1.0;
+    float own = tr.plunge_energy - a * tr.plunge_j * w2, g = 1.0;
     if (DOPPLER) {
         float j = momentum - a * energy;
-        g *= ut / max(((energy - a * j * w2) * own - dw * ur) / d - j * tr.plunge_j * w2, 1e-20);
+        g = 1.0 / max(((energy - a * j * w2) * own - dw * ur) / d - j * tr.plunge_j * w2, 1e-20);
     } else if (FINITE) {
-        g /= energy;
+        g = 1.0 / energy;
+    }
+    if (DOPPLER != REDSHIFT) { /* one factor without the other */
+        float ut = (1.0 + a * a * w2) * own / d + a * tr.plunge_j * w2;
+        g *= REDSHIFT ? 1.0 / ut : ut;
     }
     return kd_gas(tr.plunge_temperature * g, tr.opacity * (1.0 - exp(tr.plunge_depth * w * number / ur)));
 }

@@ -26,7 +26,8 @@ struct kd_plunge kd_plunge_of(double a)
     o.momentum = kd_kerr_momentum(a, o.isco);
     o.outer = pole_of(&o, o.horizon, inner);
     o.inner = pole_of(&o, inner, o.horizon);
-    double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(a, o.isco); /* r^2 u^t d(tau)/dy at the ISCO, where it is a circle's */
+    /* r^2 u^t d(tau)/dy at the ISCO, where it is a circle's. */
+    double rate = sqrt(6 / o.isco) * o.isco * o.isco * kd_kerr_ut(a, o.isco);
     o.t_rate = -rate;
     o.phi_rate = -rate * kd_kerr_omega(a, o.isco);
     return o;

@@ -128,8 +128,8 @@ static void fill(const struct work *w, const struct kd_scene *scene, float *plan
         fill_sky(w, planes, planes + w->n, planes + 2 * w->n);
 }
 
-static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene, const struct work *w, const struct kd_lens_rows *rows,
-                             struct kd_error *error)
+static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene, const struct work *w,
+                             const struct kd_lens_rows *rows, struct kd_error *error)
 {
     struct kd_vk_buffer *staging;
     uint64_t bytes = 4 * (uint64_t)w->n;

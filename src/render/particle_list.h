@@ -24,8 +24,8 @@
     COLUMN(r, "M", "Boyer-Lindquist radius")                                                                   \
     COLUMN(phi, "radians", "azimuth, 0 to 2 pi")                                                               \
     COLUMN(latitude, "radians", "pi/2 - theta")                                                                \
-    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant")                                                  \
-    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant")                                        \
+    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant")                      \
+    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant")            \
     COLUMN(dr_dt, "1", "by coordinate time")                                                                   \
     COLUMN(dphi_dt, "1/M", "by coordinate time")                                                               \
     COLUMN(dlatitude_dt, "1/M", "by coordinate time")

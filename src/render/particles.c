@@ -49,9 +49,10 @@ static double density(const struct kd_scene *scene, double r)
     return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
 }
 
-/* Parcels of the gas that falls hold one particle each, and are three times as many round the ISCO as from start to end: about as wide
- * as long where they are half-way. Light that took long to arrive shows parcels that are on their way no more, and what leaves
- * the near side of the disk those that are to come: by so many M, at most, on a delay of a turn more for each two orders. */
+/* Parcels of the gas that falls hold one particle each, and are three times as many round the ISCO as from start to end: about
+ * as wide as long where they are half-way. Light that took long to arrive shows parcels that are on their way no more, and what
+ * leaves the near side of the disk those that are to come: by so many M, at most, on a delay of a turn more for each two
+ * orders. */
 #define EARLY 20.0
 #define LATE 50.0
 #define LATE_PER_ORDER 25.0
@@ -77,7 +78,10 @@ static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene
 
 /* Words of either grid. */
 static uint64_t words(const struct kd_particle_grid *g) { return (g->rows + 1ull) * g->columns; }
-static uint64_t plunge_words(const struct kd_particle_grid *g) { return g->plunging ? (g->plunge_rows + 1ull) * g->plunge_columns : 0; }
+static uint64_t plunge_words(const struct kd_particle_grid *g)
+{
+    return g->plunging ? (g->plunge_rows + 1ull) * g->plunge_columns : 0;
+}
 
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
 {
@@ -333,7 +337,9 @@ static void places_of(const struct kd_scene *scene, const struct kd_particle_gri
     }
     for (size_t i = 0; i < n; i++) {
         struct kd_particle_place *o = &out[i];
-        *o = (struct kd_particle_place) { .phi = got[i].phi, .latitude = got[i].latitude, .plunging = first + i * stride < grid->plunging };
+        *o = (struct kd_particle_place) {
+            .phi = got[i].phi, .latitude = got[i].latitude, .plunging = first + i * stride < grid->plunging,
+        };
         if (o->plunging) {
             double turned, r = kd_plunging_radius(&path, got[i].phase / 4294967296.0, &turned);
             o->r = (float)r;
@@ -356,7 +362,8 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
     push.count = (uint32_t)n;
     enum kd_status status = guides(r, &r->particles, scene, &grid, scene->top.time, error);
     if (!status)
-        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof(struct listed), KD_VK_READBACK, "places of particles", error);
+        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof(struct listed), KD_VK_READBACK, "places of particles",
+                                   error);
     if (!status)
         status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
     const struct kd_vk_dispatch d = {

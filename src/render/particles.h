@@ -1,19 +1,20 @@
 /* The disk as particles. Each has a guiding orbit, one of `radii` circular ones that hold equal shares of the particles, an
- * azimuth, and small epicycles in r and theta, all from a hash of its number and the seed: nothing is stored. A share of them, those
- * with the lowest numbers, falls from the ISCO instead (render/plunging.h), and begins anew at another azimuth, a hash of its
- * number and of how often it has fallen. Where it is at any time t is a closed form. Angular frequencies are known in double, and their phases at t reach the device as 32-bit fractions of
- * a turn, whose sums wrap exactly: no t is too late.
+ * azimuth, and small epicycles in r and theta, all from a hash of its number and the seed: nothing is stored. A share of them,
+ * those with the lowest numbers, falls from the ISCO instead (render/plunging.h), and begins anew at another azimuth, a hash of
+ * its number and of how often it has fallen. Where it is at any time t is a closed form. Angular frequencies are known in
+ * double, and their phases at t reach the device as 32-bit fractions of a turn, whose sums wrap exactly: no t is too late.
  *
- * Rows of the grid are steps of log r from edge to edge, columns of azimuth. The number found at a node over the number expected
- * there multiplies the light of the smooth disk. Those that fall have a grid of their own, of phases and of azimuths at the ISCO.
+ * Rows of the grid are steps of log r from edge to edge, columns of azimuth. The number found at a node over the number
+ * expected there multiplies the light of the smooth disk. Those that fall have a grid of their own, of phases and of azimuths
+ * at the ISCO.
  *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of Kerr),
  *
  *   ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
  *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u',  u, u' in [0, 1]
  *
- * with dOmega/dr at constant E and L, so that nothing diverges where kappa -> 0, at the ISCO, and r - r_isco never changes sign.
- * Pure but for the calls on a renderer. */
+ * with dOmega/dr at constant E and L, so that nothing diverges where kappa -> 0, at the ISCO, and r - r_isco never changes
+ * sign. Pure but for the calls on a renderer. */
 #ifndef KD_RENDER_PARTICLES_H
 #define KD_RENDER_PARTICLES_H
 
@@ -61,8 +62,8 @@ struct kd_particle_swing {
 };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
-/* Optical depth of the plunging gas in the mean where r |u^r| is 1, in a scene that has any: that of its surface density, in its own
- * frame, over the disk's just outside the ISCO. A particle counts as much inside as outside. */
+/* Optical depth of the plunging gas in the mean where r |u^r| is 1, in a scene that has any: that of its surface density, in its
+ * own frame, over the disk's just outside the ISCO. A particle counts as much inside as outside. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
 /* How long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */

@@ -43,8 +43,8 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
         "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
     say(plan, particles && d->slow_light, "particles: over the delay of light they go round on their guiding circles");
     say(plan, plan->fall,
-        "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is its "
-        "surface density over the disk's at the ISCO; no stress, no heating");
+        "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is "
+        "its surface density over the disk's at the ISCO; no stress, no heating");
     say(plan, plan->spots, "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
                            "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place");
     say(plan, plan->spots, "spots: their brightness and colour are chosen, not computed; they absorb nothing");

@@ -160,8 +160,8 @@ void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_b
 }
 
 /* w'^2 = W^2 - D K w^2, as in shaders/include/radial_step.glsl, which keeps its digits next to the horizon. */
-double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end, uint32_t k,
-                     double r)
+double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
+                     uint32_t k, double r)
 {
     double a = p->spin, s = sine(p->inclination_deg), c = cosine(p->inclination_deg), w2 = 1 / (r * r);
     double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;

@@ -74,8 +74,8 @@
     REAL(disk, density_index, 2.0, 0.0, 4.0, "1",                                                             \
          "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)") \
     REAL(disk, plunging, 0.02, 0.0, 0.5, "1",                                                                 \
-         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner is not \"isco\" " \
-         "(model: particles)")                                                                                \
+         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner is not "     \
+         "\"isco\" (model: particles)")                                                                        \
     REAL(disk, plunging_temperature, 0.7, 0.0, 1.0, "1",                                                      \
          "temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles)")     \
     REAL(disk, epicycles, 0.02, 0.0, 0.2, "1",                                                                \

@@ -90,8 +90,8 @@ static struct constants constants_of(double a, const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* Those that fall: their rates are those of a body with the ISCO's E and L, which are what the list says. Next to the horizon the norm, to
- * which both are worked out from floats, is all but 0. */
+/* Those that fall: their rates are those of a body with the ISCO's E and L, which are what the list says. Next to the horizon
+ * the norm, to which both are worked out from floats, is all but 0. */
 static void test_falling(void **state)
 {
     (void)state;
@@ -99,7 +99,8 @@ static void test_falling(void **state)
     for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
         struct kd_scene scene = scene_of(spins[s], 0);
         scene.disk.plunging = 0.2;
-        double isco = kd_kerr_isco(spins[s]), energy = kd_kerr_energy(spins[s], isco), momentum = kd_kerr_momentum(spins[s], isco), worst = 0;
+        double isco = kd_kerr_isco(spins[s]), energy = kd_kerr_energy(spins[s], isco), worst = 0;
+        double momentum = kd_kerr_momentum(spins[s], isco);
         size_t n, fell = 0;
         struct row *rows = all_at(&scene, "777.5", &n);
         for (size_t i = 0; i < n; i++) {

@@ -1,5 +1,5 @@
-/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any time, and against
- * the steady stream that they are to be; and that those who are off cost nothing. */
+/* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any time, and
+ * against the steady stream that they are to be; and that those who are off cost nothing. */
 #include "render/particles.h"
 
 #include "physics/kerr.h"
@@ -34,7 +34,8 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
 static void slopes(double a, double r, double *dr, double *dphi)
 {
     double isco = kd_kerr_isco(a), e = kd_kerr_energy(a, isco), l = kd_kerr_momentum(a, isco), delta = r * r - 2 * r + a * a;
-    double pp = r * r + a * a + 2 * a * a / r, ut = (pp * e - 2 * a * l / r) / delta, up = (2 * a * e / r + (1 - 2 / r) * l) / delta;
+    double pp = r * r + a * a + 2 * a * a / r;
+    double ut = (pp * e - 2 * a * l / r) / delta, up = (2 * a * e / r + (1 - 2 / r) * l) / delta;
     *dr = -sqrt(fmax(e * ut - l * up - 1, 0) * delta) / r / ut;
     *dphi = up / ut;
 }
@@ -84,10 +85,11 @@ static void test_geodesics(void **state)
                     continue;
                 double r = start[i].r, phi = 0;
                 integrate(spins[s], step, &r, &phi);
-                double off_r = fabs(then[i].r / r - 1), off_phi = fabs(remainder(angle(then[i].phi - start[i].phi) - phi, 2 * M_PI));
+                double off_r = fabs(then[i].r / r - 1);
+                double off_phi = fabs(remainder(angle(then[i].phi - start[i].phi) - phi, 2 * M_PI));
                 if (!(off_r < 1e-6 && off_phi < 2e-6))
-                    fail_msg("a = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", spins[s], times[k], start[i].r, then[i].r, r,
-                             off_phi);
+                    fail_msg("a = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", spins[s], times[k], start[i].r,
+                             then[i].r, r, off_phi);
                 worst[0] = fmax(worst[0], off_r);
                 worst[1] = fmax(worst[1], off_phi);
             }
@@ -129,7 +131,8 @@ static void test_stream(void **state)
     }
 }
 
-/* w' of the lens map, integrated in single, against what the constants of the ray say in double, with the sign of the closed form. */
+/* w' of the lens map, integrated in single, against what the constants of the ray say in double, with the sign of the closed
+ * form. */
 static void test_slopes(void **state)
 {
     (void)state;
@@ -158,7 +161,8 @@ static void test_slopes(void **state)
         double isco = kd_kerr_isco(0.3), worst = 0;
         int signs[2] = { 0 }, far = 0;
         for (uint64_t at = 0; at < orders * n; at++) {
-            double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][at + 2 * orders * n], planes[1][at + 2 * orders * n] };
+            uint64_t slope = at + 2 * orders * n;
+            double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][slope], planes[1][slope] };
             if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 && 1 / w[0] > 1.02 * kd_kerr_horizon(0.3)))
                 continue; /* not of both, or next to the critical curve */
             double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
@@ -198,8 +202,8 @@ static void test_off(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_geodesics), cmocka_unit_test(test_stream), cmocka_unit_test(test_slopes),
-                                        cmocka_unit_test(test_off) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_geodesics), cmocka_unit_test(test_stream),
+                                        cmocka_unit_test(test_slopes), cmocka_unit_test(test_off) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -232,8 +232,8 @@ static void transfer_buffer(void **state)
     }
     /* as far as the kernel's tables reach, no further */
     assert_int_equal(sizeof(struct kd_transfer_data),
-                     4 * KD_TRANSFER_HEADER + sizeof(struct kd_spot_block) * KD_SPOT_MAX + 4 * KD_DISK_TABLE + 16 * KD_COLOUR_TABLE +
-                         8 * KD_PLUNGE_TABLE);
+                     4 * KD_TRANSFER_HEADER + sizeof(struct kd_spot_block) * KD_SPOT_MAX + 4 * KD_DISK_TABLE +
+                         16 * KD_COLOUR_TABLE + 8 * KD_PLUNGE_TABLE);
 }
 
 int main(void)

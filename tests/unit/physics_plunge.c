@@ -36,7 +36,8 @@ static void from_the_metric(void **state)
         struct kd_plunge plunge = kd_plunge_of(p->a);
         struct kd_plunge_event from = kd_plunge_at(&plunge, p->r0), to = kd_plunge_at(&plunge, p->r);
         struct kd_plunge_velocity u = kd_plunge_velocity(&plunge, p->r);
-        const double pairs[][2] = { { to.t - from.t, p->t }, { to.phi - from.phi, p->phi }, { u.ut, p->ut }, { u.uphi, p->uphi }, { u.ur, p->ur } };
+        const double pairs[][2] = { { to.t - from.t, p->t }, { to.phi - from.phi, p->phi }, { u.ut, p->ut }, { u.uphi, p->uphi },
+                                    { u.ur, p->ur } };
         bool fast = p->a > 0.999;
         for (int k = 0; k < 5; k++) {
             double off = within(what[k], p->a, p->r, pairs[k][0], pairs[k][1], fast ? 1e-11 : 4e-13);
@@ -101,7 +102,7 @@ static void leaves_the_circle(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(from_the_metric), cmocka_unit_test(without_spin), cmocka_unit_test(conserved),
-                                        cmocka_unit_test(leaves_the_circle) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(from_the_metric), cmocka_unit_test(without_spin),
+                                        cmocka_unit_test(conserved), cmocka_unit_test(leaves_the_circle) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
