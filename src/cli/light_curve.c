@@ -151,8 +151,8 @@ int kd_cli_light_curve(int argc, char **argv)
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
         .doc = "Flux and centroid of a scene as its time goes on: of the whole picture and of its hot spots alone.\v"
-               "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M (degrees to the "
-               "right of the hole and above it). What lies outside the picture is not counted.",
+               "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M (degrees to "
+               "the right of the hole and above it). What lies outside the picture is not counted.",
         .children = children,
     };
     struct arguments arguments = { .frames = 121, .output = "-" };

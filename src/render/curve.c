@@ -2,7 +2,8 @@
 
 #include "scene/number.h"
 
-enum kd_status kd_curve_plan(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+enum kd_status kd_curve_plan(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
+                             struct kd_error *error)
 {
     struct kd_needs needs = kd_needs_of(scene);
     needs.light = true;

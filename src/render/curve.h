@@ -13,8 +13,9 @@
 struct kd_curve_row { KD_CURVE_COLUMNS_(KD_CURVE_MEMBER) };
 #undef KD_CURVE_MEMBER
 
-/* Of a scene whose light is to be measured, whether it has spots or not. What shows in no figure is taken from it: auto exposure. */
-enum kd_status kd_curve_plan(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
+/* Of a scene whose light is to be measured, whether it has spots or not. What shows in no figure, auto exposure, is taken from it. */
+enum kd_status kd_curve_plan(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
+                             struct kd_error *error);
 /* The row of a frame that was rendered by such a plan. */
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame);
 

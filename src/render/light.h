@@ -3,8 +3,8 @@
  *
  * The flux is the sum over the pixels of luminance times solid angle. At infinity that is the area in the image plane, so that the
  * unit is M^2 times that of brightness (the disk's brightest): over D^2 it is the flux at the distance D. From a finite radius
- * it is sr times that of brightness. The centroid, weighed by this, is (alpha, beta) in M, or at a finite radius the mean direction:
- * degrees to the right of the hole and above it, whatever the aim of the camera. Both know nothing of roll.
+ * it is sr times that of brightness. The centroid, weighed by this, is (alpha, beta) in M, or at a finite radius the mean
+ * direction, degrees to the right of the hole and above it. Both know nothing of the camera's aim and roll.
  *
  * shaders/comp/light.comp adds up 64 pixels each in 32 bits, to 3e-7; the rest is done in double. */
 #ifndef KD_RENDER_LIGHT_H

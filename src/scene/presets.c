@@ -46,8 +46,8 @@ const struct kd_preset kd_presets[] = {
       "\"disk\":{\"model\":\"particles\",\"outer\":18,\"peak_temperature_k\":5000},"
       "\"style\":{\"exposure\":0.75},"
       "\"motion\":{\"time_rate\":8}}" },
-    { "hot-spot", "A flare as GRAVITY saw them round the hole of our Galaxy: a blob on a circular orbit of an hour, clockwise, seen 25 "
-                  "degrees from its axis, over a faint disk; in a session its events give the light curve and the track",
+    { "hot-spot", "A flare as GRAVITY saw them round the hole of our Galaxy: a blob on a circular orbit of an hour, clockwise, seen "
+                  "25 degrees from its axis, over a faint disk; in a session its events give the light curve and the track",
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6},"
       "\"camera\":{\"inclination_deg\":155,\"field_m\":50},"
       "\"disk\":{\"outer\":16,\"opacity\":0.3,\"peak_temperature_k\":4500},"

@@ -27,7 +27,8 @@ static void capacity_of(const struct kd_jobs *all, struct kd_capacity *out)
     out->memory_bytes /= 2;
 }
 
-static enum kd_status plan_picture(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *plan, struct kd_error *error)
+static enum kd_status plan_picture(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *plan,
+                                   struct kd_error *error)
 {
     return kd_plan_make(scene, capacity, plan, error);
 }
@@ -60,7 +61,9 @@ static enum kd_status encode_row(struct kd_render_job *render, unsigned encoder)
     const struct kd_job_frame *frame = (const struct kd_job_frame *)render;
     const struct kd_curve_row row = kd_curve_row_of(frame->number, &render->scene, &render->frame);
     (void)encoder;
-    return kd_buffer_append(&render->png, &row, sizeof row) ? kd_error_set(&render->error, KD_ENOMEM, "out of memory for a row") : KD_OK;
+    if (kd_buffer_append(&render->png, &row, sizeof row))
+        return kd_error_set(&render->error, KD_ENOMEM, "out of memory for a row");
+    return KD_OK;
 }
 
 /* Hand over the next frame of a job. False: there was none. */

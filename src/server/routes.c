@@ -48,8 +48,8 @@ const struct kd_route kd_routes[] = {
     { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON, "How far a job is; its end, with its files" },
     { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
     { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, "application/zip",
-      "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; of a light curve its rows, as "
-      "application/json or text/csv" },
+      "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; "
+      "of a light curve its rows, as application/json or text/csv" },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

@@ -101,7 +101,10 @@ enum { ORDERS = 2 };
 static struct oracle trace(const struct kd_scene *scene)
 {
     int width = scene->image.width, height = scene->image.height, n = width * height;
-    struct oracle o = { n, 0, malloc((size_t)n * sizeof *o.at), malloc((size_t)n * sizeof *o.photons), malloc((size_t)n * sizeof *o.paths) };
+    struct oracle o = { .n = n };
+    o.at = malloc((size_t)n * sizeof *o.at);
+    o.photons = malloc((size_t)n * sizeof *o.photons);
+    o.paths = malloc((size_t)n * sizeof *o.paths);
     double theta = scene->camera.inclination_deg * M_PI / 180;
     bool far = isinf(scene->camera.r);
     double step = far ? scene->camera.field_m / width : 2 * tan(scene->camera.fov_deg * M_PI / 360) / width;
@@ -127,7 +130,8 @@ static void oracle_finish(struct oracle *o)
 }
 
 /* What a crossing adds: the gas of its own radius, a Gaussian in the plane of x = r cos(phi), y = r sin(phi). */
-static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k, double isco)
+static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k,
+                             double isco)
 {
     const struct kd_spot *spot = &scene->spot1;
     double a = scene->spacetime.spin, r = path->r[k], phi = path->phi[k] + scene->camera.azimuth_deg * M_PI / 180;
@@ -164,8 +168,8 @@ static struct kd_light oracle_light(const struct kd_scene *scene, const struct o
 }
 
 /* At several phases, with fast and slow light, for a hole with and against its spot, from infinity and from near, behind half
- * transparent gas too. In 32 bits a ray beside the critical curve may miss a crossing: that is in the bound. The width is no multiple
- * of anything, and the spot goes over the edges of the picture. */
+ * transparent gas too. In 32 bits a ray beside the critical curve may miss a crossing: that is in the bound. The width is no
+ * multiple of anything, and the spot goes over the edges of the picture. */
 static void test_oracle(void **state)
 {
     (void)state;
