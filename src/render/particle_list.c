@@ -31,8 +31,8 @@ enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct
     if (list->grid.count)
         return KD_OK;
     const struct kd_word word = kd_field_word(kd_field_find("disk", "model"), scene->disk.model);
-    return kd_error_field(error, "/disk/model", "disk.model is \"%.*s\", allowed for a list of particles is \"particles\"", word.length,
-                          word.text);
+    return kd_error_field(error, "/disk/model", "disk.model is \"%.*s\", allowed for a list of particles is \"particles\"",
+                          word.length, word.text);
 }
 
 static bool number(const char *text, double *out)
@@ -60,7 +60,8 @@ static enum kd_status set_fields(struct kd_particle_list *list, const char *text
                 every.columns[k] = (enum kd_particle_column)k;
             kd_particle_list_names(&every, all);
             kd_text_clip(name, sizeof name, text);
-            return kd_error_field(error, "/fields", "fields is \"%s\", allowed are, each once and with commas between, %s", name, all);
+            return kd_error_field(error, "/fields", "fields is \"%s\", allowed are, each once and with commas between, %s", name,
+                                  all);
         }
         list->columns[list->n_columns++] = (enum kd_particle_column)k;
         at += n;
@@ -89,8 +90,8 @@ enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *n
         return kd_error_field(error, pointer, "there is no parameter %s here; known are first, stride, count, fields, time", given);
     }
     if (!number(text, &value) || !(value >= least && value <= most) || value != floor(value))
-        return kd_error_field(error, pointer, "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles", name, given,
-                              least, most, list->grid.count);
+        return kd_error_field(error, pointer, "%s is %s, allowed are whole numbers from %g to %.0f of the scene's %u particles", name,
+                              given, least, most, list->grid.count);
     if (count)
         list->n = (size_t)value;
     else
@@ -111,11 +112,11 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
     size_t there = (list->grid.count - list->first + list->stride - 1) / list->stride, row = kd_particle_list_row(list);
     list->n = list->n ? list->n : there;
     if (list->n > there)
-        return kd_error_field(error, "/count", "count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u", list->n, there,
-                              list->grid.count, list->first, list->stride);
+        return kd_error_field(error, "/count", "count is %zu, allowed are 1 to %zu: from the %u particles, first %u, stride %u",
+                              list->n, there, list->grid.count, list->first, list->stride);
     if (most && list->n * row > most)
-        return kd_error_field(error, "/count", "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or fewer "
-                              "with stride", list->n, row, (unsigned long long)(most / row));
+        return kd_error_field(error, "/count", "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or "
+                              "fewer with stride", list->n, row, (unsigned long long)(most / row));
     if (!needs_guides(list))
         return KD_OK;
     double a = list->scene.spacetime.spin;
@@ -152,10 +153,10 @@ void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PAR
 static void fill_rates(double *row, const struct kd_particle_list *list, uint32_t particle, const struct kd_particle_orbit *o)
 {
     const struct kd_particle_swing s = kd_particle_swing(&list->scene, particle);
-    double t = list->scene.top.time, radial = o->kappa * t + s.radial_phase;
+    double t = list->scene.top.time, radial = o->kappa * t + s.radial_phase, vertical = o->vertical * t + s.vertical_phase;
     row[KD_PARTICLE_dr_dt] = -row[KD_PARTICLE_r] * o->swing_r * s.radial * o->kappa * sin(radial);
     row[KD_PARTICLE_dphi_dt] = o->omega + o->swing_phi * s.radial * o->kappa * cos(radial);
-    row[KD_PARTICLE_dlatitude_dt] = -list->scene.disk.epicycles * s.vertical * o->vertical * sin(o->vertical * t + s.vertical_phase);
+    row[KD_PARTICLE_dlatitude_dt] = -list->scene.disk.epicycles * s.vertical * o->vertical * sin(vertical);
 }
 
 static void fill_fall(double *row, const struct kd_plunge *plunge)

@@ -33,7 +33,7 @@ class Particles(Case):
             self.assertAlmostEqual(rows[140000 + 3 * i][2], r * math.sin(latitude), delta=1e-6 * r)
 
     def test_time(self):
-        options = ["--set", "disk.epicycles=0", "--fields", "phi,dphi_dt", "--count", "50", "--stride", "1000", "-o", "-"]
+        options = ["--set", "disk.epicycles=0", "--set", "disk.plunging=0", "--fields", "phi,dphi_dt", "--count", "50", "--stride", "1000", "-o", "-"]
         _, start, _ = read(self.good("particles", *SCENE, *options))
         _, then, _ = read(self.good("particles", *SCENE, "--set", "time=7", *options))
         for (phi, rate), (later, _) in zip(start, then):

@@ -52,6 +52,11 @@ static struct row *all_at(const struct kd_scene *scene, const char *time, size_t
     return (struct row *)rows;
 }
 
+static struct kd_particle_orbit orbit_of(const struct kd_scene *scene, const struct kd_particle_grid *grid, size_t row)
+{
+    return kd_particle_orbit(scene, grid->radii, kd_particle_guide(grid, 3 + 29 * (uint32_t)row));
+}
+
 /* On circles: the azimuth after 1e4 M, and where that is in space. */
 static void test_phase(void **state)
 {
@@ -64,12 +69,13 @@ static void test_phase(void **state)
         size_t n;
         struct row *start = all_at(&scene, "0", &n), *then = all_at(&scene, "1e4", &n);
         for (size_t i = 0; i < n; i++) {
-            const struct kd_particle_orbit o = kd_particle_orbit(&scene, grid.radii, kd_particle_guide(&grid, 3 + 29 * (uint32_t)i));
+            const struct kd_particle_orbit o = orbit_of(&scene, &grid, i);
             double off = remainder(then[i].phi - start[i].phi - o.omega * 1e4, 2 * M_PI), a = spins[s];
             worst = fmax(worst, fabs(off));
             assert_true(fabs(then[i].r / o.r - 1) < 1e-6 && then[i].phi >= 0 && then[i].phi < 6.2831855f);
             double rho = sqrt(o.r * o.r + a * a);
-            assert_true(hypot(then[i].x - rho * cos(then[i].phi), then[i].y - rho * sin(then[i].phi)) < 2e-6 * rho && then[i].z == 0);
+            double x = rho * cos(then[i].phi), y = rho * sin(then[i].phi);
+            assert_true(hypot(then[i].x - x, then[i].y - y) < 2e-6 * rho && then[i].z == 0);
         }
         test_free(start);
         test_free(then);
@@ -85,7 +91,8 @@ static struct constants constants_of(double a, const struct row *p)
     double r = p->r, u = sin(p->latitude), sin2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a;
     double gtt = -(1 - 2 * r / sigma), gtp = -2 * a * r * sin2 / sigma;
     double gpp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2;
-    double norm = gtt + 2 * gtp * p->dphi + gpp * p->dphi * p->dphi + sigma / delta * p->dr * p->dr + sigma * p->dlatitude * p->dlatitude;
+    double across = p->dr * p->dr / delta + (double)p->dlatitude * p->dlatitude;
+    double norm = gtt + 2 * gtp * p->dphi + gpp * p->dphi * p->dphi + sigma * across;
     double ut = 1 / sqrt(-norm);
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
@@ -134,11 +141,12 @@ static void test_constants(void **state)
             size_t n;
             struct row *rows = all_at(&scene, "777.5", &n);
             for (size_t i = 0; i < n; i++) {
-                const struct kd_particle_orbit o = kd_particle_orbit(&scene, grid.radii, kd_particle_guide(&grid, 3 + 29 * (uint32_t)i));
+                const struct kd_particle_orbit o = orbit_of(&scene, &grid, i);
                 struct kd_orbit orbit;
                 if (o.r > kd_orbit_separatrix(spins[s], 0, 1) * (1 + 1e-9)) {
                     OK(kd_orbit_from_shape(spins[s], o.r, 0, 1, &orbit, &error));
-                    assert_true(fabs(rows[i].energy / orbit.energy - 1) < 1e-6 && fabs(rows[i].momentum / orbit.momentum - 1) < 1e-6);
+                    assert_true(fabs(rows[i].energy / orbit.energy - 1) < 1e-6);
+                    assert_true(fabs(rows[i].momentum / orbit.momentum - 1) < 1e-6);
                 }
                 const struct constants c = constants_of(spins[s], &rows[i]);
                 assert_true(c.norm < 0);
@@ -152,7 +160,8 @@ static void test_constants(void **state)
     }
 }
 
-/* Central differences over 2 M of what is listed: the third derivative of an epicycle, and floats, leave 2e-5 of the largest rates. */
+/* Central differences over 2 M of what is listed: the third derivative of an epicycle, and floats, leave 2e-5 of the largest
+ * rates. */
 static void test_rates(void **state)
 {
     (void)state;
@@ -246,8 +255,8 @@ int main(void)
     if (code)
         return code;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_phase), cmocka_unit_test(test_falling), cmocka_unit_test(test_constants), cmocka_unit_test(test_rates),
-        cmocka_unit_test(test_parts), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_phase), cmocka_unit_test(test_falling), cmocka_unit_test(test_constants),
+        cmocka_unit_test(test_rates), cmocka_unit_test(test_parts), cmocka_unit_test(test_refused),
     };
     return close_renderer(cmocka_run_group_tests_name("lists of particles", tests, NULL, NULL));
 }

@@ -280,8 +280,11 @@ class Sessions(daemon.Case):
         def now():
             text = self.daemon.get('/metrics').body.decode()
             return {name: float(value) for name, value in re.findall(r'^kerrd_session(\w*) (.*)$', text, re.M)}
-        session, before = self.open(), now()
-        size = len(self.frame(session).body)
+        session = self.open()
+        self.frame(session)  # those of sessions before it are through by now
+        before = now()
+        self.patch(session, {'time': 6})
+        size = len(self.frame(session, 1).body)
         with self.stream(session, '/events', 'text/event-stream'):
             self.assertTrue(daemon.eventually(lambda: now()['_viewers'] == before['_viewers'] + 1))
         after = now()
