@@ -13,13 +13,13 @@
 
 struct arguments {
     struct kd_scene_options scene;
-    const char *device, *output, *format, *from, *to;
+    const char *device, *output, *format, *start, *end;
     unsigned frames;
 };
 
 static const struct argp_option table[] = {
-    { "from", 'a', "T", 0, "time of the first frame, M (default: the scene's)", 0 },
-    { "to", 'b', "T", 0, "time of the last one (default: one orbit of the first spot later)", 0 },
+    { "start", 'a', "T", 0, "time of the first frame, M (default: the scene's)", 0 },
+    { "end", 'b', "T", 0, "time of the last one (default: one orbit of the first spot later)", 0 },
     { "frames", 'n', "N", 0, "how many, evenly spaced (default: 121)", 0 },
     { "output", 'o', "FILE", 0, "where to write; .csv chooses that format (default: - for standard output)", 0 },
     { "format", 'f', "FORMAT", 0, "json or csv, whatever the name of the output", 0 },
@@ -34,8 +34,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &arguments->scene;
         state->child_inputs[1] = &arguments->device;
         return 0;
-    case 'a': arguments->from = text; return 0;
-    case 'b': arguments->to = text; return 0;
+    case 'a': arguments->start = text; return 0;
+    case 'b': arguments->end = text; return 0;
     case 'n': arguments->frames = kd_cli_number(state, "frames", text, 2, FRAMES_MAX); return 0;
     case 'o': arguments->output = text; return 0;
     case 'f':
@@ -52,16 +52,16 @@ static enum kd_status span(const struct arguments *arguments, struct kd_scene *s
 {
     const struct kd_spot *on[KD_SPOTS];
     struct kd_scene last = *scene;
-    enum kd_status status = arguments->from ? kd_scene_set(scene, "time", arguments->from, error) : KD_OK;
+    enum kd_status status = arguments->start ? kd_scene_set(scene, "time", arguments->start, error) : KD_OK;
     if (status)
-        return kd_cli_prefix(error, "--from");
-    if (arguments->to && kd_scene_set(&last, "time", arguments->to, error))
-        return kd_cli_prefix(error, "--to");
+        return kd_cli_prefix(error, "--start");
+    if (arguments->end && kd_scene_set(&last, "time", arguments->end, error))
+        return kd_cli_prefix(error, "--end");
     *to = last.top.time;
-    if (arguments->to)
+    if (arguments->end)
         return KD_OK;
     if (!kd_scene_spots(scene, on))
-        return kd_error_set(error, KD_EINVAL, "--to is missing: without a spot there is no orbit to follow");
+        return kd_error_set(error, KD_EINVAL, "--end is missing: without a spot there is no orbit to follow");
     *to = scene->top.time + 2 * M_PI / kd_kerr_omega(scene->spacetime.spin, on[0]->r);
     return KD_OK;
 }

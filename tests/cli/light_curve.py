@@ -24,7 +24,7 @@ class LightCurve(Case):
             self.assertTrue(0.3 < (a - b) % (2 * math.pi) < 1.4, angles)
 
     def test_forms(self):
-        options = ["light-curve", *SMALL, "--preset", "hot-spot", "--from", "-5", "--to", "20.5", "-n", "3"]
+        options = ["light-curve", *SMALL, "--preset", "hot-spot", "--start", "-5", "--end", "20.5", "-n", "3"]
         table = self.good(*options, "-f", "csv")
         document = self.good(*options)
         self.good(*options, "-o", self.path("a.csv"))
@@ -35,20 +35,24 @@ class LightCurve(Case):
         for row, frame in zip(csv.DictReader(io.StringIO(table.decode())), frames):
             self.assertEqual({k: float(v) for k, v in row.items()}, frame)
 
+    def test_the_scene_of_a_picture(self):
+        self.good("render", *SMALL, "--preset", "hot-spot", "-o", self.path("a.png"))
+        self.assertEqual(self.rows("--from", self.path("a.png"), "-n", "2"), self.rows("--preset", "hot-spot", *SMALL, "-n", "2"))
+
     def test_without_a_spot(self):
-        rows = self.rows("--to", "50", "-n", "2")
+        rows = self.rows("--end", "50", "-n", "2")
         self.assertEqual((rows[0]["spots_flux"], rows[0]["spots_centroid_x"], rows[0]["flux"]), ("0", "", rows[1]["flux"]))
         self.assertGreater(float(rows[0]["flux"]), 1)
 
     def test_refused(self):
-        self.bad(2, "--to is missing", "light-curve", "-n", "3")
-        self.bad(2, '--from: time is "x"', "light-curve", "--preset", "hot-spot", "--from", "x")
-        self.bad(2, "--to: time is 10000000000000", "light-curve", "--preset", "hot-spot", "--to", "1e13")
+        self.bad(2, "--end is missing", "light-curve", "-n", "3")
+        self.bad(2, '--start: time is "x"', "light-curve", "--preset", "hot-spot", "--start", "x")
+        self.bad(2, "--end: time is 10000000000000", "light-curve", "--preset", "hot-spot", "--end", "1e13")
         for words, option, value in ("--format png: json or csv", "-f", "png"), ("frames", "-n", "1"):
             done = run("light-curve", option, value)
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr.decode())
-        self.bad(2, "areas of the ring projection are not to scale", "light-curve", "--preset", "photon-rings", "--to", "1")
+        self.bad(2, "areas of the ring projection are not to scale", "light-curve", "--preset", "photon-rings", "--end", "1")
         self.bad(2, "spot2.r is 2 M, allowed is at least", "light-curve", "--set", "spot2.brightness=1", "--set", "spot2.r=2")
 
 
