@@ -354,7 +354,7 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
                                    size_t n, struct kd_particle_place *out, struct kd_error *error)
 {
     const struct kd_particle_grid grid = kd_particle_grid(scene);
-    const struct kd_vk_pipeline *kernel;
+    const struct kd_vk_pipeline *kernel = NULL;
     const uint32_t constants[] = { scene->disk.epicycles > 0, true, grid.plunging > 0 };
     struct kd_particles_push push = push_of(scene, &grid, scene->top.time);
     push.first = first;
