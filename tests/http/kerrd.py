@@ -203,7 +203,7 @@ class Kerrd(unittest.TestCase):
     def test_a_light_curve_is_that_of_events_and_of_the_command_line(self):
         scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100}
         job = self.daemon.post('/v1/jobs', {'scene': scene, 'keyframes': [{'frame': 6, 'scene': {'time': 130}}], 'output': 'light-curve'}).json()
-        alone = subprocess.run([daemon.COMMAND[0], 'light-curve', '-', '--to', '130', '-n', '7', '-f', 'csv'], input=json.dumps(scene).encode(),
+        alone = subprocess.run([daemon.COMMAND[0], 'light-curve', '-', '--end', '130', '-n', '7', '-f', 'csv'], input=json.dumps(scene).encode(),
                                capture_output=True, timeout=60, check=True).stdout
         while (status := self.daemon.get('/v1/jobs/' + job['id']).json())['state'] in ('waiting', 'running'):
             time.sleep(0.05)
