@@ -8,8 +8,11 @@ const document_of = name => getJson('v1/presets/' + encodeURIComponent(name));
 
 // A link may name a preset and nothing else.
 export async function openPreset(scene) {
-  const name = link.get('preset');
-  if (name && essence(scene, scene.document()) === '{}') scene.replace(await document_of(name));
+  const name = link.get('preset'),
+    held = scene.held;
+  if (!name || essence(scene, scene.document()) !== '{}') return;
+  scene.replace(await document_of(name));
+  if (held) scene.hold(true);
 }
 
 // What makes a scene another one, in the order of the fields.

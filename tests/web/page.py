@@ -547,8 +547,9 @@ class Page(unittest.TestCase):
         self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
 
     def test_reduced_motion_holds_time(self):
-        page = self.open('lang=en&preset=living-disk', FINE, reduced_motion='reduce')
-        self.assertEqual((self.clock(page), page.inner_text('#play')), (0, 'Play'))
+        for fragment, motion in (('pause=1', 'no-preference'), ('', 'reduce')):
+            page = self.open('lang=en&preset=living-disk&' + fragment, FINE, reduced_motion=motion)
+            self.assertEqual((self.clock(page), page.inner_text('#play')), (0, 'Play'))
         page.click('#play')
         self.assertTrue(daemon.eventually(lambda: self.clock(page) > 1))
 
@@ -578,10 +579,11 @@ class Page(unittest.TestCase):
         except ImportError:
             self.skipTest('axe-playwright-python is not installed')
         ready = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
-        for view in VIEWS:
+        scenes = [(view, f'view={view}&over=shadow', ready[view]) for view in VIEWS] + [('spot', 'preset=hot-spot&pause=1', '#light .track')]
+        for view, fragment, there in scenes:
             for lang in ('en', 'it'):
                 with self.subTest(view=view, lang=lang):
-                    page = self.open(f'lang={lang}&view={view}&over=shadow', ready[view])
+                    page = self.open(f'lang={lang}&{fragment}', there)
                     self.open_groups(page)
                     results = Axe().run(page, options={'runOnly': ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
                     self.assertGreater(len(results.response['passes']), 15)
