@@ -1,6 +1,6 @@
 // Pictures of the scene from a live session. The scene goes to the session as it changes, one patch at a time and the latest
 // wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or a slow line never
-// falls behind. How fine each picture is while the scene changes is the server's affair; at rest it has all pixels of the window
+// falls behind. How fine each picture is while the scene changes is the server’s affair; at rest it has all pixels of the window
 // and several rays for each.
 import { latest } from './dom.js';
 import { ask, Problem } from './server.js';
@@ -66,7 +66,8 @@ export function openSource(scene, size, shown, failed) {
     return scene.document({
       'image.width': width,
       'image.height': height,
-      'image.samples': Math.max(scene.get('image.samples'), least_samples),
+      // Where pictures follow each other, more of them and finer ones are worth more than smooth edges.
+      'image.samples': scene.goesOn() ? scene.get('image.samples') : Math.max(scene.get('image.samples'), least_samples),
       ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0 } : {}),
     });
   }
