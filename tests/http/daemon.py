@@ -5,6 +5,7 @@ import os
 import re
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -80,6 +81,10 @@ class Daemon:
                 pass  # it may close before it has read everything
             return read_answer(s)
 
+    def metrics(self):
+        lines = self.get('/metrics').body.decode().splitlines()
+        return {name: float(value) for name, value in (line.rsplit(' ', 1) for line in lines if line[0] != '#')}
+
     def open_files(self):
         return len(os.listdir(f'/proc/{self.process.pid}/fd'))
 
@@ -105,6 +110,12 @@ def read_answer(s):
         return None
     finally:
         response.close()
+
+
+def vanish(s):
+    """A client that is gone from one moment to the next, without a last word."""
+    s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack('ii', 1, 0))
+    s.close()
 
 
 def eventually(condition, timeout=10):
@@ -145,6 +156,48 @@ class Case(unittest.TestCase):
         if pointer is not None:
             self.assertEqual(problem.get('pointer'), pointer, problem)
         return problem
+
+
+class Owned(Case):
+    """Tests of what lives on the server under an address, belongs to who has its token, and goes with the test."""
+    kind = made = None  # '/v1/sessions'; the status of having made one
+
+    def setUp(self):
+        self.opened = []
+
+    def tearDown(self):
+        for one in self.opened:
+            self.delete(one)
+        super().tearDown()
+
+    def make(self, body, query='', server=None):
+        answer = (server or self.daemon).post(self.kind + query, body)
+        self.assertEqual(answer.status, self.made, answer.body)
+        one = answer.json()
+        self.assertRegex(one['id'], '^[0-9a-f]{16}$')
+        self.assertRegex(one['token'], '^[0-9a-f]{32}$')
+        self.assertEqual(answer.header('Location'), f'{self.kind}/{one["id"]}')
+        if not server:
+            self.opened.append(one)
+        return one
+
+    def delete(self, one, server=None):
+        return (server or self.daemon).request('DELETE', self.at(one), headers=self.owner(one))
+
+    def at(self, one, rest=''):
+        return f'{self.kind}/{one["id"]}{rest}'
+
+    @staticmethod
+    def owner(one):
+        return {'Authorization': 'Bearer ' + one['token']}
+
+    def status(self, one, server=None):
+        return (server or self.daemon).get(self.at(one)).json()
+
+    def stream(self, one, rest, accept='*/*', timeout=20):
+        s = self.daemon.connect(timeout)
+        s.sendall(f'GET {self.at(one, rest)} HTTP/1.1\r\nHost: localhost\r\nAccept: {accept}\r\nConnection: close\r\n\r\n'.encode())
+        return s
 
 
 def main():

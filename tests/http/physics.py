@@ -108,7 +108,7 @@ class Physics(daemon.Case):
         self.assertAlmostEqual(mode['wave'], math.exp(10 * mode['omega_im']) * math.cos(10 * mode['omega_re']), delta=1e-14)
         start = time.monotonic()
         curve = self.values('qnm?spin=0:0.998:100')
-        self.assertLess(time.monotonic() - start, 1)  # 10 ms of work on a machine of its own
+        self.assertLess(time.monotonic() - start, 5)  # 10 ms of work on a machine of its own
         self.assertEqual(curve['quality'], sorted(curve['quality']))
 
     def sound(self, target, **headers):

@@ -31,14 +31,11 @@ class Routes(daemon.Case):
                     json.loads(got.body)
 
     def test_metrics_count(self):
-        def read():
-            lines = self.daemon.get('/metrics').body.decode().splitlines()
-            return {line.rsplit(' ', 1)[0]: float(line.rsplit(' ', 1)[1]) for line in lines if not line.startswith('#')}
-        before = read()
+        before = self.daemon.metrics()
         self.assertEqual((before['kerrd_serving'], before['kerrd_requests'], before['kerrd_renders_unfinished']), (1, 1, 0))
         self.daemon.get('/nothing')
         self.daemon.get('/v1/device')
-        after = read()
+        after = self.daemon.metrics()
         self.assertEqual(after['kerrd_answers_total{status="4xx"}'], before['kerrd_answers_total{status="4xx"}'] + 1)
         self.assertEqual(after['kerrd_answers_total{status="2xx"}'], before['kerrd_answers_total{status="2xx"}'] + 2)
 

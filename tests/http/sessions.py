@@ -17,32 +17,12 @@ NOISE = {'image': {'width': 800, 'height': 600, 'samples': 2}, 'time': 5}  # 1.4
 MOVING = {'image': {'width': 64, 'height': 36}, 'time': 5, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}}
 
 
-class Sessions(daemon.Case):
+class Sessions(daemon.Owned):
+    kind, made = '/v1/sessions', 201
     options = ('--sessions', 6, '--session-ms', 60000)
 
-    def setUp(self):
-        self.opened = []
-
-    def tearDown(self):
-        for session in self.opened:
-            self.daemon.request('DELETE', self.at(session), headers=self.owner(session))
-        super().tearDown()
-
     def open(self, scene=None):
-        answer = self.daemon.post('/v1/sessions', scene or SCENE)
-        self.assertEqual(answer.status, 201, answer.body)
-        session = answer.json()
-        self.assertEqual(answer.header('Location'), '/v1/sessions/' + session['id'])
-        self.opened.append(session)
-        return session
-
-    @staticmethod
-    def at(session, rest=''):
-        return '/v1/sessions/' + session['id'] + rest
-
-    @staticmethod
-    def owner(session):
-        return {'Authorization': 'Bearer ' + session['token']}
+        return self.make(scene or SCENE)
 
     def patch(self, session, body, **headers):
         body = body if isinstance(body, (str, bytes)) else json.dumps(body)
@@ -51,15 +31,8 @@ class Sessions(daemon.Case):
     def frame(self, session, after=0, wait_ms=20000):
         return self.daemon.get(self.at(session, f'/frame.png?after={after}&wait_ms={wait_ms}'))
 
-    def stream(self, session, rest, accept='*/*', timeout=20):
-        s = self.daemon.connect(timeout)
-        s.sendall(f'GET {self.at(session, rest)} HTTP/1.1\r\nHost: localhost\r\nAccept: {accept}\r\n\r\n'.encode())
-        return s
-
     def test_life(self):
         session = self.open()
-        self.assertRegex(session['id'], '^[0-9a-f]{16}$')
-        self.assertRegex(session['token'], '^[0-9a-f]{32}$')
         self.assertEqual((session['revision'], session['scene']['image']['width']), (1, 64))
         first = self.frame(session)
         self.assertEqual((first.status, first.header('Content-Type'), first.header('Cache-Control')), (200, 'image/png', 'no-store'))
@@ -68,10 +41,10 @@ class Sessions(daemon.Case):
         self.assertRegex(first.header('Kerrd-Quality'), r'^width=64 height=36 samples=1 orders=3 engine=closed precision=f32 steps=0 final=1$')
         self.assertRegex(first.header('Kerrd-Accuracy'), '^rays=2304 ')
         self.assertIn('encode;dur=', first.header('Server-Timing'))
-        found = self.daemon.get(self.at(session)).json()
+        found = self.status(session)
         self.assertNotIn('token', found)
         self.assertEqual((found['id'], found['frame'], found['scene']), (session['id'], 1, session['scene']))
-        self.assertEqual(self.daemon.request('DELETE', self.at(session), headers=self.owner(session)).status, 204)
+        self.assertEqual(self.delete(session).status, 204)
         for rest in ('', '/frame.png', '/frames', '/events'):
             self.assertProblem(self.daemon.get(self.at(session, rest)), 404, 'not-found')
         self.assertProblem(self.patch(session, {}), 404, 'not-found')
@@ -98,7 +71,7 @@ class Sessions(daemon.Case):
                 problem = self.assertProblem(self.patch(session, body), status)
                 if pointer:
                     self.assertEqual(problem['pointer'], pointer)
-        self.assertEqual(self.daemon.get(self.at(session)).json()['revision'], 3)
+        self.assertEqual(self.status(session)['revision'], 3)
         self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
 
     def strike(self, session, body=None, **headers):
@@ -120,7 +93,7 @@ class Sessions(daemon.Case):
         self.assertGreaterEqual(again['scene']['style']['ringdown_time'] - style['ringdown_time'], 0.2)
         self.assertEqual(self.strike(session, '{}').json()['scene']['style']['ringdown'], 0.25)  # as it was
         self.assertEqual(self.strike(session, '').json()['scene']['style']['ringdown'], 0.25)
-        revision = self.daemon.get(self.at(session)).json()['revision']
+        revision = self.status(session)['revision']
         for body, status, pointer, word in (('{"amplitude": 1.01}', 422, '/amplitude', 'amplitude is 1.01, allowed are 0 to 1'),
                                             ('{"amplitude": -1}', 422, '/amplitude', '0 to 1'), ('{"amplitude": "1"}', 422, '/amplitude', '"1"'),
                                             ('{"amplitude": 1e999}', 422, '/amplitude', '0 to 1'), ('{"amplitude": null}', 422, '/amplitude', 'null'),
@@ -136,7 +109,7 @@ class Sessions(daemon.Case):
         self.assertProblem(self.daemon.request('POST', self.at(session, '/ringdown'), '{}', {**self.owner(session), 'Content-Type': 'text/plain'}), 415)
         self.assertEqual(self.assertProblem(self.daemon.get(self.at(session, '/ringdown')), 405).get('status'), 405)
         self.assertProblem(self.daemon.request('POST', '/v1/sessions/0123456789abcdef/ringdown'), 404, 'not-found')
-        self.assertEqual(self.daemon.get(self.at(session)).json()['revision'], revision)
+        self.assertEqual(self.status(session)['revision'], revision)
         for rate in (0, -3):
             self.patch(session, {'motion': {'time_rate': rate}})
             problem = self.assertProblem(self.strike(session), 409, 'conflict')
@@ -210,13 +183,13 @@ class Sessions(daemon.Case):
         self.assertEqual(self.frame(session).header('Kerrd-Frame'), '1')
         begun = time.monotonic()
         self.assertEqual(self.frame(session, 1, 300).status, 204)
-        self.assertTrue(0.25 < time.monotonic() - begun < 2)
+        self.assertTrue(0.25 < time.monotonic() - begun < 15)
         self.assertEqual(self.frame(session, 1, 0).status, 204)
         self.assertEqual(self.frame(session, 0, 0).status, 200)
         answers = []
         thread = threading.Thread(target=lambda: answers.append(self.frame(session, 1)))
         thread.start()
-        time.sleep(0.2)
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 1))
         self.assertFalse(answers)
         self.patch(session, {'camera': {'inclination_deg': 10}})
         thread.join()
@@ -242,13 +215,13 @@ class Sessions(daemon.Case):
         for _ in range(50):
             threads.append(threading.Thread(target=lambda: answers.append(self.frame(session, number))))
             threads[-1].start()
-        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session)).json()['viewers'] == 50))
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 50))
         self.patch(session, {'camera': {'inclination_deg': 10}})
         for thread in threads:
             thread.join()
         self.assertEqual({(a.status, a.header('Kerrd-Frame')) for a in answers}, {(200, str(number + 1))})
         self.assertEqual(len({a.body for a in answers}), 1)
-        self.assertEqual(self.daemon.get(self.at(session)).json()['viewers'], 0)
+        self.assertEqual(self.status(session)['viewers'], 0)
 
     def test_what_goes_on_by_itself(self):
         session = self.open(MOVING)
@@ -259,14 +232,15 @@ class Sessions(daemon.Case):
             number = int(answer.header('Kerrd-Frame'))
             seen.append(number)
         self.assertEqual(seen, sorted(set(seen)))
-        one = self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg']
+        begun = time.monotonic()
+        one = self.status(session)['scene']['camera']['azimuth_deg']
         time.sleep(0.3)
-        two = self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg']
-        self.assertTrue(1 < two - one < 20)
+        two = self.status(session)['scene']['camera']['azimuth_deg']
+        self.assertTrue(1 < two - one < 10 * (time.monotonic() - begun))
         self.patch(session, {'motion': None})
-        three = self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg']
-        self.assertTrue(two < three < two + 20)  # it stops where it is
-        self.assertEqual(self.daemon.get(self.at(session)).json()['scene']['camera']['azimuth_deg'], three)
+        three = self.status(session)['scene']['camera']['azimuth_deg']
+        self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # it stops where it is
+        self.assertEqual(self.status(session)['scene']['camera']['azimuth_deg'], three)
 
     def test_time_goes_on_where_it_is_seen(self):
         still = {'image': {'width': 64, 'height': 36}, 'style': {'exposure': 0}, 'motion': {'time_rate': 20}}
@@ -277,25 +251,21 @@ class Sessions(daemon.Case):
         self.assertEqual(self.frame(smooth, number + 8, 700).status, 204)
 
     def test_metrics(self):
-        def now():
-            text = self.daemon.get('/metrics').body.decode()
-            return {name: float(value) for name, value in re.findall(r'^kerrd_session(\w*) (.*)$', text, re.M)}
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_renders_unfinished'] == 0))
+        before = self.daemon.metrics()
         session = self.open()
-        self.frame(session)  # those of sessions before it are through by now
-        before = now()
-        self.patch(session, {'time': 6})
-        size = len(self.frame(session, 1).body)
+        size = len(self.frame(session).body)
         with self.stream(session, '/events', 'text/event-stream'):
-            self.assertTrue(daemon.eventually(lambda: now()['_viewers'] == before['_viewers'] + 1))
-        after = now()
-        self.assertEqual((after['s'], after['_frames_total'], after['_bytes_total']),
-                         (1, before['_frames_total'] + 1, before['_bytes_total'] + size))
+            self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_session_viewers'] == 1))
+        after = self.daemon.metrics()
+        self.assertEqual([after[f'kerrd_session{name}'] - before[f'kerrd_session{name}'] for name in ('s', '_frames_total', '_bytes_total')],
+                         [1, 1, size])
 
     def test_nobody_watches_nothing_is_drawn(self):
         session = self.open(MOVING)
         number = int(self.frame(session).header('Kerrd-Frame'))
         time.sleep(0.4)
-        self.assertLessEqual(self.daemon.get(self.at(session)).json()['frame'], number + 1)
+        self.assertLessEqual(self.status(session)['frame'], number + 1)
 
     def test_multipart(self):
         session = self.open(MOVING)
@@ -403,9 +373,8 @@ class Sessions(daemon.Case):
             for _ in range(8):
                 s = self.stream(session, rest)
                 time.sleep(0.02)
-                s.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack('ii', 1, 0))
-                s.close()
-        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session)).json()['viewers'] == 0))
+                daemon.vanish(s)
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 0))
         self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files + 1))
 
     def test_as_many_as_may(self):
@@ -414,7 +383,7 @@ class Sessions(daemon.Case):
         refused = self.daemon.post('/v1/sessions', SCENE)
         self.assertProblem(refused, 503, 'queue-full')
         self.assertTrue(refused.header('Retry-After'))
-        self.daemon.request('DELETE', self.at(self.opened[0]), headers=self.owner(self.opened[0]))
+        self.delete(self.opened[0])
         self.open()
 
     def test_a_frame_that_fails(self):
@@ -433,14 +402,14 @@ class Sessions(daemon.Case):
         answers = []
         thread = threading.Thread(target=lambda: answers.append(self.frame(session, number)))
         thread.start()
-        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(session)).json()['viewers'] == 1))
-        self.daemon.request('DELETE', self.at(session), headers=self.owner(session))
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 1))
+        self.delete(session)
         thread.join(5)
         self.assertProblem(answers[0], 404, 'not-found')
 
 
 class Idle(daemon.Case):
-    options = ('--session-ms', 600)
+    options = ('--session-ms', 1500)
 
     def test_ends_unwatched(self):
         def count():
@@ -448,10 +417,10 @@ class Idle(daemon.Case):
         sessions = [self.daemon.post('/v1/sessions', SCENE).json() for _ in range(2)]
         with self.daemon.connect() as s:
             s.sendall(f'GET /v1/sessions/{sessions[0]["id"]}/events HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
-            time.sleep(1.2)
+            time.sleep(3)
             self.assertEqual(self.daemon.get('/v1/sessions/' + sessions[1]['id']).status, 404)
             self.assertEqual(count(), 1)
-        self.assertTrue(daemon.eventually(lambda: time.sleep(0.9) or count() == 0))
+        self.assertTrue(daemon.eventually(lambda: time.sleep(2) or count() == 0, 15))
 
     def test_on_the_way_down(self):
         server = daemon.Daemon('--drain-ms', 50)
@@ -465,7 +434,7 @@ class Idle(daemon.Case):
             begun = time.monotonic()
             server.terminate()
             self.assertEqual(server.wait(10), 0)
-            self.assertLess(time.monotonic() - begun, 3)
+            self.assertLess(time.monotonic() - begun, 10)
             thread.join(5)
         self.assertEqual(waiting[0].status, 404)
 
