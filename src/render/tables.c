@@ -3,8 +3,6 @@
 #include "physics/colour.h"
 #include "physics/disk.h"
 #include "physics/kerr.h"
-#include "physics/qnm.h"
-#include "physics/ringdown.h"
 #include "render/particles.h"
 #include "render/plunging.h"
 
@@ -84,16 +82,10 @@ static void fill_spots(struct kd_spot_block *out, const struct kd_scene *scene)
     }
 }
 
-/* 1 + style.ringdown A(t), A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n = 0 from style.ringdown_time on. It is the
- * hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings as |a| does. */
 static double ringing(const struct kd_scene *scene)
 {
-    double t = scene->top.time - scene->style.ringdown_time;
-    struct kd_qnm mode;
-    if (!(scene->style.ringdown > 0) || t < 0)
-        return 1;
-    kd_qnm_find(2, 2, 0, fabs(scene->spacetime.spin), &mode); /* a valid scene's spin is in the domain */
-    return 1 + scene->style.ringdown * kd_ringdown_wave(mode.omega, t);
+    double wave;
+    return kd_scene_ringdown(scene, &wave) ? 1 + scene->style.ringdown * wave : 1;
 }
 
 /* Both t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the other. */

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "physics/qnm.h"
 #include "physics/ringdown.h"
 
 /* sRGB turns a relative change d of luminance into 112 d steps of 8 bits at most: what is left is a tenth of a step. */
@@ -19,6 +20,18 @@ size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_
         if (spots[i]->brightness > 0)
             on[n++] = spots[i];
     return n;
+}
+
+/* It is the hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings as |a| does. */
+bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
+{
+    double t = scene->top.time - scene->style.ringdown_time;
+    struct kd_qnm mode;
+    if (!(scene->style.ringdown > 0) || t < 0)
+        return false;
+    kd_qnm_find(2, 2, 0, fabs(scene->spacetime.spin), &mode); /* a valid scene's spin is in the domain */
+    *wave = kd_ringdown_wave(mode.omega, t);
+    return true;
 }
 
 /* Whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a step, then. */

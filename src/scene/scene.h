@@ -70,6 +70,10 @@ bool kd_scene_moves(const struct kd_scene *scene);
 #define KD_SPOTS 3
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 
+/* A struck hole at the scene's time: *wave = A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n = 0, t from
+ * style.ringdown_time on. False: it was not struck, or not yet. Up to 1 ms. */
+bool kd_scene_ringdown(const struct kd_scene *scene, double *wave);
+
 /* The canonical document: every field, in table order, shortest numbers that read back exactly, no spaces. */
 enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out);
 

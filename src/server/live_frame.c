@@ -1,9 +1,11 @@
 #include "server/live_frame.h"
 
+#include "physics/kerr.h"
 #include "render/picture.h"
 #include "server/reply.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +75,48 @@ static cJSON *light_json(const struct kd_light_report *report)
     return o;
 }
 
+static void add_orbit(cJSON *o, double spin, double r)
+{
+    cJSON_AddNumberToObject(o, "r", r);
+    cJSON_AddNumberToObject(o, "period", 2 * M_PI / kd_kerr_omega(spin, r));
+}
+
+static cJSON *isco_json(const struct kd_scene *scene)
+{
+    cJSON *o = cJSON_CreateObject();
+    add_orbit(o, scene->spacetime.spin, kd_kerr_isco(scene->spacetime.spin));
+    return o;
+}
+
+static cJSON *simulation_json(const struct kd_scene *scene)
+{
+    cJSON *o = cJSON_CreateObject();
+    double wave;
+    cJSON_AddNumberToObject(o, "time_rate", scene->motion.time_rate);
+    cJSON_AddNumberToObject(o, "particles", scene->disk.model == KD_DISK_PARTICLES ? scene->disk.particles : 0);
+    if (kd_scene_ringdown(scene, &wave))
+        cJSON_AddNumberToObject(o, "ringdown", wave);
+    return o;
+}
+
+/* Where the centre of each spot that is on stands at the frame's time. */
+static cJSON *orbits_json(const struct kd_scene *scene)
+{
+    const struct kd_spot *spots[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
+    cJSON *list = cJSON_CreateArray();
+    for (int i = 0; i < KD_SPOTS; i++) {
+        if (!(spots[i]->brightness > 0))
+            continue;
+        cJSON *o = cJSON_CreateObject();
+        double turned = remainder(kd_kerr_omega(scene->spacetime.spin, spots[i]->r) * scene->top.time, 2 * M_PI);
+        cJSON_AddNumberToObject(o, "spot", i + 1);
+        cJSON_AddNumberToObject(o, "phi_deg", remainder(spots[i]->phase_deg + turned * (180 / M_PI), 360));
+        add_orbit(o, scene->spacetime.spin, spots[i]->r);
+        cJSON_AddItemToArray(list, o);
+    }
+    return list;
+}
+
 static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
 {
     cJSON *o = cJSON_CreateObject(), *passes = cJSON_CreateObject();
@@ -91,6 +135,9 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     cJSON_AddItemToObject(o, "passes", passes);
     cJSON_AddBoolToObject(o, "lens_map_reused", job->frame.lens_reused);
     cJSON_AddItemToObject(o, "accuracy", accuracy_json(&job->frame.accuracy, job->plan.rays));
+    cJSON_AddItemToObject(o, "simulation", simulation_json(&job->scene));
+    cJSON_AddItemToObject(o, "isco", isco_json(&job->scene));
+    cJSON_AddItemToObject(o, "orbits", orbits_json(&job->scene));
     if (job->frame.light.measured)
         cJSON_AddItemToObject(o, "light", light_json(&job->frame.light));
     char *text = cJSON_PrintUnformatted(o);

@@ -326,6 +326,42 @@ class Sessions(daemon.Owned):
         self.assertEqual((data['frame'], data['revision'], data['quality']['width']), (3, 3, 64))
         self.assertLessEqual({'passes', 'accuracy', 'fps', 'time', 'bytes'}, set(data))
 
+    def event(self, scene):
+        """The data of the first event of a session that shows this scene."""
+        session, text = self.open({**SCENE, **scene}), b''
+        with self.stream(session, '/events', 'text/event-stream') as s:
+            while not (found := re.search(rb'\ndata: (\{.*?\})\n\n', text)):
+                text += s.recv(65536)
+        return json.loads(found[1], parse_constant=self.fail)
+
+    def test_events_tell_orbits(self):
+        """J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972: without spin the ISCO is at 6; an orbit takes 2 pi (r^3/2 + a)."""
+        event = self.event({'spacetime': {'spin': 0}, 'time': 0})
+        self.assertEqual((event['simulation'], event['orbits'], event['isco']['r']), ({'time_rate': 0, 'particles': 0}, [], 6))
+        self.assertAlmostEqual(event['isco']['period'], 12 * math.pi * math.sqrt(6), places=11)
+        turn = 2 * math.pi * (4 ** 1.5 + 0.5)
+        spots = {'spot1': {'brightness': 0}, 'spot2': {'brightness': 1, 'r': 9, 'phase_deg': 100},
+                 'spot3': {'brightness': 2, 'r': 4.3, 'phase_deg': -170}}
+        for turns, r, phi in ((0.25, 4.3, -80), (3.75, 4.3, 100), (0, 4.3, -170)):
+            period = 2 * math.pi * (r ** 1.5 + 0.5)
+            event = self.event({'spacetime': {'spin': 0.5}, 'time': turns * period, **spots})
+            self.assertEqual([(o['spot'], o['r']) for o in event['orbits']], [(2, 9), (3, 4.3)])
+            self.assertAlmostEqual(event['orbits'][0]['period'], 2 * math.pi * 27.5, places=11)
+            self.assertAlmostEqual(event['orbits'][1]['phi_deg'], phi, places=6)
+            ahead = (event['orbits'][0]['phi_deg'] - 100 - 360 * turns * period / (2 * math.pi * 27.5)) % 360
+            self.assertLess(min(ahead, 360 - ahead), 1e-6)
+        far = self.event({'spacetime': {'spin': -0.999999999999}, 'time': 5, 'spot1': {'brightness': 1, 'r': 1e6}})
+        self.assertTrue(-180 <= far['orbits'][0]['phi_deg'] <= 180 and 8.999 < far['isco']['r'] < 9, far)
+
+    def test_events_tell_the_simulation(self):
+        struck = {'disk': {'model': 'particles', 'particles': 2000}, 'motion': {'time_rate': 1e-3}, 'spacetime': {'spin': 0.5}}
+        for time_, wave in ((99, None), (100, 1), (100 + math.pi / 0.464123, -math.exp(-math.pi * 0.085639 / 0.464123))):
+            event = self.event({**struck, 'time': time_, 'style': {'ringdown': 0.5, 'ringdown_time': 100}})
+            self.assertEqual((event['simulation']['time_rate'], event['simulation']['particles']), (1e-3, 2000))
+            self.assertEqual('ringdown' in event['simulation'], wave is not None)
+            if wave is not None:  # the mode of a = 0.5: tests/oracle/qnm_reference.py
+                self.assertAlmostEqual(event['simulation']['ringdown'], wave, delta=1e-3)
+
     def exposures(self, s, n):
         """Of the next n events of a stream."""
         text = b''
