@@ -12,10 +12,7 @@
 #define PER_CELL 5.0 /* particles: the density scatters by a third, in spots some pixels wide */
 #define SLICE_MS 40.0
 #define GROUPS_MAX 65535u
-/* In one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and those of the plunge. */
-#define GUIDES_BYTES (KD_PARTICLE_RADII * sizeof(struct kd_guide))
 #define EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
-#define TABLES_BYTES (GUIDES_BYTES + 2 * EXPECTED_BYTES)
 
 static double inner(const struct kd_scene *scene)
 {
@@ -76,6 +73,21 @@ static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene
     g->plunge_rows = (uint32_t)fmin(g->lead_rows + g->lap_rows + more, KD_PARTICLE_ROWS);
 }
 
+/* In each row of the grid there are five radii at least: as evenly spread as they are, a node gets what it expects within 1 %, the
+ * Poisson error of the 10 000 particles that a row has at most. The thinnest row is at one of the edges. Each radius has a particle
+ * at least. */
+static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene *scene)
+{
+    double all = log(scene->disk.outer / inner(scene));
+    double share = fmin(density(scene, inner(scene)), density(scene, scene->disk.outer)) * all / g->rows;
+    double radii = fmax(KD_PARTICLE_RADII, fmin(5 / share, KD_PARTICLE_RADII_MAX));
+    return (uint32_t)fmin(radii, g->count - g->plunging);
+}
+
+/* In one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and those of the plunge. */
+static uint64_t guides_bytes(const struct kd_particle_grid *g) { return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256; }
+static uint64_t tables_bytes(const struct kd_particle_grid *g) { return guides_bytes(g) + 2 * EXPECTED_BYTES; }
+
 /* Words of either grid. */
 static uint64_t words(const struct kd_particle_grid *g) { return (g->rows + 1ull) * g->columns; }
 static uint64_t plunge_words(const struct kd_particle_grid *g)
@@ -94,13 +106,12 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
         g.columns *= 2;
     g.rows = (uint32_t)fmax(4, fmin(g.count / (PER_CELL * g.columns), KD_PARTICLE_ROWS));
     plunge_grid(&g, scene);
-    uint32_t circling = g.count - g.plunging;
-    g.radii = circling < KD_PARTICLE_RADII ? circling : KD_PARTICLE_RADII;
+    g.radii = radii_of(&g, scene);
     /* Particles are scattered at random: twice the mean of the fullest row and sixty-four more are never on one node. */
     double fullest = fmax(density(scene, inner(scene)), density(scene, scene->disk.outer)) * all;
     double unit = 65535 / (2 * fullest * g.count / ((double)g.rows * g.columns) + 64);
     g.unit = (uint32_t)fmax(1, fmin(unit, 1024));
-    g.bytes = 8 * (words(&g) + plunge_words(&g)) + TABLES_BYTES;
+    g.bytes = 8 * (words(&g) + plunge_words(&g)) + tables_bytes(&g);
     return g;
 }
 
@@ -215,14 +226,14 @@ double kd_particle_delay(const struct kd_scene *scene)
 static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
                              const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
-    enum kd_status status = kd_store_at_least(r->vk, &p->guides, TABLES_BYTES, KD_VK_UPLOAD, "orbits of particles", error);
+    enum kd_status status = kd_store_at_least(r->vk, &p->guides, tables_bytes(grid), KD_VK_UPLOAD, "orbits of particles", error);
     if (status)
         return status;
     char *to = kd_vk_buffer_map(p->guides);
     fill_guides((struct kd_guide *)to, scene, grid, time);
-    fill_expected((float *)(to + GUIDES_BYTES), scene, grid);
+    fill_expected((float *)(to + guides_bytes(grid)), scene, grid);
     if (grid->plunging)
-        fill_plunge_expected((float *)(to + GUIDES_BYTES + EXPECTED_BYTES), grid);
+        fill_plunge_expected((float *)(to + guides_bytes(grid) + EXPECTED_BYTES), grid);
     return KD_OK;
 }
 
@@ -313,9 +324,10 @@ enum kd_status kd_particles_deposit(struct kd_renderer *r, struct kd_particles *
     if (!status)
         status = share_out(r, p, scene, false, &push, grid->count, ns_per_particle, error);
     if (!status)
-        status = divide(r, p, 0, GUIDES_BYTES, grid->rows, grid->columns, error);
+        status = divide(r, p, 0, guides_bytes(grid), grid->rows, grid->columns, error);
     if (!status && grid->plunging)
-        status = divide(r, p, 4 * words(grid), GUIDES_BYTES + EXPECTED_BYTES, grid->plunge_rows, grid->plunge_columns, error);
+        status = divide(r, p, 4 * words(grid), guides_bytes(grid) + EXPECTED_BYTES, grid->plunge_rows,
+                        grid->plunge_columns, error);
     return status ? status : kd_vk_submit(r->vk, NULL, error);
 }
 

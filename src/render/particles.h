@@ -28,7 +28,8 @@
 struct kd_renderer;
 struct kd_particles; /* buffers: render/internal.h */
 
-#define KD_PARTICLE_RADII 4096u /* at most; 35 to a row of the default grid */
+#define KD_PARTICLE_RADII 4096u /* if there are as many particles; 35 to a row of the default grid */
+#define KD_PARTICLE_RADII_MAX 65536u /* where rows are many, or some of them nearly empty */
 #define KD_PARTICLE_ROWS 4096u
 
 struct kd_particle_grid {
