@@ -57,23 +57,18 @@ static enum MHD_Result send_frame(struct kd_request *request, struct kd_live_fra
 /* The answer, or another wait. */
 static enum MHD_Result look(struct kd_request *request)
 {
-    bool over;
     struct kd_error error = { 0 };
-    struct kd_viewer *viewer = request->viewer;
-    struct kd_live_frame *frame = kd_viewer_next(viewer, &over, &error);
-    if (!frame && !over && !viewer->late)
-        return MHD_YES; /* suspended */
-    bool late = viewer->late, gone = viewer->gone;
-    kd_viewer_detach(viewer);
-    free(viewer);
-    request->viewer = NULL;
-    if (frame)
-        return send_frame(request, frame);
-    if (gone)
-        return MHD_NO;
-    if (over)
-        return error.status ? kd_reply_error(request, &error) : ended(request);
-    return late ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PNG_TYPE)) : MHD_NO;
+    struct kd_live_frame *frame = NULL;
+    enum kd_viewer_news what = kd_viewer_next(request->viewer, &frame, &error);
+    if (what == KD_VIEWER_LATER)
+        return MHD_YES;
+    kd_live_abandon(request);
+    switch (what) {
+    case KD_VIEWER_FRAME: return send_frame(request, frame);
+    case KD_VIEWER_OVER: return error.status ? kd_reply_error(request, &error) : ended(request);
+    case KD_VIEWER_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PNG_TYPE));
+    default: return MHD_NO;
+    }
 }
 
 static enum MHD_Result bad_number(struct kd_request *request, const char *detail)
@@ -185,27 +180,24 @@ static size_t take(struct stream *s, char *to, size_t size)
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct stream *s = cls;
-    bool over;
     (void)position;
     size_t n = take(s, to, size);
     if (n)
         return (ssize_t)n;
     kd_live_frame_release(s->frame);
     s->frame = NULL;
-    struct kd_live_frame *frame = kd_viewer_next(&s->viewer, &over, NULL);
-    if (frame) {
-        frame_parts(s, frame);
-        return (ssize_t)take(s, to, size);
-    }
-    if (over)
-        return s->viewer.gone ? MHD_CONTENT_READER_END_WITH_ERROR : MHD_CONTENT_READER_END_OF_STREAM;
-    if (s->viewer.late) { /* a sign of life, which also finds out who has left without a word */
-        s->viewer.late = false;
+    struct kd_live_frame *frame;
+    switch (kd_viewer_next(&s->viewer, &frame, NULL)) {
+    case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
+    case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
+    case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
+    case KD_VIEWER_LATE: /* a sign of life, which also finds out who has left without a word */
         s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         memcpy(to, ":\n\n", 3);
         return 3;
+    case KD_VIEWER_LATER: break;
     }
-    return 0; /* suspended */
+    return 0;
 }
 
 static void release_stream(void *cls)

@@ -61,24 +61,37 @@ void kd_viewer_detach(struct kd_viewer *viewer)
     viewer->session = NULL;
 }
 
-struct kd_live_frame *kd_viewer_next(struct kd_viewer *viewer, bool *over, struct kd_error *error)
+/* Locked. */
+static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
 {
     struct kd_session *s = viewer->session;
-    struct kd_live_frame *frame = NULL;
-    pthread_mutex_lock(&s->all->lock);
-    *over = !s->listed || s->failed || viewer->gone;
     if (s->failed && error)
         *error = s->error;
-    if (!*over && s->latest && s->latest->number > viewer->seen) {
-        frame = kd_live_frame_share(s->latest);
-        viewer->seen = frame->number;
-    } else if (!*over && !viewer->late) {
-        viewer->waiting = true;
-        MHD_suspend_connection(viewer->mhd); /* before anybody can wake it: that takes the lock */
-        kd_session_pump(s);
+    if (!s->listed || s->failed)
+        return KD_VIEWER_OVER;
+    if (viewer->gone)
+        return KD_VIEWER_GONE;
+    if (s->latest && s->latest->number > viewer->seen) {
+        *frame = kd_live_frame_share(s->latest);
+        viewer->seen = s->latest->number;
+        return KD_VIEWER_FRAME;
     }
-    pthread_mutex_unlock(&s->all->lock);
-    return frame;
+    if (viewer->late) {
+        viewer->late = false;
+        return KD_VIEWER_LATE;
+    }
+    viewer->waiting = true;
+    MHD_suspend_connection(viewer->mhd); /* before anybody can wake it: that takes the lock */
+    kd_session_pump(s);
+    return KD_VIEWER_LATER;
+}
+
+enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
+{
+    pthread_mutex_lock(&viewer->session->all->lock);
+    enum kd_viewer_news what = news(viewer, frame, error);
+    pthread_mutex_unlock(&viewer->session->all->lock);
+    return what;
 }
 
 static void sweep_deadlines(struct kd_session *s, double now) /* locked */

@@ -61,9 +61,15 @@ struct kd_viewer {
 /* Takes over the reference in viewer->session. */
 void kd_viewer_attach(struct kd_viewer *viewer);
 void kd_viewer_detach(struct kd_viewer *viewer);
-/* The newest frame, a reference, if it is newer than viewer->seen. Else NULL: *over says that none will come, because the session has
- * ended or *error says why; otherwise the connection has been suspended and is resumed when there is one, or it is late or gone. */
-struct kd_live_frame *kd_viewer_next(struct kd_viewer *viewer, bool *over, struct kd_error *error);
+enum kd_viewer_news {
+    KD_VIEWER_FRAME, /* *frame, a reference: the newest, newer than viewer->seen */
+    KD_VIEWER_OVER,  /* none will come: the session has ended, or *error says why */
+    KD_VIEWER_GONE,  /* the client has hung up */
+    KD_VIEWER_LATE,  /* the deadline has passed, which the caller may set anew */
+    KD_VIEWER_LATER, /* the connection has been suspended, and is resumed for one of these */
+};
+/* After KD_VIEWER_LATER the viewer is the session's until the connection is resumed. error may be NULL. */
+enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error);
 
 /* Deadlines, clients that have gone, idle sessions, refinement that is due. One thread, ten times a second. */
 void kd_sessions_sweep(struct kd_sessions *all);
