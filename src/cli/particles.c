@@ -140,7 +140,6 @@ int kd_cli_particles(int argc, char **argv)
     if (source.status)
         status = source.status, error = source.error;
     kd_renderer_destroy(source.renderer);
-    kd_particle_list_finish(&source.list);
     kd_buffer_finish(&source.ready);
     kd_scene_options_finish(&arguments.scene);
     return status ? kd_cli_fail(&error) : KD_EXIT_OK;

@@ -12,6 +12,8 @@
 
 struct kd_particles {
     struct kd_vk_buffer *guides, *grid, *density, *list; /* made when first needed, and kept */
+    struct kd_scene of; /* what is in `guides`, */
+    double time;        /* at this time: slices of a list, and frames that refine, find it there */
 };
 
 struct kd_renderer {

@@ -15,7 +15,9 @@ static const char *const names[] = {
 #undef COLUMN
 };
 
-struct kd_particle_guide {
+/* The guiding orbit of the latest row: particles are in order of radius, and many share one. */
+struct guide {
+    uint32_t number; /* UINT32_MAX: none yet */
     struct kd_particle_orbit orbit;
     double energy, momentum;
 };
@@ -99,7 +101,7 @@ enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *n
     return KD_OK;
 }
 
-static bool needs_guides(const struct kd_particle_list *list)
+static bool needs_orbits(const struct kd_particle_list *list)
 {
     for (size_t i = 0; i < list->n_columns; i++)
         if (list->columns[i] >= KD_PARTICLE_energy)
@@ -117,24 +119,10 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
     if (most && list->n * row > most)
         return kd_error_field(error, "/count", "count is %zu with %zu bytes a particle, allowed are 1 to %llu: the rest with first, or "
                               "fewer with stride", list->n, row, (unsigned long long)(most / row));
-    if (!needs_guides(list))
-        return KD_OK;
-    double a = list->scene.spacetime.spin;
-    list->guides = malloc(list->grid.radii * sizeof *list->guides);
-    if (!list->guides)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the orbits of particles");
-    list->plunge = kd_plunge_of(a);
-    for (uint32_t k = 0; k < list->grid.radii; k++) {
-        const struct kd_particle_orbit o = kd_particle_orbit(&list->scene, list->grid.radii, k);
-        list->guides[k] = (struct kd_particle_guide) { o, kd_kerr_energy(a, o.r), kd_kerr_momentum(a, o.r) };
-    }
+    list->orbits = needs_orbits(list);
+    if (list->orbits)
+        list->plunge = kd_plunge_of(list->scene.spacetime.spin);
     return KD_OK;
-}
-
-void kd_particle_list_finish(struct kd_particle_list *list)
-{
-    free(list->guides);
-    list->guides = NULL;
 }
 
 size_t kd_particle_list_row(const struct kd_particle_list *list) { return list->n_columns * sizeof(float); }
@@ -169,7 +157,18 @@ static void fill_fall(double *row, const struct kd_plunge *plunge)
     row[KD_PARTICLE_dlatitude_dt] = 0;
 }
 
-static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle, const struct kd_particle_place *place)
+static void find_guide(struct guide *guide, const struct kd_particle_list *list, uint32_t particle)
+{
+    uint32_t number = kd_particle_guide(&list->grid, particle);
+    if (guide->number == number)
+        return;
+    const struct kd_particle_orbit o = kd_particle_orbit(&list->scene, list->grid.radii, number);
+    double a = list->scene.spacetime.spin;
+    *guide = (struct guide) { number, o, kd_kerr_energy(a, o.r), kd_kerr_momentum(a, o.r) };
+}
+
+static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle, const struct kd_particle_place *place,
+                     struct guide *guide)
 {
     double r = place->r, phi = place->phi * (2 * M_PI / 4294967296.0), a = list->scene.spacetime.spin;
     double around = sqrt(r * r + a * a) * cos(place->latitude);
@@ -179,13 +178,13 @@ static void fill_row(double *row, const struct kd_particle_list *list, uint32_t 
     row[KD_PARTICLE_x] = around * cos(phi);
     row[KD_PARTICLE_y] = around * sin(phi);
     row[KD_PARTICLE_z] = r * sin(place->latitude);
-    if (!list->guides)
+    if (!list->orbits)
         return;
     if (place->plunging) {
         fill_fall(row, &list->plunge);
         return;
     }
-    const struct kd_particle_guide *guide = &list->guides[kd_particle_guide(&list->grid, particle)];
+    find_guide(guide, list, particle);
     row[KD_PARTICLE_energy] = guide->energy;
     row[KD_PARTICLE_angular_momentum] = guide->momentum;
     fill_rates(row, list, particle, &guide->orbit);
@@ -199,9 +198,10 @@ enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct 
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu particles", n);
     uint32_t first = list->first + (uint32_t)from * list->stride;
     enum kd_status status = kd_particles_places(renderer, &list->scene, first, list->stride, n, places, error);
+    struct guide guide = { .number = UINT32_MAX };
     for (size_t i = 0; i < n && !status; i++) {
         double row[KD_PARTICLE_N_COLUMNS];
-        fill_row(row, list, first + (uint32_t)i * list->stride, &places[i]);
+        fill_row(row, list, first + (uint32_t)i * list->stride, &places[i], &guide);
         for (size_t k = 0; k < list->n_columns; k++)
             *rows++ = (float)row[list->columns[k]];
     }

@@ -47,8 +47,8 @@ struct kd_particle_list {
     size_t n; /* rows; 0 before settle: as many as there are */
     enum kd_particle_column columns[KD_PARTICLE_N_COLUMNS];
     size_t n_columns;
-    struct kd_particle_guide *guides; /* owned; NULL where no column needs them */
-    struct kd_plunge plunge;          /* what the others fall along, where they are needed */
+    bool orbits;             /* some column needs them */
+    struct kd_plunge plunge; /* then: what falls, falls along it */
 };
 
 /* KD_EINVAL at /disk/model: the scene has no particles. */
@@ -57,7 +57,6 @@ enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct
 enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text, struct kd_error *error);
 /* KD_EINVAL for more rows than there are, and for more bytes than `most` (0: any). */
 enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t most, struct kd_error *error);
-void kd_particle_list_finish(struct kd_particle_list *list);
 
 size_t kd_particle_list_row(const struct kd_particle_list *list); /* its bytes */
 /* "x,y,z" */

@@ -227,8 +227,11 @@ static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, cons
                              const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
     enum kd_status status = kd_store_at_least(r->vk, &p->guides, tables_bytes(grid), KD_VK_UPLOAD, "orbits of particles", error);
-    if (status)
+    bool there = p->time == time && !memcmp(&p->of, scene, sizeof *scene);
+    p->time = status ? NAN : time;
+    if (status || there)
         return status;
+    memcpy(&p->of, scene, sizeof *scene); /* padding too */
     char *to = kd_vk_buffer_map(p->guides);
     fill_guides((struct kd_guide *)to, scene, grid, time);
     fill_expected((float *)(to + guides_bytes(grid)), scene, grid);

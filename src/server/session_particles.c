@@ -30,7 +30,6 @@ void kd_particles_job_destroy(struct kd_particles_job *job)
     if (!job)
         return;
     atomic_fetch_sub(&job->request->server->reply_bytes, job->held);
-    kd_particle_list_finish(&job->list);
     kd_buffer_finish(&job->rows);
     free(job);
 }
