@@ -46,7 +46,8 @@ static const struct argp_option table[] = {
 static void add_ray(struct arguments *arguments, const char *text, struct argp_state *state)
 {
     struct kd_error error;
-    size_t n = kd_number_span(text, strlen(text)), m = text[n] == ',' ? kd_number_span(text + n + 1, strlen(text + n + 1)) : 0;
+    size_t n = kd_number_span_typed(text, strlen(text));
+    size_t m = text[n] == ',' ? kd_number_span_typed(text + n + 1, strlen(text + n + 1)) : 0;
     if (!n || !m || text[n + 1 + m])
         argp_error(state, "--ray %s: it takes ALPHA,BETA, as in --ray -5.2,0.1", text);
     if (kd_rays_request_add(&arguments->more, kd_number_parse(text), kd_number_parse(text + n + 1), &error))

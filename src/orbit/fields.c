@@ -16,7 +16,7 @@ enum { OPTIONAL, NEEDED };
 
 const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
-    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0 },
+    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN },
     { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0 },
     { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0 },
     { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0 },
@@ -32,9 +32,9 @@ _Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_
 
 const struct kd_orbit_field kd_orbit_fields[] = {
 #define AT(member) offsetof(struct kd_orbit_spec, member)
-    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0 },
+    { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN },
     { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED },
-    { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED },
+    { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED, KD_OPEN_ABOVE },
     { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL },
     { "", "energy", REAL, AT(energy), -1e6, 1e6, 0, KD_ORBIT_CONSTANTS, NEEDED },
     { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED },
@@ -73,6 +73,7 @@ static const char *word(enum kd_orbit_words words, int i)
 
 static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALLOWED_SIZE])
 {
+    static const char *const ranges[] = { "%s to %s", "%s up to, not including, %s", "numbers above %s and below %s" };
     char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
     size_t used = 0;
     *out = 0;
@@ -81,7 +82,7 @@ static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALL
     switch (field->kind) {
     case TRUTH: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
     case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s", low, high); return;
-    case REAL: snprintf(out, KD_ALLOWED_SIZE, "%s to %s", low, high); return;
+    case REAL: snprintf(out, KD_ALLOWED_SIZE, ranges[field->open], low, high); return;
     case WORD:
         for (int i = 0; word(field->words, i) && used < KD_ALLOWED_SIZE; i++)
             used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", word(field->words, i));
@@ -89,17 +90,23 @@ static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALL
     }
 }
 
+static bool inside(const struct kd_orbit_field *field, double x)
+{
+    bool low = field->open == KD_OPEN ? x > field->least : x >= field->least;
+    return low && (field->open ? x < field->most : x <= field->most);
+}
+
 static bool store(void *to, const struct kd_orbit_field *field, const struct kd_value *value)
 {
     void *at = (char *)to + field->offset;
-    bool inside = value->kind == KD_VALUE_NUMBER && value->number >= field->least && value->number <= field->most;
+    bool good = value->kind == KD_VALUE_NUMBER && inside(field, value->number);
     switch (field->kind) {
     case REAL:
-        if (inside)
+        if (good)
             *(double *)at = value->number;
-        return inside;
+        return good;
     case WHOLE:
-        if (!inside || value->number != floor(value->number))
+        if (!good || value->number != floor(value->number))
             return false;
         *(uint32_t *)at = (uint32_t)value->number;
         return true;
@@ -127,5 +134,6 @@ enum kd_status kd_orbit_field_put(void *to, const struct kd_orbit_field *field, 
         return KD_OK;
     kd_value_describe(value, given);
     describe_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s, allowed are %s", field->name, given, allowed);
+    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", field->name, given,
+                          field->kind == REAL || field->kind == WHOLE ? kd_value_unwanted(value) : "", allowed);
 }

@@ -7,6 +7,7 @@
 
 enum kd_orbit_kind { KD_FIELD_IS_REAL, KD_FIELD_IS_WHOLE, KD_FIELD_IS_TRUTH, KD_FIELD_IS_WORD };
 enum kd_orbit_words { NO_WORDS, WAY_WORDS, FRAME_WORDS, CASE_WORDS };
+enum kd_orbit_open { KD_CLOSED, KD_OPEN_ABOVE, KD_OPEN };
 
 struct kd_orbit_field {
     const char *section, *name;
@@ -16,6 +17,7 @@ struct kd_orbit_field {
     enum kd_orbit_words words;
     enum kd_orbit_form form; /* of an orbit: which it belongs to; KD_ORBIT_FORMS: any */
     int needed;
+    enum kd_orbit_open open; /* which ends of its range are outside it */
 };
 
 enum { KD_ORBIT_N_SETTINGS = 10, KD_ORBIT_N_FIELDS = 17 };

@@ -2,7 +2,6 @@
 
 #include "orbit/cases.h"
 #include "orbit/fields.h"
-#include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 
@@ -246,13 +245,8 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
 
 enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text, struct kd_error *error)
 {
-    size_t length = strlen(text);
-    struct kd_value value = { .kind = KD_VALUE_STRING, .text = text };
+    struct kd_value value = kd_value_typed(text);
     char pointer[sizeof error->pointer] = "", shown[60];
-    if (length && kd_number_span(text, length) == length)
-        value = (struct kd_value) { .kind = KD_VALUE_NUMBER, .number = kd_number_parse(text) };
-    else if (!strcmp(text, "true") || !strcmp(text, "false"))
-        value = (struct kd_value) { .kind = KD_VALUE_BOOL, .number = *text == 't' };
     kd_text_pointer(pointer, sizeof pointer, name);
     const struct kd_orbit_field *field = by_name(kd_orbit_settings, KD_ORBIT_N_SETTINGS, name);
     if (field)
@@ -282,9 +276,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     if (request->many && p->series && (double)p->samples * (double)request->n > KD_ORBIT_SAMPLES_MAX)
         return kd_error_field(error, "/samples", "%u samples of %zu orbits are more than %u in all", p->samples, request->n,
                               KD_ORBIT_SAMPLES_MAX);
-    if (isnan(p->spin) || fabs(p->spin) < 1)
-        return KD_OK;
-    return kd_error_field(error, "/spin", "spin is %.17g, allowed are numbers above -1 and below 1", p->spin);
+    return KD_OK;
 }
 
 static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,

@@ -67,7 +67,7 @@ static bool holds(const struct kd_parameter *p, double value)
 /* A number and what follows it: NULL if text does not start with one. */
 static const char *number(const char *text, double *value)
 {
-    size_t n = kd_number_span(text, strlen(text));
+    size_t n = kd_number_span_typed(text, strlen(text));
     if (!n)
         return NULL;
     *value = kd_number_parse(text);

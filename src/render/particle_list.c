@@ -40,7 +40,7 @@ enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct
 static bool number(const char *text, double *out)
 {
     size_t length = strlen(text);
-    if (!length || kd_number_span(text, length) != length)
+    if (!length || kd_number_span_typed(text, length) != length)
         return false;
     *out = kd_number_parse(text);
     return true;

@@ -103,17 +103,15 @@ static enum kd_status put(struct kd_rays_request *request, const struct field *f
     kd_value_describe(value, given);
     if (!field->allowed)
         kd_value_allowed(scene_field(field), words);
-    return kd_error_field(error, field->pointer, "%s is %s, allowed are %s", field->name, given,
+    return kd_error_field(error, field->pointer, "%s is %s%s, allowed are %s", field->name, given,
+                          field->kind == REAL || field->kind == WHOLE ? kd_value_unwanted(value) : "",
                           field->allowed ? field->allowed : words);
 }
 
 enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *name, const char *text,
                                    struct kd_error *error)
 {
-    size_t length = strlen(text);
-    struct kd_value value = { .kind = KD_VALUE_STRING, .text = text };
-    if (length && kd_number_span(text, length) == length)
-        value = (struct kd_value) { .kind = KD_VALUE_NUMBER, .number = kd_number_parse(text) };
+    struct kd_value value = kd_value_typed(text);
     for (size_t i = 0; i < N_FIELDS; i++)
         if (!strcmp(fields[i].name, name))
             return put(request, &fields[i], &value, error);

@@ -1,5 +1,6 @@
 #include "scene/number.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,29 +26,36 @@ static size_t digits(const char *text, size_t i, size_t length)
     return i;
 }
 
-size_t kd_number_span(const char *text, size_t length)
+/* Past the exponent that may be there, 0 if it has no digits. */
+static size_t exponent(const char *text, size_t i, size_t length)
 {
-    size_t i = length && text[0] == '-', start = i;
-    i = digits(text, i, length);
-    if (i == start || (text[start] == '0' && i > start + 1))
-        return 0;
-    if (i < length && text[i] == '.') {
-        start = ++i;
-        i = digits(text, i, length);
-        if (i == start)
-            return 0;
-    }
-    if (i < length && (text[i] == 'e' || text[i] == 'E')) {
+    if (i >= length || (text[i] != 'e' && text[i] != 'E'))
+        return i;
+    i++;
+    if (i < length && (text[i] == '+' || text[i] == '-'))
         i++;
-        if (i < length && (text[i] == '+' || text[i] == '-'))
-            i++;
-        start = i;
-        i = digits(text, i, length);
-        if (i == start)
+    size_t end = digits(text, i, length);
+    return end > i ? end : 0;
+}
+
+/* open: one of the sides of the point may be empty. */
+static size_t span(const char *text, size_t length, bool open)
+{
+    size_t start = length && text[0] == '-', point = digits(text, start, length), end = point, whole = point - start, fraction = 0;
+    if (whole > 1 && text[start] == '0')
+        return 0;
+    if (point < length && text[point] == '.') {
+        end = digits(text, point + 1, length);
+        fraction = end - point - 1;
+        if (!open && !fraction)
             return 0;
     }
-    return i;
+    return whole || (open && fraction) ? exponent(text, end, length) : 0;
 }
+
+size_t kd_number_span(const char *text, size_t length) { return span(text, length, false); }
+
+size_t kd_number_span_typed(const char *text, size_t length) { return span(text, length, true); }
 
 double kd_number_parse(const char *text)
 {

@@ -1,4 +1,4 @@
-/* Numbers as JSON writes them, whatever the locale of the process. Any thread. */
+/* Numbers as JSON writes them and as they are typed, whatever the locale of the process. Any thread. */
 #ifndef KD_SCENE_NUMBER_H
 #define KD_SCENE_NUMBER_H
 
@@ -8,7 +8,10 @@
 /* Bytes of the JSON number that text starts with, 0 if there is none (RFC 8259, section 6). */
 size_t kd_number_span(const char *text, size_t length);
 
-/* text must be a JSON number; beyond the range of a double the result is infinite. */
+/* The same of one that is typed, on a command line or in a query: .5, -.5 and 5. too. */
+size_t kd_number_span_typed(const char *text, size_t length);
+
+/* text must be one of these; beyond the range of a double the result is infinite. */
 double kd_number_parse(const char *text);
 
 /* The shortest of 15, 16 or 17 digits that reads back as the same double. */

@@ -1,21 +1,9 @@
 /* One field by its dotted path: --set and query parameters. */
 #include "scene/hint.h"
-#include "scene/number.h"
 #include "scene/text.h"
 #include "scene/value.h"
 
 #include <string.h>
-
-/* Text as the value a document would hold in its place: what is not a number or a truth value is a word. */
-static struct kd_value value_of(const char *text)
-{
-    size_t length = strlen(text);
-    if (length && kd_number_span(text, length) == length)
-        return (struct kd_value) { KD_VALUE_NUMBER, kd_number_parse(text), NULL };
-    if (!strcmp(text, "true") || !strcmp(text, "false"))
-        return (struct kd_value) { KD_VALUE_BOOL, text[0] == 't', NULL };
-    return (struct kd_value) { KD_VALUE_STRING, 0, text };
-}
 
 static enum kd_status whole_section(const struct kd_section *section, struct kd_error *error)
 {
@@ -28,7 +16,7 @@ static enum kd_status whole_section(const struct kd_section *section, struct kd_
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *text,
                             struct kd_error *error)
 {
-    struct kd_value value = value_of(text);
+    struct kd_value value = kd_value_typed(text);
     if (!strcmp(path, "version"))
         return kd_value_version(&value, error);
 

@@ -25,6 +25,25 @@ void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE])
     }
 }
 
+struct kd_value kd_value_typed(const char *text)
+{
+    size_t length = strlen(text);
+    if (length && kd_number_span_typed(text, length) == length)
+        return (struct kd_value) { KD_VALUE_NUMBER, kd_number_parse(text), NULL };
+    if (!strcmp(text, "true") || !strcmp(text, "false"))
+        return (struct kd_value) { KD_VALUE_BOOL, text[0] == 't', NULL };
+    return (struct kd_value) { KD_VALUE_STRING, 0, text };
+}
+
+const char *kd_value_unwanted(const struct kd_value *value)
+{
+    switch (value->kind) {
+    case KD_VALUE_NUMBER: return "";
+    case KD_VALUE_STRING: return ", a string where a number is wanted";
+    default: return " where a number is wanted";
+    }
+}
+
 static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
 {
     int count = kd_field_word_count(field);
@@ -74,6 +93,14 @@ static double convert(const struct kd_field *field, const struct kd_value *value
     return NAN;
 }
 
+/* Beside a word, only a number in quotes was meant for one. */
+static bool wants_number(const struct kd_field *field, const struct kd_value *value)
+{
+    if (field->kind == KD_FIELD_WORD)
+        return value->kind == KD_VALUE_STRING && kd_value_typed(value->text).kind == KD_VALUE_NUMBER;
+    return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_INT;
+}
+
 enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field,
                               const struct kd_value *value, struct kd_error *error)
 {
@@ -87,7 +114,8 @@ enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *fie
     kd_field_pointer(field, pointer);
     kd_value_describe(value, given);
     kd_value_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, given, allowed);
+    return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", path, given,
+                          wants_number(field, value) ? kd_value_unwanted(value) : "", allowed);
 }
 
 enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *error)

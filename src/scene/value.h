@@ -27,6 +27,12 @@ enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *fie
 /* The member "version": 1 and nothing else. */
 enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *error);
 
+/* Typed text as the value that a document would hold in its place: what is not a number or a truth value is a word. */
+struct kd_value kd_value_typed(const char *text);
+
+/* What a message says after the value where only a number will do, and it is none: ", a string where a number is wanted" or "". */
+const char *kd_value_unwanted(const struct kd_value *value);
+
 /* How a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false".
  */
 enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 160 };

@@ -40,7 +40,7 @@ class Orbit(Case):
                 ("--spin", "1", "/spin"), ("--spin", "2", "/spin"), ("--spin", "nan", "/spin"), ("--samples", "1", "/samples"),
                 ("--method", "euler", "/method"), ("--tolerance", "0", "/tolerance"), ("--r-max", "far", "/r_max")]:
             self.bad(2, f"(at {pointer})", "orbit", "--p", "8", "--e", "0.5", option, value)
-        for e, words in [("1", "a bound orbit"), ("1.5", "0 to 1"), ("-1", "0 to 1")]:
+        for e, words in [("1", "e is 1, allowed are 0 up to, not including, 1"), ("-1", "not including"), ("half", "a number is wanted")]:
             self.bad(2, words, "orbit", "--p", "8", f"--e={e}")
         self.bad(2, "separatrix", "orbit", "--p", "6.9", "--e", "0.5")
         self.bad(2, "goes with", "orbit", "--p", "8", "--energy", "0.9")
@@ -88,6 +88,10 @@ class Orbit(Case):
         by_file = self.good("orbit", self.write("orbit.json", json.dumps(document)))
         self.assertEqual(by_file, self.good("orbit", *self.GENERIC, "--samples", "7", "--periods", "3"))
         self.assertNotEqual(by_file, self.good("orbit", self.path("orbit.json"), "--spin", "0.5"))
+
+    def test_numbers_as_they_are_typed(self):
+        options = ["--p", "9.", "--e", ".5", "--spin=-.5", "--samples", "0"]
+        self.assertEqual(self.good("orbit", *options), self.good("orbit", "--p", "9", "--e", "0.5", "--spin=-0.5", "--samples", "0"))
 
     def test_many(self):
         orbits = [{"spin": i / 10, "p": 8 + i, "e": 0.3, "inclination_deg": 10 * i} for i in range(9)] + [{"case": "plunge"}]

@@ -31,6 +31,7 @@ class Rays(Case):
         for ray in ["", "1", "1,", ",1", "1,2,3", "1 ,2", "1,nan", "x,1", "+1,2", "1,2 "]:
             self.bad(2, "ALPHA,BETA", "rays", "--ray", ray)
         self.bad(2, "json, npy or csv", "rays", "--ray", "1,2", "--format", "png")
+        self.assertEqual(self.good("rays", "--ray", "-.5,6.", "--spin", ".5"), self.good("rays", "--ray", "-0.5,6", "--spin", "0.5"))
 
     def test_bad_values(self):
         for option, value, pointer in [

@@ -209,7 +209,7 @@ static void ranges_nest(void **state)
 static void json_of_a_curve(void **state)
 {
     (void)state;
-    struct kd_quantity_answer answer = ASK("kerr", "r", "2:10:5", "spin", "0");
+    struct kd_quantity_answer answer = ASK("kerr", "r", "2.:.1e2:5", "spin", ".0");
     cJSON *json = parsed(&answer), *values = cJSON_GetObjectItem(json, "values");
     cJSON *r = cJSON_GetObjectItem(cJSON_GetObjectItem(json, "parameters"), "r");
     assert_true(cJSON_IsNumber(cJSON_GetObjectItem(values, "isco")));
