@@ -108,14 +108,20 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* Per radial period; for a circle it is that of the smallest oscillation, at its edge infinite. */
+/* A circle has no periastron: the formula gives that of its smallest oscillation, which is infinite at the ISCO. */
+static double periastron_advance(const struct kd_orbit_run *run)
+{
+    return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;
+}
+
+/* Per radial period; an orbit in the plane of the equator has no node. */
 static void advances(struct text *t, const struct kd_orbit_run *run, double p)
 {
-    double advance = kd_orbit_periastron_advance(&run->bound);
+    double advance = periastron_advance(run);
     open(t, "advance");
     member(t, "periastron", advance);
-    member(t, "weak_field", 6 * M_PI / p);
-    member(t, "node", kd_orbit_nodal_advance(&run->bound));
+    member(t, "weak_field", run->orbit.circular ? NAN : 6 * M_PI / p);
+    member(t, "node", run->orbit.z > 0 ? kd_orbit_nodal_advance(&run->bound) : NAN);
     if (!isnan(run->mass_msun)) {
         double period_s = 2 * M_PI / run->frequencies.r * SUN_S * run->mass_msun;
         member(t, "periastron_arcsec_per_century", advance * 180 / M_PI * 3600 * CENTURY_S / period_s);
@@ -367,7 +373,7 @@ static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
                                   run->closed ? f->r : NAN,
                                   run->closed ? f->theta : NAN,
                                   run->closed ? f->phi : NAN,
-                                  run->closed ? kd_orbit_periastron_advance(&run->bound) : NAN,
+                                  periastron_advance(run),
                                   kd_orbit_run_advance_measured(run),
                                   closed ? NAN : run->worst.energy,
                                   closed ? NAN : run->worst.carter,

@@ -246,6 +246,8 @@ double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
 
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *b)
 {
+    if (b->orbit.a == 0) /* the plane stays */
+        return 0;
     struct kd_orbit_frequencies f = kd_orbit_frequencies_of(b);
     return 2 * M_PI * (fabs(f.mino_phi) / f.mino_theta - 1);
 }

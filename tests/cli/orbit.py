@@ -109,6 +109,23 @@ class Orbit(Case):
         self.assertEqual([float(row["energy"]) for row in table], [one["constants"]["energy"] for one in many])
         self.assertEqual([row["fate"] for row in table], ["0"] * 9 + ["1"])
 
+    def test_no_advance_of_what_is_not_there(self):
+        def advance(*options):
+            return json.loads(self.good("orbit", *options, "--mass-msun", "10", "--samples", "0"))["advance"]
+        for name in "isco", "spherical":
+            circle = advance("--case", name)
+            self.assertIsNone(circle["periastron"])
+            self.assertIsNone(circle["weak_field"])
+            self.assertIsNone(circle["periastron_arcsec_per_century"])
+        for options in ["--case", "isco"], ["--p", "9", "--e", "0.5"], ["--p", "9", "--e", "0.5", "--inclination-deg", "180"]:
+            self.assertIsNone(advance("--spin", "0.5", *options)["node"])
+        self.assertGreater(advance("--case", "spherical")["node"], 1e-3)
+        self.assertEqual(advance("--p", "9", "--e", "0.5", "--inclination-deg", "30")["node"], 0)
+        everything = advance(*self.GENERIC)
+        self.assertTrue(all(everything[name] > 0 for name in ("periastron", "weak_field", "node", "periastron_arcsec_per_century")))
+        table = self.good("orbit", "-", "-f", "csv", stdin=b'{"orbits":[{"case":"isco"},{"p":9,"e":0.1}]}').decode()
+        self.assertEqual([bool(row["periastron_advance"]) for row in csv.DictReader(io.StringIO(table))], [False, True])
+
     def test_mercury(self):
         answer = json.loads(self.good("orbit", "--case", "mercury", "--periods", "100", "--samples", "0"))
         self.assertAlmostEqual(answer["advance"]["periastron_arcsec_per_century"], 42.98, delta=0.005)
