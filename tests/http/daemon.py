@@ -200,6 +200,13 @@ class Owned(Case):
         return s
 
 
+def need_device():
+    doctor = subprocess.run([sys.argv[1], 'doctor'], capture_output=True, text=True, timeout=60)
+    if 'devices: none' in doctor.stdout:
+        print('skipped:', doctor.stdout)
+        sys.exit(77)
+
+
 def main():
     COMMAND.append(sys.argv.pop(1))
     while len(sys.argv) > 1 and sys.argv[1] != '--':

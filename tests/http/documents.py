@@ -1,0 +1,76 @@
+"""The commands that the documentation shows, run as they stand; skipped where there is no device or no curl."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import daemon
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CURL = """#!/bin/bash
+exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
+"""
+
+
+def blocks(text):
+    """Fenced ```sh blocks, and indented ones that call curl or kerrd."""
+    yield from re.findall(r'^```sh\n(.*?)^```$', text, re.M | re.S)
+    for block in re.findall(r'(?:^    .*\n|^\n(?=    ))+', re.sub(r'^```.*?^```$', '', text, flags=re.M | re.S), re.M):
+        if re.search(r'^    (curl|kerrd) (?!doctor|serve)', block, re.M):
+            yield re.sub(r'^    ', '', block, flags=re.M)
+
+
+@unittest.skipUnless(shutil.which('curl'), 'curl is not installed')
+class Documents(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon()
+        cls.folder = tempfile.TemporaryDirectory()
+        programs = pathlib.Path(cls.folder.name, 'bin')
+        programs.mkdir()
+        programs.joinpath('kerrd').symlink_to(pathlib.Path(daemon.COMMAND[0]).resolve())
+        curl = programs.joinpath('curl')
+        curl.write_text(CURL.format(curl=shutil.which('curl'), port=cls.daemon.port))
+        curl.chmod(0o755)
+        cls.environment = {**os.environ, 'PATH': f'{programs}:{os.environ["PATH"]}'}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.daemon.stop()
+        cls.folder.cleanup()
+
+    def run_all(self, name, count):
+        found = list(blocks(ROOT.joinpath(name).read_text()))
+        self.assertEqual(len(found), count, name)
+        for block in found:
+            done = subprocess.run(['bash', '-e', '-o', 'pipefail', '-c', block], cwd=self.folder.name, env=self.environment,
+                                  capture_output=True, timeout=240)
+            self.assertEqual(done.returncode, 0, f'{name}:\n{block}\n{done.stderr.decode()}\n{done.stdout[-2000:]}')
+
+    def test_readme(self):
+        self.run_all('README.md', 2)
+        for name in 'hole.png', 'tilted.png', 'fast.png', 'flare.csv':
+            self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
+
+    def test_orbits(self):
+        self.run_all('docs/orbits.md', 1)
+
+    def test_rays(self):
+        self.run_all('docs/rays.md', 2)
+
+    def test_quantities(self):
+        self.run_all('docs/physics-quantities.md', 1)
+
+    def test_live(self):
+        self.run_all('docs/live.md', 1)
+
+    def test_jobs(self):
+        self.run_all('docs/jobs.md', 2)
+
+
+if __name__ == '__main__':
+    daemon.need_device()
+    daemon.main()
