@@ -5,11 +5,18 @@
 
 /* sRGB turns a relative change d of luminance into 112 d steps of 8 bits at most: what is left is a tenth of a step. */
 #define SEEN (1. / 1024)
+#define TIME_END 1e12 /* of `time` in fields.h, either way */
 
 void kd_scene_advance(struct kd_scene *scene, double seconds)
 {
     scene->camera.azimuth_deg = remainder(scene->camera.azimuth_deg + scene->motion.azimuth_rate_deg * seconds, 360);
-    scene->top.time = fmax(-1e12, fmin(1e12, scene->top.time + scene->motion.time_rate * seconds));
+    scene->top.time = fmax(-TIME_END, fmin(TIME_END, scene->top.time + scene->motion.time_rate * seconds));
+}
+
+static bool time_goes_on(const struct kd_scene *scene)
+{
+    double rate = scene->motion.time_rate;
+    return rate != 0 && scene->top.time != copysign(TIME_END, rate);
 }
 
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS])
@@ -50,5 +57,5 @@ bool kd_scene_moves(const struct kd_scene *scene)
     /* A smooth disk knows neither azimuth nor time. */
     bool lumps = scene->disk.model == KD_DISK_PARTICLES || kd_scene_spots(scene, on);
     return (scene->motion.azimuth_rate_deg != 0 && (lumps || scene->sky.model != KD_SKY_NONE)) ||
-           (scene->motion.time_rate != 0 && (lumps || rings(scene)));
+           (time_goes_on(scene) && (lumps || rings(scene)));
 }

@@ -239,8 +239,10 @@ static enum MHD_Result curve(struct kd_request *request, struct kd_job *job, con
                                                                 .detail = "light curves are offered as " CURVE_OFFERED });
     }
     bool csv = !strcmp(format, "csv");
-    if ((!csv && strcmp(format, "json")) || kd_target_value(&request->target, "frame"))
+    if (!csv && strcmp(format, "json"))
         return bad(request, job, "format is json or csv: the frames of this job are the rows of a light curve");
+    if (kd_target_value(&request->target, "frame"))
+        return bad(request, job, "frame goes with pictures; a light curve comes whole");
     return status->state == KD_JOB_DONE ? send_curve(request, job, status->frames, csv) : not_ready(request, job, status);
 }
 

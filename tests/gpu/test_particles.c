@@ -194,6 +194,28 @@ static void test_frames(void **state)
     kd_frame_finish(&again);
 }
 
+/* A near observer's slow light is of particles at another time than a list of the same scene: neither finds the other's. */
+static void test_lists_between_frames(void **state)
+{
+    (void)state;
+    struct kd_particle_place before[N], after[N];
+    struct kd_scene scene = particle_scene(0.7, 0.05);
+    scene.disk.slow_light = true;
+    scene.camera.r = 40;
+    places_at(&scene, 500, before);
+    scene.top.time = 0;
+    struct kd_frame other = render(&scene);
+    scene.top.time = 500;
+    struct kd_frame first = render(&scene);
+    places_at(&scene, 500, after);
+    struct kd_frame again = render(&scene);
+    assert_memory_equal(before, after, sizeof before);
+    assert_true(again.lens_reused && difference(&first, &other) > 1 && difference(&first, &again) == 0);
+    kd_frame_finish(&other);
+    kd_frame_finish(&first);
+    kd_frame_finish(&again);
+}
+
 /* An observer who goes round with a narrow ring sees it stand still; one who goes round the other way does not. */
 static void test_turning(void **state)
 {
@@ -281,7 +303,8 @@ static void test_slow_light(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_phase), cmocka_unit_test(test_periods), cmocka_unit_test(test_frames),
-                                        cmocka_unit_test(test_turning), cmocka_unit_test(test_slow_light) };
+                                        cmocka_unit_test(test_lists_between_frames), cmocka_unit_test(test_turning),
+                                        cmocka_unit_test(test_slow_light) };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -28,6 +28,15 @@ static void a_smooth_disk_rests(void **state)
     assert_true(kd_scene_moves(&scene));
     scene.motion.time_rate = 0;
     assert_false(kd_scene_moves(&scene));
+    for (int sign = -1; sign <= 1; sign += 2) { /* at the end of time */
+        scene.motion.time_rate = sign * 1e6;
+        scene.top.time = sign * (1e12 - 1);
+        assert_true(kd_scene_moves(&scene));
+        kd_scene_advance(&scene, 1);
+        assert_false(kd_scene_moves(&scene));
+        scene.motion.time_rate = -sign;
+        assert_true(kd_scene_moves(&scene));
+    }
 }
 
 static void rings_move_while_time_does(void **state)
