@@ -90,7 +90,7 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(target - cost->fixed_ms, fmax(LEAST_ROOM * target, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* What varies, on another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays as it is. */
+/* What varies, on another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to, bool rest_stays)
 {
     double pixels = to->pixels / from->pixels, rest = varying(cost) - cost->rays_ms - cost->pixels_ms;

@@ -31,8 +31,8 @@
  * - A rung that was left because it was too slow is the ceiling: it and those above are not climbed to again. It is lifted after 3
  *   s, and whenever a climb was in vain that time doubles: of N hours only log N climbs are lost to a machine that seems faster
  *   than it is.
- * - Up as far as would take at most 80 % of it if all of the cost but what is known not to grew, or by one rung if only what is known
- *   to grow did; not within a second of the last change.
+ * - Up as far as would take at most 80 % of it if all of the cost but what is known not to grew, or by one rung if only what is
+ *   known to grow did; not within a second of the last change.
  * - After each change of rung averages start again; so do ceilings when the scene is of another kind, such as particles for a
  *   smooth disk.
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes

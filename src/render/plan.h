@@ -59,8 +59,8 @@ struct kd_plan {
     struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
     size_t n_passes;
     double estimate_ms, trace_ns;     /* of all; of one ray */
-    /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this share of the way from
-     * there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
+    /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this share of the way
+     * from there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
     double exposure_from, exposure_share;
     bool measured, accuracy_measured; /* as in the capacity */
     const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */

@@ -185,7 +185,8 @@ static enum kd_status read_output(struct reader *r)
     return r->spec->curve || !strcmp(word, "pictures") ? KD_OK : not_a(r, r->output, "/output", "\"pictures\" or \"light-curve\"");
 }
 
-enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out, struct kd_error *error)
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out,
+                                 struct kd_error *error)
 {
     struct kd_job_spec spec = { 0 };
     struct reader r = { .spec = &spec, .error = error };

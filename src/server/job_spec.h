@@ -31,7 +31,8 @@ struct kd_job_spec {
 
 /* preset: what scenes are merged over instead of the defaults; "": those. Every scene of a list and every keyframe is valid
  * afterwards. KD_EINVAL with the pointer into the request, or to /preset. */
-enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out, struct kd_error *error);
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out,
+                                 struct kd_error *error);
 void kd_job_spec_finish(struct kd_job_spec *spec);
 
 /* The scene of a frame, valid; KD_EINVAL where what lies between two keyframes is not. */

@@ -42,8 +42,8 @@ struct kd_job_draft {
 };
 /* Further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
-/* A checked draft, from whose spec it takes what it needs, to a job, of which the caller holds a reference. text: the request; client:
- * its address. KD_EBUSY: as many as may, or with *quota as many of this client. */
+/* A checked draft, from whose spec it takes what it needs, to a job, of which the caller holds a reference. text: the request;
+ * client: its address. KD_EBUSY: as many as may, or with *quota as many of this client. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
                             bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* a reference, or NULL */

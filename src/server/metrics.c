@@ -45,7 +45,7 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)jobs.bytes },
         { "bodies_bytes", "gauge", "Bodies being received.", (double)atomic_load(&s->body_bytes) },
-        { "replies_bytes", "gauge", "Pictures, rays and orbits not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
+        { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
         { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
     };
     enum kd_status status = add_answers(&text, s);

@@ -90,8 +90,9 @@ static enum kd_turn trace_slice(struct kd_rays_job *job)
     if (first >= answer->n)
         return KD_TURN_LAST;
     size_t n = answer->n - first < SLICE ? answer->n - first : SLICE;
-    enum kd_status status = kd_rays_trace(NULL, &answer->params, answer->alpha_beta + 2 * first, n,
-                                          answer->crossings + first * answer->params.orders, answer->ends + first, NULL, NULL, &error);
+    struct kd_ray_crossing *crossings = answer->crossings + first * answer->params.orders;
+    enum kd_status status = kd_rays_trace(NULL, &answer->params, answer->alpha_beta + 2 * first, n, crossings, answer->ends + first,
+                                          NULL, NULL, &error);
     kd_task_fail(&job->task, status, &error);
     return status || first + n == answer->n ? KD_TURN_LAST : KD_TURN_MORE;
 }

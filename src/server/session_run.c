@@ -32,8 +32,8 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Where nothing but time has gone on, the few brightest pixels, which "auto" goes by, are now these particles and now those: the picture
- * would flicker with them. */
+/* Where nothing but time has gone on, the few brightest pixels, which "auto" goes by, are now these particles and now those: the
+ * picture would flicker with them. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->exposure_from = s->exposure;

@@ -12,7 +12,8 @@ enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bo
     if (gone || kd_turns_cancelled(queue))
         return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
     if (kd_clock_ms() > deadline_ms)
-        return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take", server->longest_s);
+        return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take",
+                            server->longest_s);
     return KD_OK;
 }
 
@@ -68,7 +69,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
     char stopping[80];
     snprintf(stopping, sizeof stopping, "the server is stopping and takes no new %s", what);
     if (atomic_load(&request->server->phase) >= KD_REFUSING)
-        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1, .detail = stopping });
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
+                                                                    .detail = stopping });
     else if (!request->connection)
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     else if (kd_turns_admit(queue, &error))

@@ -1,5 +1,5 @@
-/* A request that workers answer by turns (turns.h): suspended meanwhile, given up when its client has left, the server stops at once
- * or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
+/* A request that workers answer by turns (turns.h): suspended meanwhile, given up when its client has left, the server stops at
+ * once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
  *
  *     if (!kd_task_admit(request, queue, "quantities", &refused)) return refused;
  *     kd_task_init(&mine->task, request, queue); request->task = &mine->task; set work and free
@@ -36,7 +36,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
 /* Why one must end now whose client may have gone, and which may go on until then; KD_OK: it need not. Any thread. */
-enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms, struct kd_error *error);
+enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
+                            struct kd_error *error);
 /* Count bytes of an answer as held, to be subtracted from server->reply_bytes by whoever holds them; KD_EBUSY: too many are. */
 enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held, struct kd_error *error);
 /* The body is not needed any more. While the request is suspended it is nobody else's. */

@@ -37,7 +37,8 @@ void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job);
 void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job);
 unsigned kd_turns_unfinished(struct kd_turns *turns);
 
-/* From now on kd_turns_cancelled holds, which jobs look at in their turns, and nothing stays parked but what is away. Any thread. */
+/* From now on kd_turns_cancelled holds, which jobs look at in their turns, and nothing stays parked but what is away. Any
+ * thread. */
 void kd_turns_cancel(struct kd_turns *turns);
 bool kd_turns_cancelled(struct kd_turns *turns);
 

@@ -420,7 +420,8 @@ class State(Case):
                 server = self.start()
                 ended = self.make({'scene': SCENE}, server=server)
                 self.until(ended, 'done', server)
-                job, next_one = self.make({'scenes': [{**SCENE, 'time': 150 + i} for i in range(8)]}, server=server), self.make({'scene': SCENE}, server=server)
+                job = self.make({'scenes': [{**SCENE, 'time': 150 + i} for i in range(8)]}, server=server)
+                next_one = self.make({'scene': SCENE}, server=server)
                 self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 2))
                 first = server.get(self.at(job, '/result?format=png')).body
                 if kill:

@@ -65,7 +65,8 @@ static struct kd_frame_cost truthful(const struct simulation *s, const struct kd
     double rays = rays_of(scene) / rays_of(&s->asked), pixels = rays * s->asked.image.samples * s->asked.image.samples /
                   (scene->image.samples * scene->image.samples);
     rays *= ray_weight(scene) / ray_weight(&s->asked);
-    struct kd_frame_cost c = { .fixed_ms = t->fixed, .rays_ms = rays * (reused ? t->reused : t->traced), .pixels_ms = pixels * t->pixels };
+    struct kd_frame_cost c = { .fixed_ms = t->fixed, .rays_ms = rays * (reused ? t->reused : t->traced),
+                               .pixels_ms = pixels * t->pixels };
     double factor = s->load * (1 + t->noise * (2 * uniform() - 1)) * (uniform() < t->spikes ? t->spike : 1);
     c.fixed_ms *= factor;
     c.rays_ms *= factor;
