@@ -3,7 +3,7 @@
 import { byId } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
 import { buildControls } from './controls.js';
-import { lang, t, tell, translatePage } from './i18n.js';
+import { lang, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { buildLiving, hasSpots } from './living.js';
 import { buildOverlays } from './overlay.js';
@@ -34,7 +34,7 @@ function sayWrong(text) {
   status.dataset.wrong = true;
 }
 
-function goTo(name) {
+async function goTo(name, part) {
   const view = name in views ? name : 'lensing';
   for (const other of Object.keys(views)) {
     byId(other).hidden = other !== view;
@@ -44,7 +44,11 @@ function goTo(name) {
   document.body.dataset.view = view;
   document.dispatchEvent(new Event('viewchange'));
   link.set('view', view === 'lensing' ? null : view);
-  if (!opened.has(view)) (opened.add(view), views[view]?.().catch(error => sayWrong(error.message)));
+  if (!opened.has(view)) {
+    opened.add(view);
+    await views[view]?.().catch(error => sayWrong(error.message));
+  }
+  byId(part)?.scrollIntoView();
 }
 
 function buildLanguages() {
@@ -110,9 +114,8 @@ async function watch(scene) {
   async function refuse(error) {
     seen();
     const { complain } = await parts;
-    if (complain(error.pointer, error.message))
-      say(t('This cannot be drawn: see the field in red.', 'Così non si può disegnare: vedi il campo in rosso.'));
-    else sayWrong(error.message);
+    complain(error.pointer, error.message);
+    sayWrong(error.message);
   }
 
   const source = openSource(scene, size, show, refuse);
@@ -130,6 +133,11 @@ async function watch(scene) {
   scene.addEventListener('change', () => {
     stage.dataset.final = false;
     source.refresh();
+  });
+  byId('hear').addEventListener('click', () => {
+    if (!opened.has('physics'))
+      for (const name of ['spin', 'mass_msun']) link.set('qnm.' + name, scene.get('spacetime.' + name));
+    goTo('physics', 'curve-qnm');
   });
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));

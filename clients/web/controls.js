@@ -68,7 +68,8 @@ function numberRow(field, scene, id, hint) {
     give(whole ? Math.round(value) : value);
   });
   box.addEventListener('change', () => {
-    if (box.value !== '' && box.validity.valid) give(box.valueAsNumber);
+    if (!box.validity.valid) box.reportValidity();
+    else if (box.value !== '') give(box.valueAsNumber);
     else show();
   });
   const check =
@@ -79,7 +80,7 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    box.value = !given ? '' : value >= 1e6 ? value.toExponential() : Number(value.toPrecision(8));
+    box.value = !given ? '' : value >= 1e6 ? value.toExponential().replace('+', '') : Number(value.toPrecision(8));
     if (!given) return;
     slider.value = short ? value : s.to(value);
     slider.setAttribute('aria-valuetext', `${number(value)} ${unit(field.unit)}`);

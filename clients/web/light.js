@@ -36,7 +36,8 @@ export function buildLight(root, scene) {
       el('p', { class: 'help' }, t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
       list,
     );
-  root.append(curve, track);
+  const none = el('p', { class: 'help', hidden: true }, t('This projection has no light curve.', 'Questa proiezione non ha curva di luce.'));
+  root.append(curve, track, none);
   let stream = null,
     address = '',
     points = [],
@@ -74,8 +75,10 @@ export function buildLight(root, scene) {
 
   function take({ data }) {
     const { time, light } = JSON.parse(data);
+    for (const node of [curve, track]) node.hidden = !light;
+    none.hidden = Boolean(light);
     if (!light) return;
-    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0 });
+    const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 }); // a struck hole is the same one
     const against = (time - points.at(-1)?.time) * scene.get('motion.time_rate') < 0;
     if (now !== kind || against) points = []; // another scene, or another time
     kind = now;

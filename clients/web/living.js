@@ -1,6 +1,6 @@
 // What lives: time that goes on or stands, particles, a hot spot, a struck hole. The session moves it; here is who says so.
 import { byId, latest } from './dom.js';
-import { number, t } from './i18n.js';
+import { number, t, tell } from './i18n.js';
 import { physics } from './server.js';
 
 const usual_rate = 8; // M a second, where none was chosen
@@ -29,7 +29,8 @@ function duration(seconds) {
 }
 
 export function buildLiving(stage, scene, source) {
-  const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId);
+  const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId),
+    fault = byId('strike-fault');
   let second = 0; // M as a time, of the hole's mass
 
   const moves = () => showsTime(scene) || (scene.get('sky.model') !== 'none' && scene.get('motion.azimuth_rate_deg') !== 0);
@@ -44,7 +45,8 @@ export function buildLiving(stage, scene, source) {
 
   function tell_time() {
     const time = Math.round(scene.get('time') * 10) / 10;
-    clock.textContent = showsTime(scene) ? `t = ${number(time, 8)} M` + (second ? ` = ${duration(time * second)}` : '') : '';
+    const rest = scene.resting() ? t(' – at rest, nothing moves', ' – a riposo, nulla si muove') : '';
+    clock.textContent = showsTime(scene) ? `t = ${number(time, 8)} M` + (second ? ` = ${duration(time * second)}` : '') + rest : '';
   }
 
   const weigh = latest(async () => {
@@ -56,16 +58,18 @@ export function buildLiving(stage, scene, source) {
   function show() {
     play.hidden = !moves();
     play.textContent = scene.goesOn() ? t('Pause', 'Pausa') : t('Play', 'Avvia');
-    more.hidden = hasParticles(scene);
+    more.setAttribute('aria-pressed', hasParticles(scene));
     seed.hidden = !hasParticles(scene);
     spot.setAttribute('aria-pressed', scene.get('spot1.brightness') > 0);
     strike.hidden = !canRing(scene);
+    byId('hear').hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
+    fault.textContent = '';
     if (showsTime(scene)) weigh().catch(() => {}); // the clock then has no seconds
     tell_time();
   }
 
   play.addEventListener('click', toggle);
-  more.addEventListener('click', () => scene.change({ 'disk.model': 'particles', ...rate() }));
+  more.addEventListener('click', () => scene.change(hasParticles(scene) ? { 'disk.model': null } : { 'disk.model': 'particles', ...rate() }));
   seed.addEventListener('click', () => scene.change({ 'disk.seed': Math.floor(Math.random() * 1000) + 1 }));
   spot.addEventListener('click', () =>
     scene.change(scene.get('spot1.brightness') > 0 ? { 'spot1.brightness': null } : { 'spot1.brightness': 4, ...rate() }),
@@ -74,7 +78,7 @@ export function buildLiving(stage, scene, source) {
   strike.addEventListener('click', () => {
     if (scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });
     if (scene.held) scene.hold(false);
-    source.strike();
+    source.strike(sentence => tell(fault, sentence));
   });
   stage.addEventListener('keydown', event => {
     if (event.key !== ' ' || event.target !== stage) return;

@@ -22,6 +22,17 @@ const specs = [
   { name: 'method', value: 'yoshida6', choices: ['yoshida6', 'rkn6', 'closed'] },
 ];
 
+// Through the sample before and after each stretch goes a cubic (E. Catmull & R. Rom 1974), as Bezier curves have it.
+const nudge = (from, to, at) => at.map((x, i) => x + (to[i] - from[i]) / 6);
+
+function smooth(points, k, share) {
+  const at = j => points[Math.min(Math.max(j, 0), points.length - 1)],
+    [a, d] = [at(k), at(k + 1)],
+    [b, c] = [nudge(at(k - 1), d, a), nudge(at(k + 2), a, d)],
+    mix = (one, other) => one.map((x, i) => x + (other[i] - x) * share);
+  return mix(mix(mix(a, b), mix(b, c)), mix(mix(b, c), mix(c, d)));
+}
+
 // The path as an outside eye far away sees it, by straight lines: turn about the axis, then tilt.
 function buildPicture(root) {
   const turn = el('input', { type: 'range', id: 'orbit-turn', min: -180, max: 180, value: 30 });
@@ -48,13 +59,17 @@ function buildPicture(root) {
 
   function draw() {
     if (!path) return;
-    const parts = { back: '', front: '' };
-    let before = null;
-    for (const at of path.map(project)) {
-      const side = at.depth < 0 ? 'back' : 'front';
-      parts[side] +=
-        `${before?.side === side ? 'L' : before ? `M${before.x.toFixed(2)} ${before.y.toFixed(2)}L` : 'M'}${at.x.toFixed(2)} ${at.y.toFixed(2)}`;
-      before = { ...at, side };
+    const parts = { back: '', front: '' },
+      places = path.map(project),
+      text = point => point.map(x => x.toFixed(2)).join(' ');
+    let last = '';
+    for (const [k, { x, y, depth }] of places.entries()) {
+      const at = j => places[Math.min(Math.max(j, 0), places.length - 1)],
+        flat = j => [at(j).x, at(j).y],
+        side = depth < 0 ? 'back' : 'front';
+      if (side !== last || !k) parts[side] += `M${text(flat(k - 1))}`;
+      parts[side] += `C${text(nudge(flat(k - 2), [x, y], flat(k - 1)))} ${text(nudge(flat(k + 1), flat(k - 1), [x, y]))} ${text([x, y])}`;
+      last = side;
     }
     const ring = [...Array(73).keys()].map(k =>
       project([reach * Math.cos((k * Math.PI) / 36), reach * Math.sin((k * Math.PI) / 36), 0]),
@@ -95,6 +110,10 @@ function buildPicture(root) {
     ),
   );
   return {
+    clear() {
+      path = null;
+      picture.replaceChildren();
+    },
     show(points, horizon) {
       path = points;
       hole = horizon;
@@ -111,23 +130,41 @@ function buildPicture(root) {
 
 const rows = pairs =>
   pairs
-    .filter(([, value]) => value != null)
+    .filter(pair => pair?.[1] != null)
     .map(([name, value]) => el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, value)));
 
 function facts(answer) {
-  const { constants: c = {}, turning_points: turn = {}, advance = {}, result = {} } = answer,
-    degrees = x => (x == null ? null : `${number((x * 180) / Math.PI)}°`);
-  const drift = result.drift ?? {};
+  const { constants: c = {}, turning_points: turn = {}, advance, shape, result = {} } = answer,
+    degrees = x => (x == null ? '–' : `${number((x * 180) / Math.PI)}°`);
+  const drift = result.drift ?? {},
+    flat = turn.theta_min_deg === 90,
+    century = advance?.periastron_arcsec_per_century,
+    measured = result.periastron_advance_measured;
   return rows([
+    ['a', `${number(answer.spin)} M`],
+    shape && [t('p, e, inclination', 'p, e, inclinazione'), `${number(shape.p)} M, ${number(shape.e)}, ${number(shape.inclination_deg)}°`],
     [t('Fate', 'Sorte'), word(answer.fate)],
-    ['E', number(c.energy, 8)],
+    ['E', Math.abs(c.binding) < 1e-4 ? `1 − ${number(c.binding / (1 + c.energy))}` : number(c.energy, 8)],
     ['L', `${number(c.angular_momentum, 8)} M`],
     ['Q (Carter)', `${number(c.carter, 8)} M²`],
-    [t('Nearest, farthest', 'Minima e massima distanza'), `${number(turn.r_min)} – ${number(turn.r_max)} M`],
-    [t('Advance of the periastron, exact', 'Avanzamento del periastro, esatto'), degrees(advance.periastron)],
-    [t('measured on the path', 'misurato sul percorso'), degrees(result.periastron_advance_measured)],
-    [t('weak field, 6πM/p', 'campo debole, 6πM/p'), degrees(advance.weak_field)],
-    [t('Advance of the node (dragging)', 'Avanzamento del nodo (trascinamento)'), degrees(advance.node)],
+    [
+      t('Nearest, farthest', 'Minima e massima distanza'),
+      `${result.end === 'horizon' ? t('horizon', 'orizzonte') : number(turn.r_min)} – ${number(turn.r_max)} M`,
+    ],
+    // A circle has no periastron, an orbit in the equatorial plane no node.
+    advance && [t('Advance of the periastron, exact', 'Avanzamento del periastro, esatto'), answer.circular ? '–' : degrees(advance.periastron)],
+    advance && century != null && !answer.circular && [t('in a century', 'in un secolo'), `${number(century)}″`],
+    measured != null && [
+      flat
+        ? t('measured on the path', 'misurato sul percorso')
+        : t(
+            'measured on the path, mean of its periods (out of the plane they differ; of many it is the exact one)',
+            'misurato sul percorso, media dei suoi periodi (fuori dal piano differiscono; di molti è quello esatto)',
+          ),
+      degrees(measured),
+    ],
+    advance && !answer.circular && [t('weak field, 6πM/p', 'campo debole, 6πM/p'), degrees(advance.weak_field)],
+    advance && [t('Advance of the node (dragging)', 'Avanzamento del nodo (trascinamento)'), flat ? '–' : degrees(advance.node)],
     [t('Drift of the energy', 'Deriva dell’energia'), number(drift.energy, 2)],
     [t('of Carter’s constant', 'della costante di Carter'), number(drift.carter, 2)],
     [t('of the mass', 'della massa'), number(drift.mass, 2)],
@@ -153,15 +190,10 @@ export async function openOrbits() {
     last = now;
     if (samples && !byId('orbits').hidden) {
       const { t: time, point, r, error } = samples,
-        end = time.at(-1),
-        index = place =>
-          Math.max(
-            time.findIndex(v => v >= place),
-            0,
-          );
+        end = time.at(-1);
       if (running) at = (at + ((moved / 1000) * end) / 24) % end;
-      const k = index(at);
-      picture.place(point[k]);
+      const k = Math.max(time.findIndex(v => v > at) - 1, 0);
+      picture.place(smooth(point, k, (at - time[k]) / (time[k + 1] - time[k])));
       live.textContent = `t = ${number(time[k])} M, r = ${number(r[k])} M, ΔE/E = ${number(error[k], 2)}`;
     }
     if (running) requestAnimationFrame(step);
@@ -176,43 +208,66 @@ export async function openOrbits() {
   });
   label();
 
+  // Samples for a smooth path: each has 90 bytes on the wire. How often it goes round is known once there is one.
+  async function follow(orbit) {
+    const { series, ...answer } = await postJson('v1/orbits', orbit),
+      phi = series.columns.indexOf('phi'),
+      t_end = series.columns.indexOf('t'),
+      rows = series.rows.filter(row => row[t_end] != null), // all but the horizon
+      turns = Math.abs(rows.at(-1)[phi] - rows[0][phi]) / (2 * Math.PI),
+      samples = Math.min(Math.round(24 * turns), 3000);
+    if (samples > 1.2 * orbit.samples) return follow({ ...orbit, samples });
+    return { ...answer, column: name => rows.map(row => row[series.columns.indexOf(name)]) };
+  }
+
   const load = latest(async () => {
     const v = form.values(),
-      shaped = v.orbit === own;
-    for (const name of ['spin', 'p', 'e', 'inclination_deg']) form.input(name).disabled = !shaped;
+      shaped = v.orbit === own,
+      falls = v.orbit === 'plunge'; // to its end, in no periods
+    for (const name of ['spin', 'p', 'e', 'inclination_deg']) form.input(name).closest('.field').hidden = !shaped;
+    form.input('periods').closest('.field').hidden = falls;
     try {
-      const answer = await postJson('v1/orbits', {
+      const answer = await follow({
         ...(shaped ? { spin: Number(v.spin) } : {}),
-        samples: Math.min(Math.max(60 * Number(v.periods), 600), 3000), // 90 bytes each on the wire
+        samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
         method: v.method,
-        duration: { periods: Number(v.periods) },
+        ...(falls ? {} : { duration: { periods: Number(v.periods) } }),
         orbit: shaped ? { p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) } : { case: v.orbit },
       });
       await show(answer);
       fault.textContent = '';
     } catch (error) {
+      clear();
       tell(fault, error.message);
     }
   });
 
+  // Nothing of the orbit before stays under the name of one that there is not.
+  function clear() {
+    samples = null;
+    picture.clear();
+    live.textContent = '';
+    for (const root of ['orbit-facts', 'orbit-approximations']) byId(root).replaceChildren();
+    byId('orbit-plots').hidden = true;
+  }
+
   async function show(answer) {
-    const column = name => {
-      const i = answer.series.columns.indexOf(name);
-      return answer.series.rows.map(row => row[i]);
-    };
+    const { column } = answer;
     const [x, y, z] = ['x', 'y', 'z'].map(column),
       { horizon } = (await physics('kerr', { spin: answer.spin })).values;
     samples = { t: column('t'), r: column('r'), error: column('energy_error'), point: x.map((_, i) => [x[i], y[i], z[i]]) };
     at = 0;
     picture.show(samples.point, horizon);
+    byId('orbit-plots').hidden = false;
     byId('orbit-facts').replaceChildren(...facts(answer));
     byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => tell(el('li'), text)));
+    const least = 10 ** Math.floor(Math.log10(Math.max(...samples.error.map(Math.abs)) || 1e-16));
     drift.draw({
       title: t('Energy error along the way', 'Errore dell’energia lungo il percorso'),
       x: { label: t('time t / M', 'tempo t / M') },
-      y: { label: 'ΔE / E' },
+      y: { label: `ΔE / E / ${number(least)}` },
       series: [
-        { name: t('first integral less its start', 'integrale primo meno il valore iniziale'), x: samples.t, y: samples.error },
+        { name: t('first integral less its start', 'integrale primo meno il valore iniziale'), x: samples.t, y: samples.error.map(error => error / least) },
       ],
       marks: [{ y: 0 }],
     });
@@ -226,8 +281,12 @@ export async function openOrbits() {
       flat = Math.abs(constants.carter) < 1e-9;
     const { horizon } = (await physics('kerr', { spin })).values;
     const v = await physics('potential', { spin, l: constants.angular_momentum, r: `${horizon}:${high}:400` });
-    const low = Math.min(constants.energy, v.values.v_min_matter ?? constants.energy),
-      top = Math.max(constants.energy, Math.min(v.values.v_max_matter ?? 1, 1.3), 1);
+    // Far out all of it is next to 1, and what is above 1 is a wall next to the hole.
+    const least = v.values.v_min_matter ?? constants.energy,
+      off = 1 - least < 1e-3 ? 1 : 0,
+      energy = off ? -constants.binding / (1 + constants.energy) : constants.energy,
+      low = Math.min(energy, least - off),
+      top = Math.max(energy, off ? (1 - least) / 2 : Math.min(v.values.v_max_matter ?? 1, 1.3), 1 - off);
     potential.draw({
       title: t('Effective potential and the energy of this orbit', 'Potenziale efficace ed energia di questa orbita'),
       note: flat
@@ -237,10 +296,10 @@ export async function openOrbits() {
             'È quello del piano equatoriale con questo L; fuori dal piano la costante di Carter lo alza.',
           ),
       x: { label: t('radius r / M', 'raggio r / M'), min: 0 },
-      y: { label: 'V_eff', min: low - 0.3 * (top - low), max: top + 0.3 * (top - low) },
-      series: [{ name: 'V_eff', x: v.parameters.r, y: v.values.v_matter }],
+      y: { label: off ? 'V_eff − 1' : 'V_eff', min: low - 0.3 * (top - low), max: top + 0.3 * (top - low) },
+      series: [{ name: off ? 'V_eff − 1' : 'V_eff', x: v.parameters.r, y: v.values.v_matter.map(value => value && value - off) }],
       marks: [
-        { y: constants.energy, label: 'E' },
+        { y: energy, label: off ? 'E − 1' : 'E' },
         ...(turn.r_min ? [{ x: turn.r_min, label: 'r_min' }] : []),
         ...(turn.r_max ? [{ x: turn.r_max, label: 'r_max' }] : []),
       ],

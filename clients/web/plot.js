@@ -165,7 +165,8 @@ export function plot(first) {
     limits = null;
   const hidden = new Set(); // names of curves that somebody switched off
 
-  const label = () => spec.y.label + (power(limits.y, spec.y.log) ? ` / ${number(10 ** power(limits.y, spec.y.log))}` : '');
+  const shift = axis => power(limits[axis], spec[axis].log),
+    label = axis => spec[axis].label + (shift(axis) ? ` / ${number(10 ** shift(axis))}` : '');
   const size = () => ({ width: chart.clientWidth, height: Math.round(Math.min(Math.max(chart.clientWidth * 0.6, 200), 340)) });
 
   // The values at the cursor: in the legend, and as what the slider that the chart is stands at.
@@ -185,7 +186,7 @@ export function plot(first) {
 
   function build() {
     const scale = (name, given) => ({ time: false, distr: given.log ? 3 : 1, range: () => limits[name] });
-    const ticks = shift => (_, splits) => splits.map(v => (v == null ? '' : number(v / 10 ** shift())));
+    const ticks = axis => (_, splits) => splits.map(v => (v == null ? '' : number(v / 10 ** shift(axis))));
     u?.destroy();
     u = new uPlot(
       {
@@ -195,13 +196,13 @@ export function plot(first) {
         scales: { x: scale('x', spec.x), y: scale('y', spec.y) },
         axes: [
           axis(
-            () => spec.x.label,
-            ticks(() => 0),
+            () => label('x'),
+            ticks('x'),
             { size: 28, space: 60 },
           ),
           axis(
-            label,
-            ticks(() => power(limits.y, spec.y.log)),
+            () => label('y'),
+            ticks('y'),
             { size: room, space: 36 },
           ),
         ],

@@ -5,6 +5,10 @@ import { still } from './dom.js';
 import { getJson } from './server.js';
 import * as link from './link.js';
 
+const tick_ms = 100;
+const patience_ms = 1000;
+const link_ms = 1000;
+
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.properties) yield* flatten(spec, name + '.');
@@ -29,6 +33,9 @@ function parse(field, text) {
 export class Scene extends EventTarget {
   #values = new Map();
   #now = null; // of the newest picture while time goes on
+  #timer = 0;
+  #clock = null; // that goes without pictures
+  #linked = 0; // when the address last kept up
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
   jumps = 0; // how often somebody set the time
 
@@ -58,14 +65,31 @@ export class Scene extends EventTarget {
   change(values) {
     if ('time' in values) (this.jumps++, (this.#now = null));
     for (const [path, value] of Object.entries(values)) this.#put(path, value);
+    this.#changed();
+  }
+
+  #changed() {
+    this.#stop();
     this.dispatchEvent(new Event('change'));
+  }
+
+  #stop() {
+    clearTimeout(this.#timer);
+    clearInterval(this.#clock);
+    this.#clock = null;
+  }
+
+  // Time goes on, but nothing that is seen moves with it: there are no pictures to tell the time by.
+  resting() {
+    return this.#clock != null;
   }
 
   // Whether what moves by itself moves.
   hold(held) {
     this.held = held;
     link.set('pause', held ? '1' : null);
-    this.dispatchEvent(new Event('change'));
+    link.flush();
+    this.#changed();
   }
 
   goesOn() {
@@ -74,13 +98,29 @@ export class Scene extends EventTarget {
 
   // What the server says of values that it changed.
   settle(values) {
+    this.#stop();
     if ('time' in values) this.#now = null;
     for (const [path, value] of Object.entries(values)) this.#put(path, value);
     this.dispatchEvent(new Event('settle'));
   }
 
-  tick(time) {
+  // After a picture of full quality the next one comes soon, or nothing that is seen moves.
+  tick(time, fine) {
+    this.#stop();
+    const since = performance.now(),
+      rate = this.get('motion.time_rate'),
+      now = () => this.#tell(time + (rate * (performance.now() - since)) / 1000);
+    if (fine && rate) this.#timer = setTimeout(() => (this.#clock = setInterval(now, tick_ms)), patience_ms);
+    this.#tell(time);
+  }
+
+  // The address keeps up, so that a link from it shows what is seen now.
+  #tell(time) {
     this.#now = time;
+    if (performance.now() > this.#linked + link_ms) {
+      this.#linked = performance.now();
+      link.set('time', Math.ceil(time * 100) / 100 || null);
+    }
     this.dispatchEvent(new Event('tick'));
   }
 

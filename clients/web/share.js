@@ -38,14 +38,14 @@ export function share(scene, size) {
   }
 
   byId('save').addEventListener('click', show); // of this moment, where time goes on
-  byId('copy-scene').addEventListener('click', () => copy(box.value, box));
+  byId('copy-scene').addEventListener('click', () => (show(), copy(box.value, box)));
   byId('copy-link').addEventListener('click', () => {
     link.set('time', scene.get('time') || null);
     link.flush();
     copy(location.href);
   });
   for (const control of [form, sizes]) control.addEventListener('change', show);
-  scene.addEventListener('change', show);
+  for (const event of ['change', 'settle']) scene.addEventListener(event, show);
   show();
   return show;
 }

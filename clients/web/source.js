@@ -53,12 +53,12 @@ const visible = () =>
 // scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
 //   refresh()      to be called whenever the scene or the window has changed
 //   address()      of the session, or null
-//   strike()       the hole, once the server knows the scene as it is
+//   strike(wrong)  the hole, once the server knows the scene as it is; wrong(sentence) is told of a refusal
 export function openSource(scene, size, shown, failed) {
   let session = null,
     timer = 0,
     pulling = false,
-    striking = false,
+    striking = null,
     recent = [];
 
   function wanted() {
@@ -93,8 +93,13 @@ export function openSource(scene, size, shown, failed) {
   const headers = () => ({ 'Content-Type': 'application/json', ...(session ? { Authorization: `Bearer ${session.token}` } : {}) });
 
   async function struck(document) {
-    striking = false;
-    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' });
+    const wrong = striking;
+    striking = null;
+    const answer = await ask(session.url + '/ringdown', { method: 'POST', headers: headers(), body: '{}' }).catch(error => {
+      if (!(error instanceof Problem) || error.status === 404) throw error;
+      wrong(error.message);
+    });
+    if (!answer) return;
     const { revision, scene: now } = await answer.json();
     session.revision = revision;
     const { ringdown, ringdown_time } = now.style;
@@ -134,7 +139,7 @@ export function openSource(scene, size, shown, failed) {
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
     const final = quality.final === 1 && Number(get('Kerrd-Revision')) >= from.revision;
-    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')));
+    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final);
     from.frame = Number(get('Kerrd-Frame'));
     recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
     await shown({
@@ -178,8 +183,8 @@ export function openSource(scene, size, shown, failed) {
       put();
     },
     address: () => session?.url ?? null,
-    strike() {
-      striking = true;
+    strike(wrong) {
+      striking = wrong;
       put();
     },
   };

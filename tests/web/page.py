@@ -344,6 +344,30 @@ class Page(unittest.TestCase):
         page.select_option('#in-orbit-orbit', 'mercury')
         page.wait_for_selector('#orbit-facts >> text=/10⁻⁵°/')
         self.assertEqual(page.inner_text('#orbit-fault'), '')
+        self.assertIn('42.98″', page.inner_text('#orbit-facts'))
+
+    def facts(self, page):
+        return dict(row.split('\t') for row in page.locator('#orbit-facts tr').all_inner_texts())
+
+    def test_orbits_that_end_and_that_there_are_not(self):
+        page = self.open('lang=en&view=orbits&orbit.orbit=plunge', '#orbit-picture .front')
+        self.assertEqual((page.inner_text('#orbit-fault'), self.facts(page)['Fate']), ('', 'plunge'))
+        self.assertTrue(self.facts(page)['Nearest, farthest'].startswith('horizon'))
+        page.select_option('#in-orbit-orbit', 'isco')
+        page.wait_for_selector('#orbit-facts >> text=bound')
+        facts = self.facts(page)
+        self.assertEqual({facts['Advance of the periastron, exact'], facts['Advance of the node (dragging)']}, {'–'})
+        page.select_option('#in-orbit-orbit', 'zoom-whirl')
+        page.wait_for_selector('#orbit-facts >> text=/0.8,/')
+        whirls = float(self.facts(page)['Advance of the periastron, exact'].rstrip('°').replace(',', '')) / 360 + 1
+        self.assertGreater(page.get_attribute('#orbit-picture .front', 'd').count('C'), 12 * whirls * 10, 'half of it is in front')
+        self.expected = '422'
+        page.select_option('#in-orbit-orbit', 'shape')
+        page.fill('#in-orbit-p', '2')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#orbit-fault >> text=separatrix')
+        self.assertEqual((page.inner_text('#orbit-facts'), page.locator('#orbit-picture .front').count()), ('', 0))
+        self.assertFalse(page.is_visible('#orbit-plots'))
 
     def test_physics(self):
         page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
@@ -529,6 +553,14 @@ class Page(unittest.TestCase):
         self.assertGreater(max(spots), 1.5 * min(spots))
         self.assertTrue(all(a > s > 0 for a, s in zip(everything, spots)))
         self.assertGreater(len(page.get_attribute('#light .track', 'd')), 100)
+        page.click('#strike')
+        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.evaluate('location.hash')))
+        struck = self.clock(page)
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > struck + 60, 20))
+        for _ in range(2):
+            page.click('#light summary >> nth=0')
+        page.wait_for_selector('#light tbody tr >> nth=5')
+        self.assertEqual(value(page.locator('#light tbody th').first.inner_text()), times[0], 'the curve goes on over a strike')
         page.click('#play')
         self.shot(page, 'hot-spot')
         page.click('#spot')
@@ -546,11 +578,34 @@ class Page(unittest.TestCase):
         self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen - {before}) > 2, 20))
         self.assertEqual([r.method for r in self.requests if r.url.endswith('/ringdown')], ['POST'])
         self.assertIn('ringdown: an illustration', page.inner_text('#approximations'))
-        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.url))
+        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.evaluate('location.hash')))
         self.open_groups(page)
         page.fill('[data-path="accuracy.orders"] input[type=number]', '1')
         page.keyboard.press('Enter')
         self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
+
+    def test_when_the_rings_have_faded(self):
+        page = self.open('lang=en&motion.time_rate=60')
+        page.click('#strike')
+        self.assertTrue(daemon.eventually(lambda: 'at rest' in page.inner_text('#clock'), 30))
+        before, asked = self.clock(page), len(self.requests)
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > before + 90))
+        self.assertEqual([r.url for r in self.requests[asked:] if '/v1/' in r.url], [])
+        link = dict(pair.split('=') for pair in page.url.split('#')[1].split('&'))
+        self.assertGreater(float(link['time']), float(link['style.ringdown_time']) + 60, 'a link from here does not strike again')
+
+    def test_a_strike_that_is_refused(self):
+        page = self.open('lang=en&spacetime.spin=0.99995')
+        self.expected = '422'
+        page.click('#strike')
+        page.wait_for_selector('#strike-fault >> text=beyond 0.9999')
+        page.wait_for_timeout(600)
+        self.assertIn('beyond 0.9999', page.inner_text('#strike-fault'), 'no picture takes it away')
+
+    def test_a_refused_link_says_why(self):
+        self.expected = '422'
+        page = self.open('lang=en&disk.inner=1', '#status[data-wrong]')
+        self.assertIn('disk.inner', page.inner_text('#status'))
 
     def test_reduced_motion_holds_time(self):
         for fragment, motion in (('pause=1', 'no-preference'), ('', 'reduce')):
