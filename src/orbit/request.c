@@ -117,6 +117,19 @@ static enum kd_status read_item(struct target *t, const cJSON *item, const char 
     return status;
 }
 
+#define FORMS "an orbit is given by %s, by %s, by %s, or by %s"
+#define FORM_TEXTS form_texts[0], form_texts[1], form_texts[2], form_texts[3]
+
+/* A field beside one of another form. */
+static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_orbit_field *field, const char *pointer,
+                            struct kd_error *error)
+{
+    size_t i = 0;
+    while (!(spec->seen & 1u << i) || kd_orbit_fields[i].form != spec->form)
+        i++;
+    return kd_error_field(error, pointer, "%s is given beside %s; " FORMS, field->name, kd_orbit_fields[i].name, FORM_TEXTS);
+}
+
 /* One form, and all of it. */
 static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
@@ -126,13 +139,11 @@ static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, st
         if (!(seen & 1u << i) || form == KD_ORBIT_FORMS)
             continue;
         if (spec->form != KD_ORBIT_FORMS && spec->form != form)
-            return kd_error_field(error, pointer, "%s goes with %s, not with %s", kd_orbit_fields[i].name, form_texts[form],
-                                  form_texts[spec->form]);
+            return mixed(spec, &kd_orbit_fields[i], pointer, error);
         spec->form = form;
     }
     if (spec->form == KD_ORBIT_FORMS)
-        return kd_error_field(error, pointer, "an orbit is given by %s, by %s, by %s, or by %s", form_texts[0], form_texts[1],
-                              form_texts[2], form_texts[3]);
+        return kd_error_field(error, pointer, FORMS, FORM_TEXTS);
     for (size_t i = 0; i < KD_ORBIT_N_FIELDS; i++)
         if (kd_orbit_fields[i].form == spec->form && kd_orbit_fields[i].needed && !(seen & 1u << i)) {
             char missing[sizeof error->pointer];
@@ -235,8 +246,7 @@ static enum kd_status set_field(struct kd_orbit_request *request, const struct k
     enum kd_status status = kd_orbit_field_put(spec, field, value, pointer, error);
     bool other = spec->form != KD_ORBIT_FORMS && field->form != spec->form && field->form != KD_ORBIT_FORMS;
     if (!status && other)
-        return kd_error_field(error, pointer, "%s goes with %s, not with %s", field->name, form_texts[field->form],
-                              form_texts[spec->form]);
+        return mixed(spec, field, pointer, error);
     if (!status && field->form != KD_ORBIT_FORMS)
         spec->form = field->form;
     spec->seen |= 1u << (field - kd_orbit_fields);

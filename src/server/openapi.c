@@ -86,32 +86,56 @@ static void add_parameters(cJSON *operation, const struct kd_route *route, bool 
         cJSON_Delete(list);
 }
 
-static cJSON *operation(const struct kd_route *route, bool post, const cJSON *schema)
+static void add_body(cJSON *operation, unsigned method)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "summary", route->summary);
-    add_parameters(o, route, post, schema);
-    if (post && route->takes == KD_TAKES_SCENE) {
-        cJSON *body = cJSON_AddObjectToObject(o, "requestBody");
-        cJSON_AddTrueToObject(body, "required");
-        cJSON_AddItemToObject(body, "content",
-                              content("application/json", reference("#/components/schemas/Scene")));
-    }
-    if (route->takes == KD_TAKES_STRIKE)
-        kd_openapi_strike_body(o);
-    cJSON *responses = cJSON_AddObjectToObject(o, "responses"),
-          *ok = cJSON_AddObjectToObject(responses, "200");
-    cJSON_AddStringToObject(ok, "description", route->summary);
+    cJSON *body = cJSON_AddObjectToObject(operation, "requestBody");
+    cJSON_AddTrueToObject(body, "required");
+    cJSON *media = content("application/json", reference("#/components/schemas/Scene"));
+    if (method == KD_PATCH)
+        cJSON_AddItemToObject(cJSON_AddObjectToObject(media, KD_PATCH_TYPE), "schema", reference("#/components/schemas/Scene"));
+    cJSON_AddItemToObject(body, "content", media);
+}
+
+static cJSON *add_response(cJSON *responses, unsigned status, const char *description)
+{
+    char number[12];
+    snprintf(number, sizeof number, "%u", status);
+    cJSON *o = cJSON_AddObjectToObject(responses, number);
+    cJSON_AddStringToObject(o, "description", description);
+    return o;
+}
+
+static void add_answer(cJSON *operation, cJSON *ok, const struct kd_route *route)
+{
     char type[64];
     snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
     if (route->takes == KD_TAKES_RAYS)
-        kd_openapi_rays_bodies(o, ok);
+        kd_openapi_rays_bodies(operation, ok);
     else if (route->takes == KD_TAKES_ORBITS)
-        kd_openapi_orbits_bodies(o, ok);
+        kd_openapi_orbits_bodies(operation, ok);
     else if (route->takes == KD_TAKES_JOB)
-        kd_openapi_jobs_bodies(o, ok);
+        kd_openapi_jobs_bodies(operation, ok);
     else
         cJSON_AddItemToObject(ok, "content", content(type, cJSON_CreateObject()));
+}
+
+static cJSON *operation(const struct kd_route *route, unsigned method, const cJSON *schema)
+{
+    cJSON *o = cJSON_CreateObject();
+    bool body = method == KD_POST || method == KD_PATCH;
+    cJSON_AddStringToObject(o, "summary", route->summary);
+    add_parameters(o, route, body, schema);
+    if (body && route->takes == KD_TAKES_SCENE)
+        add_body(o, method);
+    if (route->takes == KD_TAKES_STRIKE)
+        kd_openapi_strike_body(o);
+    cJSON *responses = cJSON_AddObjectToObject(o, "responses");
+    if (method == KD_DELETE)
+        add_response(responses, 204, route->summary);
+    else
+        add_answer(o, add_response(responses, route->status[0] ? route->status[0] : 200, route->summary), route);
+    if (method != KD_DELETE && route->status[1])
+        add_response(responses, route->status[1], route->status[1] == 304 ? "What If-None-Match names" : route->summary);
     cJSON_AddItemToObject(responses, "default", reference("#/components/responses/Problem"));
     return o;
 }
@@ -143,6 +167,9 @@ static void add_components(cJSON *root, cJSON *schema)
 
 static cJSON *document(cJSON *schema)
 {
+    static const struct { const char *name; unsigned bit; } methods[] = {
+        { "get", KD_GET }, { "post", KD_POST }, { "patch", KD_PATCH }, { "delete", KD_DELETE },
+    };
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "openapi", "3.1.0");
     cJSON *info = cJSON_AddObjectToObject(root, "info");
@@ -156,14 +183,9 @@ static cJSON *document(cJSON *schema)
             continue;
         }
         cJSON *item = cJSON_AddObjectToObject(paths, route->path);
-        if (route->methods & KD_GET)
-            cJSON_AddItemToObject(item, "get", operation(route, false, schema));
-        if (route->methods & KD_POST)
-            cJSON_AddItemToObject(item, "post", operation(route, true, schema));
-        if (route->methods & KD_PATCH)
-            cJSON_AddItemToObject(item, "patch", operation(route, true, schema));
-        if (route->methods & KD_DELETE)
-            cJSON_AddItemToObject(item, "delete", operation(route, false, schema));
+        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+            if (route->methods & methods[k].bit)
+                cJSON_AddItemToObject(item, methods[k].name, operation(route, methods[k].bit, schema));
     }
     add_components(root, schema);
     return root;

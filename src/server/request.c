@@ -120,6 +120,21 @@ static const char *too_large(const struct kd_request *request)
     }
 }
 
+static bool media_type_fault(const struct kd_request *request, bool patch, struct kd_problem *problem)
+{
+#define SAY "a body must say Content-Type: application/json"
+#define OR(other) { other, "application/json, " other, SAY " or " other }
+    static const struct { const char *other, *offered, *detail; } all[] = {
+        { "application/json", "application/json", SAY }, OR(KD_NPY_TYPE), OR(KD_PATCH_TYPE),
+    };
+#undef OR
+#undef SAY
+    size_t i = patch ? 2 : request->route->takes == KD_TAKES_RAYS;
+    const char *type = request->header.content_type;
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
+    return !kd_media_type_is(type, "application/json") && !kd_media_type_is(type, all[i].other);
+}
+
 static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
@@ -130,15 +145,8 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
     }
     if (request->route->takes == KD_TAKES_STRIKE && !request->body_announced)
         return false;
-    bool rays = request->route->takes == KD_TAKES_RAYS;
-    if (!kd_media_type_is(request->header.content_type, "application/json") &&
-        !(patch && kd_media_type_is(request->header.content_type, "application/merge-patch+json")) && !(rays && kd_media_type_is(request->header.content_type, KD_NPY_TYPE))) {
-        *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE,
-                                         .offered = rays ? "application/json, " KD_NPY_TYPE : "application/json",
-                                         .detail = rays ? "a body must say Content-Type: application/json or " KD_NPY_TYPE
-                                                       : "a body must say Content-Type: application/json" };
+    if (media_type_fault(request, patch, problem))
         return true;
-    }
     if (request->header.content_length > body_max(request)) {
         *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request) };
         return true;

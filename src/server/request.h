@@ -8,6 +8,7 @@
 #include "server/target.h"
 
 #define KD_NPY_TYPE "application/x-npy"
+#define KD_PATCH_TYPE "application/merge-patch+json"
 
 struct kd_request {
     struct kd_server *server;

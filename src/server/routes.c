@@ -7,9 +7,10 @@
 #define JSON "application/json"
 
 const struct kd_route kd_routes[] = {
-    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page: a live view, its controls and what is computed" },
-    { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads" },
-    { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots" },
+    { "/", KD_GET, kd_handle_page, "text/html; charset=utf-8", "The page: a live view, its controls and what is computed",
+      .status = { 200, 304 } },
+    { "/web/{name}", KD_GET, kd_handle_page, "*/*", "What the page loads", .status = { 200, 304 } },
+    { "/web/vendor/uplot/{name}", KD_GET, kd_handle_page, "*/*", "uPlot, which draws its plots", .status = { 200, 304 } },
     { "/healthz", KD_GET, kd_handle_health, JSON, "200 while the process lives" },
     { "/readyz", KD_GET, kd_handle_ready, JSON, "200 while renders are taken, 503 on the way down" },
     { "/metrics", KD_GET, kd_handle_metrics, "text/plain; version=0.0.4; charset=utf-8", "Counters and gauges for Prometheus" },
@@ -30,7 +31,7 @@ const struct kd_route kd_routes[] = {
     { "/v1/orbits", KD_POST, kd_handle_orbits, JSON,
       "Timelike orbits: path, turning points, constants of motion and their drift, frequencies, periastron advance", KD_TAKES_ORBITS },
     { "/v1/sessions", KD_POST, kd_handle_sessions, JSON, "A live session of a scene: its id, and the token that changes it",
-      KD_TAKES_SCENE },
+      KD_TAKES_SCENE, { 201 } },
     { "/v1/sessions/{id}", KD_GET | KD_PATCH | KD_DELETE, kd_handle_session, JSON,
       "A session's scene; a merge patch of it (RFC 7396); its end", KD_TAKES_SCENE },
     { "/v1/sessions/{id}/ringdown", KD_POST, kd_handle_session_ringdown, JSON,
@@ -38,19 +39,20 @@ const struct kd_route kd_routes[] = {
     { "/v1/sessions/{id}/particles", KD_GET, kd_handle_session_particles, "application/octet-stream",
       "Where its particles are, and their constants and rates: 32-bit little-endian floats, row by row", KD_TAKES_PARTICLES },
     { "/v1/sessions/{id}/frame.png", KD_GET, kd_handle_session_frame, "image/png",
-      "The newest frame, as soon as it is newer than the one whose number is given as after" },
+      "The newest frame, as soon as it is newer than the one whose number is given as after; 204 if there is none in wait_ms",
+      .status = { 200, 204 } },
     { "/v1/sessions/{id}/frames", KD_GET, kd_handle_session_frames, "multipart/x-mixed-replace",
       "Frames as they come, the newest only; with Accept: application/x-kerrd-frames length, number, revision and 0 before each" },
     { "/v1/sessions/{id}/events", KD_GET, kd_handle_session_events, "text/event-stream",
       "Numbers of each frame: quality in force, times, accuracy" },
     { "/v1/jobs", KD_POST, kd_handle_jobs, JSON, "A job, of one scene, of a list, or of a scene with keyframes: its id, and the token that ends it",
-      KD_TAKES_JOB },
+      KD_TAKES_JOB, { 202 } },
     { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON, "How far a job is; its end, with its files" },
     { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
     { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, "application/zip",
       "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; "
       "of a light curve its rows, as application/json or text/csv" },
-    { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE },
+    { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE, { 200, 304 } },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;
 

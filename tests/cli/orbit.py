@@ -43,7 +43,7 @@ class Orbit(Case):
         for e, words in [("1", "e is 1, allowed are 0 up to, not including, 1"), ("-1", "not including"), ("half", "a number is wanted")]:
             self.bad(2, words, "orbit", "--p", "8", f"--e={e}")
         self.bad(2, "separatrix", "orbit", "--p", "6.9", "--e", "0.5")
-        self.bad(2, "goes with", "orbit", "--p", "8", "--energy", "0.9")
+        self.bad(2, "energy is given beside p", "orbit", "--p", "8", "--energy", "0.9")
         self.bad(2, "(at /orbit/e)", "orbit", "--p", "8")
         self.bad(2, "(at /orbit/angular_momentum)", "orbit", "--energy", "0.95")
         self.bad(2, "(at /orbit/position/r)", "orbit", "--v-phi", "0.3")

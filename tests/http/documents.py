@@ -55,6 +55,13 @@ class Documents(unittest.TestCase):
         for name in 'hole.png', 'tilted.png', 'fast.png', 'flare.csv':
             self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
 
+    def test_statuses(self):
+        problems = set(re.findall(r'^    X\(\w+, (\d+),', ROOT.joinpath('src/server/problem.h').read_text(), re.M))
+        text = ROOT.joinpath('docs/http.md').read_text()
+        table = set(re.findall(r'\d{3}', ' '.join(re.findall(r'^\| ((?:\d{3}(?:, )?)+) \|', text, re.M))))
+        self.assertGreater(len(problems), 10)
+        self.assertEqual(table, problems - {'505'}, 'docs/http.md')
+
     def test_orbits(self):
         self.run_all('docs/orbits.md', 1)
 

@@ -70,6 +70,8 @@ class Negotiation(daemon.Case):
                 answer = self.daemon.post(RENDER, '{}', Content_Type=kind)
                 self.assertProblem(answer, 415, 'unsupported-media-type')
         self.assertProblem(self.daemon.request('POST', RENDER), 415, 'unsupported-media-type')
+        patch = self.daemon.request('PATCH', '/v1/sessions/0123456789abcdef', '{}', {'Content-Type': 'text/plain'})
+        self.assertEqual(self.assertProblem(patch, 415)['offered'], 'application/json, application/merge-patch+json')
         for kind in ('application/json', 'Application/JSON; charset=utf-8', 'application/json ;x="a;b"'):
             with self.subTest(kind):
                 self.assertEqual(self.daemon.post('/v1/plan', '{}', Content_Type=kind).status, 200)

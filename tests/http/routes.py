@@ -110,6 +110,30 @@ class Routes(daemon.Case):
         names = [p['name'] for p in document['paths']['/v1/render']['get']['parameters']]
         self.assertIn('camera.inclination_deg', names)
 
+    def test_openapi_lists_the_statuses(self):
+        paths = self.daemon.get('/openapi.json').json()['paths']
+
+        def ask(method, path, **more):
+            name = re.sub(r'/[0-9a-f]{16}', '/{id}', path.split('?')[0])
+            answer = self.daemon.request(method, path, **more)
+            known = paths[name][method.lower()]['responses']
+            self.assertIn(str(answer.status), known, f'{method} {path}')
+            self.assertEqual(set(known) - {'200', '201', '202', '204', '304', 'default'}, set())
+            return answer
+        for kind, body, status in (('sessions', '{}', 201), ('jobs', '{"scene": {}}', 202)):
+            answer = ask('POST', '/v1/' + kind, body=body)
+            self.assertEqual(answer.status, status)
+            one = answer.json()
+            here, owner = f'/v1/{kind}/{one["id"]}', {'Authorization': 'Bearer ' + one['token']}
+            self.assertEqual(ask('GET', here).status, 200)
+            if kind == 'sessions':
+                self.assertEqual(ask('PATCH', here, body='{"time": 1}', headers=owner).status, 200)
+                self.assertEqual(ask('GET', here + '/frame.png?after=999&wait_ms=1').status, 204)
+            self.assertEqual(ask('DELETE', here, headers=owner).status, 204)
+        self.assertEqual(set(paths['/v1/sessions/{id}']['delete']['responses']), {'204', 'default'})
+        tag = ask('GET', '/v1/render?' + daemon.SMALL).header('ETag')
+        self.assertEqual(ask('GET', '/v1/render?' + daemon.SMALL, headers={'If-None-Match': tag}).status, 304)
+
     def test_no_accuracy_table_yet(self):
         problem = self.assertProblem(self.daemon.get('/v1/accuracy'), 404, 'not-found')
         self.assertIn('kerrd bench accuracy', problem['detail'])
