@@ -160,7 +160,8 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     cJSON_AddNumberToObject(root, "index", info->index);
     cJSON_AddStringToObject(root, "choice", kd_vk_choice(renderer->vk));
     cJSON *precision = cJSON_AddArrayToObject(root, "precision");
-    cJSON_AddItemToArray(precision, cJSON_CreateString("f32"));
+    for (int p = KD_PRECISION_F32; p <= (info->float64 ? KD_PRECISION_F64 : KD_PRECISION_F32); p++)
+        cJSON_AddItemToArray(precision, cJSON_CreateString(kd_precision_name((enum kd_precision)p)));
     cJSON_AddBoolToObject(root, "float64_hardware", info->float64);
     cJSON_AddBoolToObject(root, "timestamps", info->timestamps);
     cJSON *limits = cJSON_AddObjectToObject(root, "limits");

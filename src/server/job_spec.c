@@ -156,22 +156,24 @@ static enum kd_status read_sequence(struct reader *r)
     size_t n = cJSON_IsArray(r->keyframes) ? (size_t)cJSON_GetArraySize(r->keyframes) : 0, i = 0;
     if (!r->scene)
         return kd_error_field(r->error, "/scene", "scene is missing: a job has a scene, or scenes");
+    enum kd_status status = read_interpolation(r);
+    if (status)
+        return status;
     if (!r->keyframes && (r->frames || r->interpolation))
-        return kd_error_field(r->error, r->frames ? "/frames" : "/interpolation", "this goes with keyframes only");
+        return kd_error_field(r->error, r->frames ? "/frames" : "/interpolation",
+                              "without keyframes a job is one picture: leave %s out, or say what changes, as in "
+                              "\"keyframes\": [{\"frame\": 24, \"scene\": {\"time\": 100}}]", r->frames ? "frames" : "interpolation");
     if (r->keyframes && !cJSON_IsArray(r->keyframes))
         return not_a(r, r->keyframes, "/keyframes", "an array of keyframes");
     if (r->keyframes && (!n || n > KEYFRAMES_MAX))
         return kd_error_field(r->error, "/keyframes", "there are %zu keyframes, allowed are 1 to %d", n, KEYFRAMES_MAX);
-    enum kd_status status = allocate(r, n + 1);
-    if (status)
+    if ((status = allocate(r, n + 1)))
         return status;
     spec->n_keys = 1;
     spec->keys[0].scene = r->base;
     status = read_scene(r, r->scene, "/scene", false, &spec->keys[0].scene);
     for (const cJSON *item = r->keyframes ? r->keyframes->child : NULL; item && !status; item = item->next)
         status = read_keyframe(r, item, i++);
-    if (!status)
-        status = read_interpolation(r);
     spec->frames = spec->keys[spec->n_keys - 1].frame + 1;
     return status || !r->frames ? status : whole(r, r->frames, "/frames", spec->frames, KD_JOB_FRAMES_MAX, &spec->frames);
 }

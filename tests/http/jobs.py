@@ -315,6 +315,7 @@ class Jobs(Case):
                 ('{"scene":{},"scene":{}}', 422, '/scene'), ('{"scene":{"time":1,"time":2}}', 422, '/scene/time'),
                 ({'scene': {'camera': {'inclination_deg': 181}}}, 422, '/scene/camera/inclination_deg'),
                 ({'scene': {'disk': {'outer': None}}}, 422, '/scene/disk/outer'), ({'scene': {}, 'frames': 3}, 422, '/frames'),
+                ({'scene': {}, 'frames': 3, 'interpolation': 'cubic'}, 422, '/interpolation'),
                 ({'scene': {}, 'interpolation': 'linear'}, 422, '/interpolation'), ({'scene': {}, 'keyframes': []}, 422, '/keyframes'),
                 ({'scene': {}, 'keyframes': {}}, 422, '/keyframes'), ({'scene': {}, 'keyframes': [1]}, 422, '/keyframes/0'),
                 ({'scene': {}, 'keyframes': [{'frame': 1}]}, 422, '/keyframes/0'), ({'scene': {}, 'keyframes': [key, key]}, 422, '/keyframes/1/frame'),

@@ -83,7 +83,11 @@ class Kerrd(unittest.TestCase):
     def test_device(self):
         self.assertEqual(self.daemon.get('/v1/device').status, 200)
         self.daemon.get(TARGET)
-        self.assertEqual(self.daemon.get('/v1/device').json()['ns_per_item']['basis'], 'measured')
+        device = self.daemon.get('/v1/device').json()
+        self.assertEqual(device['ns_per_item']['basis'], 'measured')
+        for precision in 'f32', 'f64':
+            there = self.daemon.get(f'{TARGET}&accuracy.engine=mino-rkn6&accuracy.precision={precision}').status == 200
+            self.assertEqual(precision in device['precision'], there, precision)
 
     def test_pictures_at_once_are_those_in_turn(self):
         targets = [f'{TARGET}&spacetime.spin={i / 20}' for i in range(10)]
