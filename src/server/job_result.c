@@ -148,6 +148,8 @@ static void release(void *cls)
 static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *job, bool zip, unsigned from)
 {
     const char *type = zip ? "application/zip" : STREAM_TYPE;
+    if (zip)
+        kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.zip", kd_job_id(job));
     struct frames *f = request->head ? NULL : calloc(1, sizeof *f);
     if (!f) {
         kd_job_release(job);
@@ -181,6 +183,7 @@ static enum MHD_Result send_png(struct kd_request *request, struct kd_job *job, 
     if (fd < 0)
         return not_ready(request, job, status);
     kd_job_release(job);
+    kd_reply_file(request, KD_INLINE, "%06u.png", frame);
     struct MHD_Response *response = MHD_create_response_from_fd64(size, fd);
     if (!response) {
         close(fd);
@@ -212,6 +215,8 @@ static enum MHD_Result send_curve(struct kd_request *request, struct kd_job *job
     kd_job_release(job);
     enum kd_status status = !rows ? KD_ENOMEM : there ? kd_curve_text(rows, n, csv, &text) : KD_EIO;
     free(rows);
+    if (csv)
+        kd_reply_file(request, KD_ATTACHMENT, "light-curve.csv");
     return kd_reply_json(request, status, &text, csv ? CSV_TYPE : JSON_TYPE);
 }
 

@@ -314,15 +314,23 @@ void kd_job_delete(struct kd_job *job)
     pthread_mutex_unlock(&all->lock);
 }
 
+static bool is_next(const struct kd_job *job)
+{
+    const struct kd_job *other = job->all->first;
+    while (other != job && !kd_job_is_active(other))
+        other = other->link;
+    return other == job;
+}
+
 /* Locked. NAN: it cannot be said. */
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - job->finished - job->fraction;
-    if (!kd_job_is_active(job) || !(job->began_ms > 0))
+    if (!kd_job_is_active(job) || !(job->began_ms > 0 || is_next(job)))
         return NAN;
     double frame_ms = job->finished_here ? (kd_clock_ms() - job->began_ms) / (job->finished_here + job->fraction)
                                          : job->estimate_ms / job->frames;
-    return 1e-3 * fmax(left, 0) * frame_ms;
+    return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
 }
 
 double kd_jobs_remaining_s(struct kd_jobs *all)

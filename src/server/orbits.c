@@ -279,6 +279,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     } else {
         request->reply_bytes = job->out.size;
         response = kd_reply_text(request, &job->out, types[job->format]);
+        if (job->format != KD_ORBIT_JSON)
+            kd_reply_file(request, KD_ATTACHMENT, job->format == KD_ORBIT_CSV ? "orbit.csv" : "orbit.npy");
     }
     if (!response)
         return MHD_NO;

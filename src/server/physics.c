@@ -142,6 +142,9 @@ static enum MHD_Result deliver(struct kd_request *request)
         job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE) : kd_reply_text(request, &job->text, type);
     if (!response)
         return MHD_NO;
+    if (job->form != FORM_JSON)
+        kd_reply_file(request, job->form == FORM_WAV ? KD_INLINE : KD_ATTACHMENT, "%s.%s", request->rest,
+                      job->form == FORM_WAV ? "wav" : "csv");
     snprintf(timing, sizeof timing, "queue;dur=%.3f, compute;dur=%.3f", task->begun_ms - task->submitted_ms,
              task->done_ms - task->begun_ms);
     MHD_add_response_header(response, "Server-Timing", timing);

@@ -121,6 +121,8 @@ static enum MHD_Result deliver(struct kd_request *request)
         return MHD_NO;
     }
     MHD_add_response_header(response, "Content-Type", format == KD_RAYS_NPY ? KD_NPY_TYPE : JSON_TYPE);
+    if (format == KD_RAYS_NPY)
+        kd_reply_file(request, KD_ATTACHMENT, "rays.npy");
     describe(response, job, &out->answer);
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }

@@ -73,6 +73,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     if (!response)
         return NULL;
     snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
+    kd_reply_file(request, KD_INLINE, "kerrd.png");
     MHD_add_response_header(response, "ETag", request->etag);
     MHD_add_response_header(response, "Cache-Control", "private, no-cache");
     MHD_add_response_header(response, "Vary", "Accept");

@@ -3,6 +3,7 @@
 #include "image/gzip.h"
 #include "server/negotiate.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,6 +68,16 @@ struct MHD_Response *kd_reply_empty(const char *type)
     return response;
 }
 
+void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
+{
+    char name[60];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    snprintf(request->file, sizeof request->file, "%s; filename=\"%s\"", disposition == KD_INLINE ? "inline" : "attachment", name);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
@@ -75,6 +86,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
+    if (*request->file && status == MHD_HTTP_OK)
+        MHD_add_response_header(response, "Content-Disposition", request->file);
     /* On the way down a kept-alive client should look for another server. */
     if (request->close || atomic_load(&server->phase) != KD_SERVING)
         MHD_add_response_header(response, "Connection", "close");

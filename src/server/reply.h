@@ -18,6 +18,11 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
  * connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 
+/* The name under which this request's answer is saved. A browser shows what is inline and saves what is an attachment. */
+enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
+void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* Queue the response and give up the reference; NULL: MHD_NO. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 

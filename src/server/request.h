@@ -27,6 +27,7 @@ struct kd_request {
     struct kd_task *task;      /* of what workers compute; owned */
     struct kd_viewer *viewer;  /* of a request that waits for a session's next frame; owned */
     char etag[96];
+    char file[96]; /* Content-Disposition of an answer of 200, by kd_reply_file */
     size_t reply_bytes; /* of a large reply, for its deadline */
     double start_ms;
     unsigned status; /* of the reply, for the log */

@@ -102,6 +102,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (!response)
         return MHD_NO;
     describe(response, &job->list);
+    kd_reply_file(request, KD_ATTACHMENT, "particles.f32");
     double waited_ms = kd_clock_ms() - job->begun_ms - job->spent_ms;
     snprintf(timing, sizeof timing, "queue;dur=%.3f, particles;dur=%.3f", waited_ms, job->spent_ms);
     MHD_add_response_header(response, "Server-Timing", timing);

@@ -86,9 +86,12 @@ class Jobs(Case):
 
     def test_list_as_zip(self):
         job = self.make({'scenes': [{'image': {'width': 20 + i, 'height': 9}} for i in range(12)]})
+        self.assertEqual(job['place'], 0)
+        self.assertGreater(job['remaining_s'], 0, 'the next one knows its time before it begins')
         self.until(job, 'done')
         answer = self.daemon.get(self.at(job, '/result'))
         self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/zip'))
+        self.assertEqual(answer.header('Content-Disposition'), f'attachment; filename="kerrd-{job["id"]}.zip"')
         with zipfile.ZipFile(io.BytesIO(answer.body)) as z:
             self.assertIsNone(z.testzip())
             self.assertEqual(z.namelist(), [f'{i:06}.png' for i in range(12)])
@@ -166,6 +169,7 @@ class Jobs(Case):
         lines = table.body.decode().split('\n')
         self.assertEqual((lines[0], lines[1], lines[4], len(lines)), (','.join(names), '0,0,0,,0,0,,,32,18', '3,4.5,4.5,2.25,-4.5,1.125,3,0.25,32,18', 7))
         self.assertEqual(self.daemon.get(self.at(job, '/result?format=csv')).body, table.body)
+        self.assertEqual(table.header('Content-Disposition'), 'attachment; filename="light-curve.csv"')
         self.assertEqual(self.daemon.get(self.at(job, '/result'), Accept='application/json;q=0.5, text/csv;q=0.4').body, answer.body)
         self.assertProblem(self.daemon.get(self.at(job, '/result'), Accept='image/png'), 406)
         for rest in ('?format=png', '?format=zip', '?format=stream', '?format=csv&frame=1'):

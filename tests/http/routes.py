@@ -102,6 +102,23 @@ class Routes(daemon.Case):
         preset = self.daemon.post('/v1/plan?preset=gargantua', '{}')
         self.assertNotEqual(preset.json()['lens_map_key'], plan['lens_map_key'])
 
+    def test_files_have_names(self):
+        def name(answer, status=200):
+            self.assertEqual(answer.status, status, answer.body[:300])
+            return answer.header('Content-Disposition')
+        get, post = self.daemon.get, self.daemon.post
+        picture = get('/v1/render?' + daemon.SMALL)
+        self.assertEqual(name(picture), 'inline; filename="kerrd.png"')
+        self.assertIsNone(name(get('/v1/render?' + daemon.SMALL, If_None_Match=picture.header('ETag')), 304))
+        self.assertIsNone(name(get('/v1/render?image.width=0'), 422))
+        self.assertIsNone(name(get('/v1/physics/qnm')))
+        self.assertEqual(name(get('/v1/physics/qnm', Accept='text/csv')), 'attachment; filename="qnm.csv"')
+        self.assertEqual(name(get('/v1/physics/qnm?mass_msun=60&format=wav')), 'inline; filename="qnm.wav"')
+        orbit, rays = {'orbit': {'case': 'isco'}, 'samples': 2}, {'rays': [[5, 1]]}
+        self.assertIsNone(name(post('/v1/orbits', orbit)))
+        self.assertEqual(name(post('/v1/orbits', orbit, Accept='text/csv')), 'attachment; filename="orbit.csv"')
+        self.assertEqual(name(post('/v1/rays', rays, Accept='application/x-npy')), 'attachment; filename="rays.npy"')
+
     def test_openapi_lists_the_routes(self):
         document = self.daemon.get('/openapi.json').json()
         self.assertEqual(document['openapi'], '3.1.0')
