@@ -5,7 +5,12 @@ import { number, t, tell, word } from './i18n.js';
 const pass_names = {
   queue: ['waiting', 'attesa'],
   trace: ['rays', 'raggi'],
-  transfer: ['light', 'luce'],
+  transfer: ['disk and sky', 'disco e cielo'],
+  fill: ['clearing', 'azzeramento'],
+  light: ['light of spots', 'luce delle macchie'],
+  particles: ['particles', 'particelle'],
+  rays: ['rays for particles', 'raggi per le particelle'],
+  upload: ['upload', 'invio'],
   expose: ['exposure', 'esposizione'],
   post: ['tone and colour', 'toni e colore'],
   readback: ['read back', 'rilettura'],

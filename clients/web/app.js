@@ -3,7 +3,7 @@
 import { byId } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
 import { buildControls } from './controls.js';
-import { lang, tell, translatePage } from './i18n.js';
+import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { buildLiving, hasSpots } from './living.js';
 import { buildOverlays } from './overlay.js';
@@ -161,6 +161,11 @@ async function start() {
     button.addEventListener('click', () => goTo(button.dataset.view));
   goTo(link.get('view'));
   const scene = await Scene.load();
+  if (scene.unknown.length)
+    byId('link-fault').textContent = t(
+      `Of the link this was not understood: ${scene.unknown.join(', ')}.`,
+      `Del collegamento questo non si capisce: ${scene.unknown.join(', ')}.`,
+    );
   await openPreset(scene);
   await watch(scene);
   await buildPresets(scene);

@@ -9,7 +9,7 @@ const words = lang === 'it' ? await import('./it.js') : null;
 
 // A sentence of the server: translated if it is known, else marked as English for those who have it read aloud.
 export function said(text) {
-  const known = words?.sentences[text];
+  const known = words?.sentences[text] ?? words?.refusal(text);
   return { text: known ?? text, lang: known || lang === 'en' || !text ? null : 'en' };
 }
 
@@ -66,7 +66,10 @@ const labels = {
   periods: 'Radial periods',
   l: 'L, angular momentum',
   'motion.azimuth_rate_deg': 'Going round',
-  'motion.time_rate': 'Time goes on',
+  'motion.time_rate': 'Pace of time',
+  spot1: 'Spot 1',
+  spot2: 'Spot 2',
+  spot3: 'Spot 3',
 };
 
 const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
@@ -86,7 +89,7 @@ function helpOf(help) {
   return { help: text && text[0].toUpperCase() + text.slice(1), helpLang: marked };
 }
 
-export const section = (name, help) => words?.fields[name]?.[0] ?? spell(help.length < 12 ? help : name);
+export const section = (name, help) => words?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
 export const word = value => words?.values[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title;
 
@@ -103,7 +106,23 @@ export function number(x, digits = 4) {
     const front = show(Number(mantissa), { maximumSignificantDigits: digits });
     return (front === '1' ? '' : `${front} × `) + '10' + raised(String(Number(power)));
   }
-  return show(x, { maximumSignificantDigits: Math.max(digits, size >= 1000 ? 6 : 0), useGrouping: size >= 1e4 });
+  return show(x, { maximumSignificantDigits: Math.max(digits, Math.floor(Math.log10(size || 1)) + 1), useGrouping: size >= 1e4 });
+}
+
+const spans = [
+  [365.25 * 86400, 'years', 'anni'],
+  [86400, 'days', 'giorni'],
+  [3600, 'hours', 'ore'],
+  [60, 'minutes', 'minuti'],
+  [1, 's', 's'],
+  [1e-3, 'ms', 'ms'],
+  [0, 'µs', 'µs'],
+];
+
+// Seconds in what they are told in.
+export function duration(seconds) {
+  const [length, en, it] = spans.find(([least]) => Math.abs(seconds) >= least);
+  return `${number(seconds / (length || 1e-6), 3)} ${t(en, it)}`;
 }
 
 export function translatePage() {

@@ -208,6 +208,76 @@ export const presets = {
     'Sei anelli di fotoni, uno sopra l’altro: in orizzontale l’angolo attorno al bordo dell’ombra, in verticale la distanza da quel bordo, per nove decadi e mezza',
 };
 
+// What is refused, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
+const refusals = [
+  ['{} is {}{?}, allowed are whole numbers from {} to {}', '{} è {}{?}, ammessi sono gli interi da {} a {}'],
+  ['{} is {}, allowed are multiples of 4 up to {}, and 0', '{} è {}, ammessi sono i multipli di 4 fino a {}, e 0'],
+  ['{} is {}{?}, allowed are {} to {}, or a range first:last:count of {} to {} of these', '{} è {}{?}, ammessi sono da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}'],
+  [
+    '{} is {}{?}, allowed are above {} and below {}, or a range first:last:count of {} to {} of these',
+    '{} è {}{?}, ammessi sono sopra {} e sotto {}, o un intervallo primo:ultimo:quanti, da {} a {}',
+  ],
+  ['{} is {}{?}, allowed are numbers above {} and below {}', '{} è {}{?}, ammessi sono i numeri sopra {} e sotto {}'],
+  ['{} is {}{?}, allowed are {} up to, not including, {}', '{} è {}{?}, ammessi sono da {} fino a {} escluso'],
+  ['{} is {}{?}, allowed are {} to {}, and {}', '{} è {}{?}, ammessi sono da {} a {}, e {}'],
+  ['{} is {}{?}, allowed are {} to {}', '{} è {}{?}, ammessi sono da {} a {}'],
+  ['{} is {}, allowed are {…} and {}', '{} è {}, ammessi sono {…} e {}'],
+  ['{} is {}, allowed is at least {}, the ISCO of {} {}, or {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}, o {}'],
+  ['{} is {}, allowed is at least {}, the ISCO of {} {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}'],
+  ['{} is {}, allowed is more than {}, the horizon of {} {}', '{} è {}, ammesso è più di {}, l’orizzonte per {} {}'],
+  ['{} is {}, allowed is more than the inner edge, {}, which is the ISCO', '{} è {}, ammesso è più del bordo interno, {}, che è l’ISCO'],
+  ['{} is {}, allowed is more than the inner edge, {}', '{} è {}, ammesso è più del bordo interno, {}'],
+  ['{} is {}, allowed is less than {}, {}', '{} è {}, ammesso è meno di {}, {}'],
+  ['{} is {} with {} {}, allowed is {}', '{} è {} con {} {}, ammesso è {}'],
+  [
+    '{} is {}, allowed for a static observer at this inclination is more than {}, the ergosphere; camera.observer {} can be inside',
+    '{} è {}, ammesso per un osservatore fermo a questa inclinazione è più di {}, l’ergosfera; camera.observer {} può stare dentro',
+  ],
+  ['{} is {} with {} {}; a pinhole needs a finite {}, at infinity use {}', '{} è {} con {} {}; la proiezione stenopeica vuole un {} finito, all’infinito usa {}'],
+  ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a un raggio finito usa {}'],
+  [
+    '{} is {}, allowed is 0 with {} {}: beyond {} the modes of a hole crowd and none of them rings alone',
+    '{} è {}, ammesso è 0 con {} {}: oltre {} i modi di un buco si affollano e nessuno risuona da solo',
+  ],
+  [
+    '{} is {}; with this spin, e and inclination_deg an orbit has its turning points there only above {}, the separatrix',
+    '{} è {}; con questi spin, e e inclination_deg un’orbita ha lì i suoi punti d’inversione solo sopra {}, la separatrice',
+  ],
+  ['{} is {}, inside the horizon at {}; allowed is outside', '{} è {}, dentro l’orizzonte, a {}; ammesso è fuori'],
+  ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
+  ['{} is {}, and l is {}; allowed is {} to {}', '{} è {}, e l è {}; ammessi sono da {} a {}'],
+  ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
+].map(([english, italian]) => {
+  const escaped = english.replace(/[.*+()]/g, '\\$&');
+  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc))?)';
+  return [
+    new RegExp(`^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`),
+    italian.replace('{?}', '{}').replace('{…}', '{}'),
+  ];
+});
+
+const amounts = {
+  ', a string where a number is wanted': ', un testo dove ci vuole un numero',
+  ' where a number is wanted': ' dove ci vuole un numero',
+  'solar masses': 'masse solari',
+  'solar radii': 'raggi solari',
+  'Eddington rates': 'tassi di Eddington',
+  pixels: 'pixel',
+  'degrees per second': 'gradi al secondo',
+  degrees: 'gradi',
+  decades: 'decadi',
+  bits: 'bit',
+  stops: 'stop',
+  days: 'giorni',
+};
+
+export function refusal(text) {
+  for (const [shape, italian] of refusals) {
+    const parts = shape.exec(text)?.slice(1);
+    if (parts) return italian.replaceAll('{}', () => Object.entries(amounts).reduce((part, [en, it]) => part.replace(en, it), parts.shift()));
+  }
+}
+
 export const sentences = {
   'disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge':
     'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',

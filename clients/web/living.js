@@ -1,6 +1,6 @@
 // What lives: time that goes on or stands, particles, a hot spot, a struck hole. The session moves it; here is who says so.
 import { byId, latest } from './dom.js';
-import { number, t, tell } from './i18n.js';
+import { duration, number, t, tell } from './i18n.js';
 import { physics } from './server.js';
 
 const usual_rate = 8; // M a second, where none was chosen
@@ -12,21 +12,6 @@ const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) ||
 
 // Time is seen where the disk is not the same all round, or rings.
 export const showsTime = scene => hasParticles(scene) || hasSpots(scene) || (canRing(scene) && scene.get('style.ringdown') > 0);
-
-const spans = [
-  [365.25 * 86400, 'years', 'anni'],
-  [86400, 'days', 'giorni'],
-  [3600, 'hours', 'ore'],
-  [60, 'minutes', 'minuti'],
-  [1, 's', 's'],
-  [1e-3, 'ms', 'ms'],
-  [0, 'µs', 'µs'],
-];
-
-function duration(seconds) {
-  const [length, en, it] = spans.find(([least]) => Math.abs(seconds) >= least);
-  return `${number(seconds / (length || 1e-6), 3)} ${t(en, it)}`;
-}
 
 export function buildLiving(stage, scene, source) {
   const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId),

@@ -1,7 +1,7 @@
 // The curves: each a few parameters, an equation, numbers of /v1/physics and what they are taken from.
 import { byId, el } from './dom.js';
 import { buildForm } from './form.js';
-import { number, t, tell } from './i18n.js';
+import { duration, number, t, tell } from './i18n.js';
 import { plot } from './plot.js';
 import { getJson, physics, physicsUrl } from './server.js';
 
@@ -15,25 +15,37 @@ const radius = t('radius r / M', 'raggio r / M');
 // What rings too low or too high for ears is shifted by whole octaves, to a few hundred Hz.
 const heard = { least: 20, most: 20000, best: 300 };
 
-function listen(v, { t: _, ...asked }) {
+function listen(v, { t: _, ...asked }, chosen) {
   const [hertz] = v.frequency_hz,
-    octaves = hertz < heard.least || hertz > heard.most ? Math.round(Math.log2(heard.best / hertz)) : 0;
+    octaves = Number(chosen) + (hertz < heard.least || hertz > heard.most ? Math.round(Math.log2(heard.best / hertz)) : 0),
+    pitch = hertz * 2 ** octaves,
+    [inside, swings] = [pitch >= heard.least && pitch <= heard.most, number(v.quality / Math.PI, 2)];
   const url = physicsUrl('qnm', { ...asked, shift_octaves: octaves }) + '&format=wav',
     sound = new Audio();
   sound.preload = 'none';
   sound.src = url;
   const shift = octaves
     ? t(
-        `${number(Math.abs(octaves))} octaves ${octaves > 0 ? 'higher' : 'lower'}, and ${octaves > 0 ? 'faster' : 'slower'}, than it is, so that ears hear it`,
-        `${number(Math.abs(octaves))} ottave più ${octaves > 0 ? 'in alto' : 'in basso'} e più ${octaves > 0 ? 'veloce' : 'lento'} del vero, perché si senta`,
+        ` ${number(Math.abs(octaves))} octaves ${octaves > 0 ? 'higher' : 'lower'}, and ${octaves > 0 ? 'faster' : 'slower'}, than it is.`,
+        ` ${number(Math.abs(octaves))} ottave più ${octaves > 0 ? 'in alto' : 'in basso'} e più ${octaves > 0 ? 'veloce' : 'lento'} del vero.`,
       )
     : '';
   return el(
     'p',
     { class: 'row' },
-    el('button', { type: 'button', onclick: () => sound.play() }, t('Hear it', 'Ascolta')),
-    el('a', { class: 'button', href: url, download: 'ringdown.wav' }, t('Save WAV', 'Salva WAV')),
-    shift && el('span', { class: 'help' }, shift),
+    inside && el('button', { type: 'button', onclick: () => sound.play() }, t('Hear it', 'Ascolta')),
+    inside && el('a', { class: 'button', href: url, download: 'ringdown.wav' }, t('Save WAV', 'Salva WAV')),
+    el(
+      'span',
+      { class: 'help' },
+      inside
+        ? t(
+            `At ${number(pitch, 3)} Hz, fading by e in ${duration(v.damping_s[0] / 2 ** octaves)}: ${swings} of its swings.`,
+            `A ${number(pitch, 3)} Hz; si smorza di un fattore e in ${duration(v.damping_s[0] / 2 ** octaves)}: di sue oscillazioni ${swings}.`,
+          )
+        : t(`No ear hears ${number(pitch, 3)} Hz.`, `Nessun orecchio sente ${number(pitch, 3)} Hz.`),
+      shift,
+    ),
   );
 }
 
@@ -80,7 +92,7 @@ const charts = [
               `Un cerchio stabile a r = ${number(v.r_min_matter)} M, uno instabile a ${number(v.r_max_matter)} M. Con l’L dell’ISCO i due si sono fusi.`,
             ),
       x: axis(radius, { min: 0 }),
-      y: axis(t('energy a unit of mass', 'energia per unità di massa'), {
+      y: axis(t('energy / mass', 'energia / massa'), {
         min: 0.8,
         max: Math.max(1.1, Math.min(1.6, (v.v_max_matter ?? 1) + 0.05)),
       }),
@@ -106,8 +118,8 @@ const charts = [
       '<mi>g</mi><mo>=</mo><mfrac><msub><mi>ν</mi><mi>obs</mi></msub><msub><mi>ν</mi><mi>em</mi></msub></mfrac><mo>,</mo><mspace width="1em"/><msub><mi>I</mi><mi>obs</mi></msub><mo>=</mo><msup><mi>g</mi><mn>4</mn></msup><msub><mi>I</mi><mi>em</mi></msub>',
     show: (v, p) => ({
       note: t(
-        `Brightest ${number(Math.max(...v.g4))}, dimmest ${number(Math.min(...v.g4))} of what the gas emits. Light bends on its way here; without that, g would be the dashed line.`,
-        `Da ${number(Math.max(...v.g4))} a ${number(Math.min(...v.g4))} volte ciò che il gas emette. La luce si piega lungo la via; senza questo, g sarebbe la linea tratteggiata.`,
+        `Brightest ${number(Math.max(...v.g4))}, dimmest ${number(Math.min(...v.g4))} of what the gas emits. Light bends on its way here; without that, g would be the grey line.`,
+        `Da ${number(Math.max(...v.g4))} a ${number(Math.min(...v.g4))} volte ciò che il gas emette. La luce si piega lungo la via; senza questo, g sarebbe la linea grigia.`,
       ),
       x: axis(t('azimuth on the ring, degrees (90 recedes)', 'azimut sull’anello, gradi (90 si allontana)')),
       y: axis('g, g⁴', { min: 0 }),
@@ -153,6 +165,7 @@ const charts = [
       { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 },
       { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
+      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), value: 0, min: -8, max: 8, step: 1 },
     ],
     query: { t: '0:90:241' },
     after: listen,
@@ -168,7 +181,7 @@ const charts = [
           ? ''
           : t(
               ` The formula 2.1 + 11.3 a³ that circulates for Q is off by ${number(100 * v.quality_cubic_error, 2)} % here.`,
-              ` La formula 2,1 + 11,3 a³ che circola per Q qui sbaglia del ${number(100 * v.quality_cubic_error, 2)} %.`,
+              ` Per Q circola la formula 2,1 + 11,3 a³; errore, qui: ${number(100 * v.quality_cubic_error, 2)} %.`,
             )),
       x: axis(t('time t / M', 'tempo t / M')),
       y: axis(t('amplitude', 'ampiezza'), { min: -1.05, max: 1.05 }),
@@ -199,7 +212,7 @@ const charts = [
         { name: 'Page–Thorne', y: v.t_eff_k },
         { name: t('Newton, cut at the ISCO', 'Newton, tagliato all’ISCO'), y: v.t_eff_newton_k, style: 'dim' },
       ],
-      marks: [{ x: v.inner, label: 'ISCO' }],
+      marks: [{ x: v.inner, label: 'ISCO', low: true }],
       along: p.r,
     }),
   },
@@ -263,7 +276,7 @@ const charts = [
         `Chirp mass ${number(v.chirp_mass)} solar masses; cut where the orbit is at 6 M, ${number(v.isco_hz)} Hz. Leading order only.`,
         `Massa di chirp ${number(v.chirp_mass)} masse solari; troncato dove l’orbita è a 6 M, ${number(v.isco_hz)} Hz. Solo primo ordine.`,
       ),
-      x: axis(t('time to coalescence, s (negative: before)', 'tempo rispetto alla coalescenza, s (negativo: prima)')),
+      x: axis(t('s from coalescence', 's dalla coalescenza')),
       y: axis(t('wave frequency, Hz', 'frequenza dell’onda, Hz'), { min: 0 }),
       series: [{ name: t('frequency', 'frequenza'), x: p.before_s.map(s => -s), y: v.chirp_hz }],
       marks: [{ y: v.isco_hz, label: '6 M' }],
@@ -317,13 +330,13 @@ function card(chart, known) {
 
   async function draw() {
     try {
-      const asked = { ...chart.query, ...form.values() };
+      const { octaves, ...asked } = { ...chart.query, ...form.values() }; // the first is for ears alone
       Object.assign(asked, await chart.adjust?.(asked));
       const [answer, also] = await Promise.all([physics(chart.name, asked), chart.also?.(asked)]);
       const shown = chart.show(answer.values, answer.parameters, also);
       const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
       figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
-      if (chart.after) after.replaceChildren(chart.after(answer.values, asked));
+      if (chart.after) after.replaceChildren(chart.after(answer.values, asked, octaves));
       sources.textContent = answer.sources.join('; ');
       fault.textContent = '';
     } catch (error) {

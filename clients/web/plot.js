@@ -13,6 +13,7 @@ const strokes = [
   ['--green', [2, 3]],
   ['--rose', [9, 3, 2, 3]],
 ];
+const live_ms = 1000; // between two tables
 let count = 0;
 
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -81,20 +82,35 @@ function table(spec) {
   );
 }
 
-// The numbers of a spec under a heading, made when they are opened; what is live stays meanwhile as it was then.
+const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
+
+// Of what no address gives again.
+function sheet(spec) {
+  const [{ x }] = spec.series,
+    rows = [[spec.x.label, ...spec.series.map(s => s.name)].map(cell), ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])])];
+  return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
+}
+
+// The numbers of a spec under a heading, made when they are opened; of what is live anew after a while.
 export function numbers(id) {
   const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
     links = el('p', {});
   const details = el('details', {}, el('summary', {}, t('The numbers', 'I numeri')), box, links);
-  let spec = null;
-  const fill = () => details.open && spec && box.replaceChildren(...table(spec));
+  let spec = null,
+    filled = 0;
+  function fill() {
+    if (!details.open || !spec) return;
+    filled = performance.now();
+    box.replaceChildren(...table(spec));
+  }
   details.addEventListener('toggle', fill);
   details.show = next => {
     spec = next;
-    if (!spec.live) fill();
-    links.replaceChildren(
-      ...(spec.csv ? [el('a', { href: spec.csv + '&format=csv', download: '' }, t('All of them as CSV', 'Tutti, in CSV'))] : []),
-    );
+    if (!spec.live || performance.now() > filled + live_ms) fill();
+    if (links.firstChild && spec.live) return;
+    const link = (spec.csv || spec.live) && el('a', { href: spec.live ? '#' : spec.csv + '&format=csv', download: spec.live ? 'kerrd.csv' : '' }, t('All of them as CSV', 'Tutti, in CSV'));
+    if (spec.live) link.addEventListener('click', () => (URL.revokeObjectURL(link.href), (link.href = sheet(spec))));
+    links.replaceChildren(...(link ? [link] : []));
   };
   return details;
 }
@@ -120,7 +136,8 @@ function drawMarks(u, marks) {
     ctx.fillStyle = colour('--ink');
     ctx.textAlign = upright ? 'left' : 'right';
     const above = at - bbox.top > 16 * ratio ? -4 : 14;
-    const place = upright ? [at + 4 * ratio, bbox.top + (12 + 14 * (i % 4)) * ratio] : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
+    const down = mark.low ? bbox.height - 8 * ratio : (12 + 14 * (i % 4)) * ratio;
+    const place = upright ? [at + 4 * ratio, bbox.top + down] : [bbox.left + bbox.width - 4 * ratio, at + above * ratio];
     ctx.fillText(mark.label ?? '', ...place);
   });
   ctx.restore();
@@ -149,7 +166,7 @@ function key(style) {
   return svg('svg', { viewBox: '0 0 26 8', class: 'key', 'aria-hidden': 'true' }, svg('path', { class: `line line-${style}`, d: 'M0 4H26' }));
 }
 
-// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label }] }.
+// spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style }], marks: [{ x or y, label, low }] }.
 // Returns the figure, with a method draw(spec) that puts other numbers into it.
 export function plot(first) {
   const id = 'plot-' + ++count,

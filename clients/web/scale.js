@@ -1,7 +1,7 @@
 // A hole in kilometres, seconds and on the sky, beside what the Event Horizon Telescope measured.
 import { byId, el, latest, svg } from './dom.js';
 import { buildForm } from './form.js';
-import { number, t, tell, unit } from './i18n.js';
+import { duration, number, t, tell, unit } from './i18n.js';
 import { physics } from './server.js';
 
 const specs = [
@@ -49,14 +49,16 @@ function draw(v, edge) {
       .map(m => m * 10 ** Math.floor(Math.log10(reach / 2.2)))
       .filter(x => x < reach * 0.8)
       .at(-1) ?? 10 ** Math.floor(Math.log10(reach * 0.7));
+  const middle = [0, 1].map(i => (k * (Math.min(...points.map(p => p[i])) + Math.max(...points.map(p => p[i])))) / 2),
+    place = { cx: middle[0], cy: middle[1] }; // of the ring, which nobody measured
   const picture = byId('scale-picture');
   picture.setAttribute('viewBox', '-100 -100 200 200');
   picture.replaceChildren(
     svg('path', { class: 'sky-shadow', d: 'M' + points.map(p => p.map(x => (x * k).toFixed(2)).join(' ')).join('L') + 'Z' }),
     ...(v.ring_uas
       ? [
-          svg('circle', { class: 'sky-ring-width', r: (v.ring_uas / 2) * k, 'stroke-width': ((2 * v.ring_error_uas) / 2) * k }),
-          svg('circle', { class: 'sky-ring', r: (v.ring_uas / 2) * k }),
+          svg('circle', { class: 'sky-ring-width', ...place, r: (v.ring_uas / 2) * k, 'stroke-width': ((2 * v.ring_error_uas) / 2) * k }),
+          svg('circle', { class: 'sky-ring', ...place, r: (v.ring_uas / 2) * k }),
         ]
       : []),
     svg('path', { class: 'bar', d: `M${(-bar * k) / 2} 88H${(bar * k) / 2}` }),
@@ -86,7 +88,7 @@ export async function openScale() {
         ...shown
           .filter(([name]) => values[name] != null)
           .map(([name, en, it]) =>
-            el('tr', {}, el('th', { scope: 'row' }, t(en, it)), el('td', {}, `${number(values[name])} ${unit(units[name])}`)),
+            el('tr', {}, el('th', { scope: 'row' }, t(en, it)), el('td', {}, units[name] === 's' ? duration(values[name]) : `${number(values[name])} ${unit(units[name])}`)),
           ),
       );
       byId('scale-words').textContent = t(

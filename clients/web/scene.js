@@ -8,6 +8,7 @@ import * as link from './link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
+const known = ['view', 'lang', 'over', 'preset', 'pause']; // what a link has without a dot
 
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
@@ -37,6 +38,7 @@ export class Scene extends EventTarget {
   #clock = null; // that goes without pictures
   #linked = 0; // when the address last kept up
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
+  unknown = []; // what of the link means nothing here
   jumps = 0; // how often somebody set the time
 
   static async load() {
@@ -46,7 +48,14 @@ export class Scene extends EventTarget {
       .filter(([, spec]) => spec.properties)
       .map(([name, spec]) => ({ name, help: spec.description }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
-    for (const [path, field] of scene.fields) if (link.get(path) != null) scene.#put(path, parse(field, link.get(path)));
+    for (const [path, field] of scene.fields) {
+      const value = link.get(path) == null ? null : parse(field, link.get(path));
+      if (Number.isNaN(value)) scene.unknown.push(path);
+      else if (value != null) scene.#put(path, value);
+    }
+    const sections = scene.sections.map(({ name }) => name);
+    for (const [key] of link.entries(''))
+      if (key.includes('.') ? sections.includes(key.split('.')[0]) && !scene.fields.has(key) : !known.includes(key) && key !== 'time') scene.unknown.push(key);
     return scene;
   }
 

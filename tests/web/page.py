@@ -401,6 +401,33 @@ class Page(unittest.TestCase):
             page.click('#curve-qnm a[href*=wav]')
         self.assertEqual(pathlib.Path(download.value.path()).read_bytes()[:4], b'RIFF')
 
+    def test_a_ringdown_is_shifted_by_hand(self):
+        page = self.open('lang=en&view=physics&qnm.octaves=-3', '#curve-qnm a[href*=wav]')
+        self.assertIn('3 octaves lower', page.inner_text('#curve-qnm'))
+        self.assertIn('shift_octaves=-3', page.get_attribute('#curve-qnm a[href*=wav]', 'href'))
+        page.fill('#in-qnm-octaves', '-6')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#curve-qnm >> text=/No ear hears 4.48 Hz/')
+        self.assertEqual(page.locator('#curve-qnm a[href*=wav]').count(), 0)
+
+    def test_refusals_are_told_in_italian(self):
+        page = self.open('lang=it')
+        wrong = ('disk.inner=1', 'camera.r=1.5', 'spacetime.spin=2', 'spacetime.spin=abc', 'disk.outer=3', 'disk.model=foo', 'camera.projection=pinhole',
+                 'camera.projection=ring&camera.r=50', 'camera.r=40&camera.projection=plane', 'spot1.brightness=1&spot1.r=2', 'disk.particles=1e10',
+                 'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'accuracy.steps=7',
+                 'disk.mdot_edd=1e9&disk.colour=accretion', 'camera.inclination_deg=200', 'spacetime.mass_msun=0')
+        answers = []
+        for query in [f'render?{q}' for q in wrong] + ['physics/qnm?l=2&m=3', 'physics/redshift?r=1.2&spin=0.5', 'physics/ring-image?r=1&spin=0.5', 'physics/kerr?spin=2']:
+            answers.append(self.daemon.request('GET', '/v1/' + query))
+        for spin, p, e in ((2, 6, 0), (0.9, 6, 1), (0.9, 2, 0.5)):
+            answers.append(self.daemon.request('POST', '/v1/orbits', json.dumps({'spin': spin, 'orbit': {'p': p, 'e': e}})))
+        for answer in answers:
+            self.assertEqual(answer.status, 422)
+            detail = answer.json()['detail']
+            told = page.evaluate('async detail => (await import("./web/it.js")).refusal(detail)', detail)
+            self.assertNotRegex(told or 'allowed', r'allowed|\{|undefined| is | of |degrees|masses', detail)
+        self.assertEqual(page.evaluate('async () => (await import("./web/it.js")).refusal("what is this, allowed are none")'), None)
+
     def test_plots_are_read_by_keyboard(self):
         page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
         chart = page.locator('#curve-kerr .chart')
@@ -537,6 +564,9 @@ class Page(unittest.TestCase):
         page.click('#spot')
         page.wait_for_selector(FINE)
         self.assertEqual(self.pixels(page), other)
+        page.click('#as-particles')
+        page.wait_for_selector(FINE)
+        self.assertEqual((page.get_attribute('#as-particles', 'aria-pressed'), page.is_visible('#new-seed')), ('false', False))
 
     def test_the_light_of_a_spot(self):
         page = self.open('lang=en&preset=hot-spot', '#light canvas')
@@ -561,6 +591,13 @@ class Page(unittest.TestCase):
             page.click('#light summary >> nth=0')
         page.wait_for_selector('#light tbody tr >> nth=5')
         self.assertEqual(value(page.locator('#light tbody th').first.inner_text()), times[0], 'the curve goes on over a strike')
+        with page.expect_download() as download:
+            page.click('#light a >> nth=0')
+        lines = pathlib.Path(download.value.path()).read_text().splitlines()
+        self.assertEqual((lines[0], len(lines) > 60), ('"time t / M","all","spots"', True))
+        latest = max(float(line.split(',')[0]) for line in lines[1:])
+        self.assertTrue(daemon.eventually(lambda:
+                                          max(value(x) for x in page.locator('#light figure:first-child tbody th').all_inner_texts()) > latest))
         page.click('#play')
         self.shot(page, 'hot-spot')
         page.click('#spot')
@@ -583,6 +620,21 @@ class Page(unittest.TestCase):
         page.fill('[data-path="accuracy.orders"] input[type=number]', '1')
         page.keyboard.press('Enter')
         self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
+
+    def test_no_light_curve_of_a_ring(self):
+        page = self.open('lang=en&preset=photon-rings', '#stage[data-final]')
+        page.click('#spot')
+        page.wait_for_selector('#light >> text=no light curve')
+        self.assertFalse(page.is_visible('#light figure'))
+
+    def test_what_a_link_or_a_hand_gets_wrong(self):
+        page = self.open('lang=en&foo=1&camera.roll=2&spacetime.spin=x&orbit.p=7')
+        self.assertEqual(page.inner_text('#link-fault'), 'Of the link this was not understood: spacetime.spin, foo, camera.roll.')
+        self.open_groups(page)
+        page.fill('[data-path="spacetime.spin"] input[type=number]', '2')
+        page.keyboard.press('Enter')
+        page.wait_for_timeout(300)
+        self.assertEqual((self.field(page, 'spacetime.spin'), page.locator('[data-path="spacetime.spin"] input:invalid').count()), ('2', 1))
 
     def test_when_the_rings_have_faded(self):
         page = self.open('lang=en&motion.time_rate=60')
