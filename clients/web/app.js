@@ -134,10 +134,13 @@ async function watch(scene) {
     stage.dataset.final = false;
     source.refresh();
   });
-  byId('hear').addEventListener('click', () => {
-    if (!opened.has('physics'))
-      for (const name of ['spin', 'mass_msun']) link.set('qnm.' + name, scene.get('spacetime.' + name));
-    goTo('physics', 'curve-qnm');
+  byId('hear').addEventListener('click', async () => {
+    await goTo('physics', 'curve-qnm');
+    for (const name of ['spin', 'mass_msun']) {
+      const input = byId('in-qnm-' + name);
+      input.value = Number(scene.get('spacetime.' + name).toFixed(4));
+      input.dispatchEvent(new Event('change'));
+    }
   });
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));

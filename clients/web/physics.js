@@ -161,7 +161,7 @@ const charts = [
     name: 'qnm',
     title: t('Ringdown', 'Ringdown: il buco che risuona'),
     inputs: [
-      { ...spin(0.7), min: -0.99, max: 0.99 },
+      { ...spin(0.7), min: -0.9999, max: 0.9999, step: 0.0001 },
       { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 },
       { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
