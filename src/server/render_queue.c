@@ -29,6 +29,7 @@ struct kd_render_queue {
     pthread_mutex_t lock;
     pthread_cond_t changed; /* anything below; few threads wait, so one condition serves all */
     bool opened, closing, running, encoding_background;
+    bool aside; /* something is under way that others go between the slices of */
     struct list waiting, encoding;
     unsigned limit, n_waiting, unfinished;
     size_t frame_bytes;
@@ -50,7 +51,12 @@ static void append(struct list *list, struct kd_render_job *job)
     list->end = &job->next;
 }
 
-static int rank(const struct kd_render_job *job) { return job->live ? 0 : job->background ? 2 : 1; }
+enum { LIVE, PICTURE, PATIENT, BACKGROUND, ANY };
+
+static int rank(const struct kd_render_job *job)
+{
+    return job->patient ? PATIENT : job->live ? LIVE : job->background ? BACKGROUND : PICTURE;
+}
 
 /* Behind its like, before the lower ranks. */
 static void append_ranked(struct list *list, struct kd_render_job *job)
@@ -77,20 +83,30 @@ static struct kd_render_job *take(struct list *list, struct kd_render_job **link
 
 static struct kd_render_job *take_first(struct list *list) { return take(list, &list->first); }
 
-/* The first, or one in the background, or of many slices, that has waited long enough. */
-static struct kd_render_job *take_next(struct list *list)
+static bool overdue(const struct kd_render_job *job, double now)
+{
+    double patience_ms = fmin(KD_BACKGROUND_MS, OTHERS * job->plan.estimate_ms);
+    return (rank(job) >= PATIENT || job->sliced) && now - job->submitted_ms > patience_ms;
+}
+
+/* One that is wanted no more, which takes no time and which others may wait for the end of; else the first of the ranks below, or
+ * of ANY rank one that has waited long enough. NULL: none. */
+static struct kd_render_job *take_next(struct list *list, int below)
 {
     double now = kd_clock_ms();
     for (struct kd_render_job **link = &list->first; *link; link = &(*link)->next)
-        if (((*link)->background || (*link)->sliced) && now - (*link)->submitted_ms > fmin(KD_BACKGROUND_MS, OTHERS * (*link)->plan.estimate_ms))
+        if (atomic_load(&(*link)->drop))
             return take(list, link);
-    return take_first(list);
+    for (struct kd_render_job **link = &list->first; *link && below == ANY; link = &(*link)->next)
+        if (overdue(*link, now))
+            return take(list, link);
+    return list->first && rank(list->first) < below ? take_first(list) : NULL;
 }
 
 /* The job, no longer in the list, stops counting as waiting. */
 static void leave(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
-    if (rank(job) != 1)
+    if (rank(job) != PICTURE)
         return;
     queue->n_waiting--;
     queue->waiting_ms = queue->n_waiting ? queue->waiting_ms - job->plan.estimate_ms : 0;
@@ -118,13 +134,14 @@ static bool unwanted(struct kd_render_queue *queue, struct kd_render_job *job)
 
 static void render_one(struct kd_render_queue *queue, struct kd_render_job *job);
 
-/* Between two slices of what is in the background: those that wait, as long as they may. Locked. */
-static void make_way(struct kd_render_queue *queue)
+/* Between two slices: those that wait, as long as they may. Locked. */
+static void make_way(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     double now = kd_clock_ms(), until = now + OTHERS * (now - queue->resumed_ms), left_ms = queue->running_ms;
-    while (queue->waiting.first && rank(queue->waiting.first) < 2 && queue->frame_bytes <= FRAME_BYTES && !queue->lost &&
-           kd_clock_ms() < until)
-        render_one(queue, take_first(&queue->waiting));
+    struct kd_render_job *other;
+    while (queue->frame_bytes <= FRAME_BYTES && !queue->lost && kd_clock_ms() < until &&
+           (other = take_next(&queue->waiting, rank(job))))
+        render_one(queue, other);
     queue->running = true;
     queue->running_ms = left_ms;
     queue->resumed_ms = kd_clock_ms();
@@ -137,8 +154,8 @@ static bool progress(void *user, double fraction)
 
     pthread_mutex_lock(&queue->lock);
     queue->running_ms = job->plan.estimate_ms * (1 - fraction);
-    if (job->background)
-        make_way(queue);
+    if (job->aside)
+        make_way(queue, job);
     pthread_mutex_unlock(&queue->lock);
     if (job->progress)
         job->progress(job, fraction);
@@ -183,10 +200,10 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
         return false;
     }
-    queue->resumed_ms = job->background ? kd_clock_ms() : queue->resumed_ms;
+    queue->resumed_ms = job->aside ? kd_clock_ms() : queue->resumed_ms;
     job->status = job->run ? job->run(job, queue->renderer, progress, job)
-                           : (job->background ? kd_render_aside : kd_render)(queue->renderer, &job->scene, &job->plan, progress, job,
-                                                                             &job->frame, &job->error);
+                           : (job->aside ? kd_render_aside : kd_render)(queue->renderer, &job->scene, &job->plan, progress, job,
+                                                                        &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
         mark_lost(queue, &job->error);
     else
@@ -216,6 +233,9 @@ static void render_one(struct kd_render_queue *queue, struct kd_render_job *job)
     leave(queue, job);
     queue->running = true;
     queue->running_ms = job->plan.estimate_ms;
+    bool aside = rank(job) >= PATIENT && !queue->aside;
+    job->aside = aside;
+    queue->aside |= aside;
     pthread_mutex_unlock(&queue->lock);
 
     bool encode = render(queue, job);
@@ -225,6 +245,7 @@ static void render_one(struct kd_render_queue *queue, struct kd_render_job *job)
         job->rendered(job);
 
     pthread_mutex_lock(&queue->lock);
+    queue->aside &= !aside;
     queue->running = false;
     queue->running_ms = 0;
     if (encode) {
@@ -243,7 +264,7 @@ static void *render_main(void *user)
         pthread_mutex_lock(&queue->lock);
         while (!queue->closing || queue->waiting.first) {
             if (queue->waiting.first && queue->frame_bytes <= FRAME_BYTES)
-                render_one(queue, take_next(&queue->waiting));
+                render_one(queue, take_next(&queue->waiting, ANY));
             else
                 pthread_cond_wait(&queue->changed, &queue->lock);
         }
@@ -422,7 +443,7 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     pthread_mutex_lock(&queue->lock);
     append_ranked(&queue->waiting, job);
     queue->unfinished++;
-    if (rank(job) == 1) {
+    if (rank(job) == PICTURE) {
         queue->n_waiting++;
         queue->waiting_ms += job->plan.estimate_ms;
     }

@@ -30,6 +30,9 @@ struct kd_render_job {
     /* Behind all that is not, which also goes between its slices; but it begins after KD_BACKGROUND_MS at the latest, and has a tenth of the
      * time: others cannot stop it for good. A picture, and not counted either. */
     bool background;
+    /* Of a live one that is long and that nobody drags: as `background`, but before that. If something in the background is under
+     * way it goes between its slices, and nothing between its own. plan: for half of the memory. */
+    bool patient;
     bool sliced; /* a part of what comes in many: has its tenth of the time as well, that frames of sessions leave it none */
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
@@ -45,6 +48,7 @@ struct kd_render_job {
     struct kd_buffer png;
     struct kd_frame frame; /* without its pixels */
     double queue_ms, encode_ms;
+    bool aside; /* others went between its slices: kd_render_aside */
     /* the queue's own */
     struct kd_render_job *next;
     struct kd_render_queue *queue;

@@ -126,7 +126,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         return status;
     }
     const struct kd_sessions_params sessions = { server->renders, or_default(params->sessions, 16),
-                                                 or_default(params->session_ms, KD_SESSION_IDLE_MS) };
+                                                 or_default(params->session_ms, KD_SESSION_IDLE_MS), server->longest_s };
     status = kd_sessions_create(&sessions, &server->sessions, error);
     if (status) {
         close(fd);

@@ -58,6 +58,7 @@ void kd_session_pump(struct kd_session *session);
 void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
 /* What is being rendered is given up if it refines: it is long, and nobody waits for it any more. */
 void kd_session_drop_refinement(struct kd_session *session);
+void kd_session_drop(struct kd_session *session); /* whatever it is */
 
 /* Whether somebody waits; the first frame is made before anybody asks. session_watch.c */
 bool kd_session_awaited(const struct kd_session *session);

@@ -63,19 +63,6 @@ static enum MHD_Result answer(struct kd_request *request, const struct kd_sessio
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
-static bool can_be_drawn(struct kd_server *server, const struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
-{
-    struct kd_capacity capacity;
-    kd_render_queue_capacity(server->renders, &capacity);
-    if (kd_plan_make(scene, &capacity, plan, error))
-        return false;
-    if (plan->estimate_ms <= server->longest_s * 1e3)
-        return true;
-    kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s, more than the %u s a render may take",
-                 plan->estimate_ms * 1e-3, server->longest_s);
-    return false;
-}
-
 enum MHD_Result kd_handle_sessions(struct kd_request *request)
 {
     struct kd_server *server = request->server;
@@ -87,7 +74,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     struct kd_error error = { 0 };
     if (!kd_scene_of_request(request, &scene, &problem, &error))
         return kd_reply_problem(request, &problem);
-    if (!can_be_drawn(server, &scene, &plan, &error))
+    if (kd_sessions_plan(server->sessions, &scene, &plan, &error))
         return kd_reply_error(request, &error);
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,

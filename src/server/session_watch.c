@@ -139,8 +139,10 @@ void kd_sessions_sweep(struct kd_sessions *all)
     for (struct kd_session *s = all->first, *next; s; s = next) {
         next = s->next;
         sweep_deadlines(s, now);
-        if (s->viewers || s->rendering || s->encoding)
+        if (s->viewers)
             s->used_ms = now;
+        else if (now - s->used_ms > LOOK_MS)
+            kd_session_drop_refinement(s);
         kd_session_pump(s);
         if (now - s->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "session %.4s... ends: nobody watches", s->id);

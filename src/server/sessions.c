@@ -42,6 +42,7 @@ void kd_session_unlist(struct kd_session *s)
     *link = s->next;
     s->listed = false;
     s->all->count--;
+    kd_session_drop(s);
     kd_session_wake(s);
     kd_session_let_go(s);
 }
@@ -54,6 +55,18 @@ struct kd_scene kd_session_scene(const struct kd_session *s, double now)
 }
 
 /* Not locked. */
+
+enum kd_status kd_sessions_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(all->params.renders, &capacity);
+    enum kd_status status = kd_plan_make(scene, &capacity, plan, error);
+    if (!status && plan->estimate_ms > all->params.longest_s * 1e3)
+        status = kd_error_set(error, KD_ETOOBIG,
+                              "a frame of this scene would take about %.0f s, more than the %u s a render may take",
+                              plan->estimate_ms * 1e-3, all->params.longest_s);
+    return status;
+}
 
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
                                 struct kd_session **out, struct kd_error *error)
@@ -143,10 +156,8 @@ void kd_session_state(struct kd_session *s, struct kd_session_state *out)
 enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, struct kd_session_state *out,
                                 struct kd_error *error)
 {
-    struct kd_capacity capacity;
     struct kd_plan plan;
     double now = kd_clock_ms();
-    kd_render_queue_capacity(s->all->params.renders, &capacity);
     pthread_mutex_lock(&s->all->lock);
     struct kd_scene scene = kd_session_scene(s, now);
     pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
@@ -154,7 +165,7 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     if (!status)
         status = kd_scene_validate(&scene, error);
     if (!status)
-        status = kd_plan_make(&scene, &capacity, &plan, error);
+        status = kd_sessions_plan(s->all, &scene, &plan, error);
     if (status)
         return status;
     pthread_mutex_lock(&s->all->lock);

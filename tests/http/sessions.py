@@ -432,6 +432,86 @@ class Sessions(daemon.Owned):
         self.patch(session, {'time': 5})
         self.assertEqual(self.frame(session).status, 200)
 
+    def test_a_patch_may_ask_for_no_more_than_a_session(self):
+        huge = {'image': {'width': 4096, 'height': 4096, 'samples': 8}}
+        self.assertProblem(self.daemon.post('/v1/sessions', huge), 422, 'too-large')
+        session = self.open()
+        problem = self.assertProblem(self.patch(session, huge), 422, 'too-large')
+        self.assertIn('more than the 600 s', problem['detail'])
+        self.assertEqual(self.status(session)['scene']['image']['width'], 64)
+
+    # Frames as asked would take half a second, or two, by the plan, so that coarser ones come first; all take as long as `time` says.
+    COARSE = {'image': {'width': 400, 'height': 300, 'samples': 2}, 'time': 1800}
+    LONG = {'image': {'width': 800, 'height': 600, 'samples': 2}, 'time': 1200}
+
+    def refining(self, scene, samples=2):
+        """A session in the middle of its step to so many samples, and the connection that waits for it."""
+        session, number = self.open(scene), 0
+        while True:
+            answer = self.frame(session, number)
+            number, quality = int(answer.header('Kerrd-Frame')), answer.header('Kerrd-Quality')
+            if f'width={scene["image"]["width"]} ' in quality and f'samples={samples - 1} ' in quality:
+                break
+        waiting = self.stream(session, f'/frame.png?after={number}')
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 1))
+        time.sleep(0.2)
+        return session, number, waiting
+
+    def first_frame_s(self):
+        begun = time.monotonic()
+        self.assertEqual(self.frame(self.open()).status, 200)
+        return time.monotonic() - begun
+
+    def test_the_end_of_a_session_frees_the_device(self):
+        session, _, waiting = self.refining(self.COARSE)
+        with waiting:
+            self.delete(session)
+            self.assertLess(self.first_frame_s(), 0.8)
+
+    def test_a_viewer_that_goes_away_frees_the_device(self):
+        session, number, waiting = self.refining({**self.COARSE, 'time': 3000})
+        waiting.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_renders_unfinished'] == 0, 2.3))
+        self.assertEqual(self.status(session)['frame'], number)
+
+    def test_a_long_refinement_makes_way(self):
+        other = self.open()
+        with self.stream(other, '/events'):
+            session, number, waiting = self.refining(self.LONG)
+            with waiting:
+                self.assertEqual(self.status(session)['frame'], number)
+                begun, passed, longest = time.monotonic(), int(self.frame(other).header('Kerrd-Frame')), 0
+                for i in range(20):
+                    asked = time.monotonic()
+                    self.patch(other, {'camera': {'inclination_deg': 20 + i}})
+                    passed = int(self.frame(other, passed).header('Kerrd-Frame'))
+                    longest = max(longest, time.monotonic() - asked)
+                self.assertLess(longest, 0.6)
+                self.assertEqual(self.status(session)['frame'], number, 'these came in between')
+                self.assertRegex(self.frame(session, number).header('Kerrd-Quality'), 'samples=2 .*final=1')
+                self.assertLess(time.monotonic() - begun, 10)
+
+    def test_a_long_refinement_that_was_alone_begins_again(self):
+        session, number, waiting = self.refining({**self.LONG, 'time': 1800})
+        with waiting:
+            self.assertLess(self.first_frame_s(), 0.8)
+            answer = self.frame(session, number)
+            self.assertRegex(answer.header('Kerrd-Quality'), 'samples=2 .*final=1')
+            self.assertEqual(int(answer.header('Kerrd-Frame')), number + 2)
+
+    def test_a_patch_ends_a_refinement_that_waits_its_turn(self):
+        """Behind the one of another session."""
+        with self.stream(self.open(), '/events'):
+            _, _, first = self.refining({**self.LONG, 'time': 3000})
+            with first:
+                session, number, waiting = self.refining({**self.LONG, 'time': 50})
+                with waiting:
+                    time.sleep(0.3)
+                    begun = time.monotonic()
+                    self.patch(session, {'camera': {'inclination_deg': 10}})
+                    self.assertEqual(self.frame(session, number).header('Kerrd-Revision'), '2')
+                    self.assertLess(time.monotonic() - begun, 0.7)
+
     def test_end_wakes_those_who_wait(self):
         session = self.open()
         number = self.frame(session).header('Kerrd-Frame')
