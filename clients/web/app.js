@@ -34,8 +34,8 @@ function sayWrong(text) {
   status.dataset.wrong = true;
 }
 
-async function goTo(name, part) {
-  const view = name in views ? name : 'lensing';
+async function turnTo(name) {
+  const view = Object.hasOwn(views, name) ? name : 'lensing';
   for (const other of Object.keys(views)) {
     byId(other).hidden = other !== view;
     const button = document.querySelector(`nav [data-view=${other}]`);
@@ -48,7 +48,11 @@ async function goTo(name, part) {
     opened.add(view);
     await views[view]?.().catch(error => sayWrong(error.message));
   }
-  byId(part)?.scrollIntoView();
+}
+
+function goTo(view) {
+  if (view !== document.body.dataset.view) link.enter(view === 'lensing' ? null : view);
+  return turnTo(view);
 }
 
 function buildLanguages() {
@@ -116,6 +120,7 @@ async function watch(scene) {
     const { complain } = await parts;
     complain(error.pointer, error.message);
     sayWrong(error.message);
+    if (error.again) status.append(t(' – trying again', ' – si riprova'));
   }
 
   const source = openSource(scene, size, show, refuse);
@@ -135,7 +140,8 @@ async function watch(scene) {
     source.refresh();
   });
   byId('hear').addEventListener('click', async () => {
-    await goTo('physics', 'curve-qnm');
+    await goTo('physics');
+    byId('curve-qnm').scrollIntoView();
     for (const name of ['spin', 'mass_msun']) {
       const input = byId('in-qnm-' + name);
       input.value = Number(scene.get('spacetime.' + name).toFixed(4));
@@ -162,14 +168,15 @@ async function start() {
   buildLanguages();
   for (const button of document.querySelectorAll('nav [data-view]'))
     button.addEventListener('click', () => goTo(button.dataset.view));
-  goTo(link.get('view'));
+  turnTo(link.get('view'));
+  link.onReturn(turnTo);
   const scene = await Scene.load();
+  await openPreset(scene);
   if (scene.unknown.length)
     byId('link-fault').textContent = t(
       `Of the link this was not understood: ${scene.unknown.join(', ')}.`,
       `Del collegamento questo non si capisce: ${scene.unknown.join(', ')}.`,
     );
-  await openPreset(scene);
   await watch(scene);
   await buildPresets(scene);
 }

@@ -246,6 +246,7 @@ const refusals = [
   ['{} is {}, inside the horizon at {}; allowed is outside', '{} è {}, dentro l’orizzonte, a {}; ammesso è fuori'],
   ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
   ['{} is {}, and l is {}; allowed is {} to {}', '{} è {}, e l è {}; ammessi sono da {} a {}'],
+  ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
   ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
 ].map(([english, italian]) => {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
@@ -331,6 +332,7 @@ export const sentences = {
     'aritmetica: raggi a 64 bit; i raggi dei loro attraversamenti sono conservati a 32 bit',
   'rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs':
     'raggi: seguiti in coordinate di Kerr–Schild per confronto; docs/accuracy.md dice quanto costa',
+  'the server is stopping and takes no new sessions': 'il server si sta fermando e non apre nuove sessioni',
   'a test particle: it has no mass of its own, radiates nothing and is not torn':
     'una particella di prova: non ha massa propria, non irradia e non si spezza',
 };

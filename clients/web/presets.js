@@ -11,7 +11,11 @@ export async function openPreset(scene) {
   const name = link.get('preset'),
     held = scene.held;
   if (!name || essence(scene, scene.document()) !== '{}') return;
-  scene.replace(await document_of(name));
+  const document = await document_of(name).catch(error => {
+    if (error.status !== 404) throw error;
+    scene.unknown.push('preset');
+  });
+  if (document) scene.replace(document);
   if (held) scene.hold(true);
 }
 

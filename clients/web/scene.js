@@ -27,8 +27,9 @@ function kind(spec) {
 }
 
 function parse(field, text) {
-  if (field.type === 'switch') return text === 'true';
-  return field.type === 'choice' || text === field.word ? text : Number(text);
+  if (field.type === 'switch') return text === 'true' || (text === 'false' ? false : NaN);
+  if (field.type === 'choice' || text === field.word) return text;
+  return text.trim() && Number.isFinite(Number(text)) ? Number(text) : NaN;
 }
 
 export class Scene extends EventTarget {

@@ -1,4 +1,6 @@
 // What the server is asked for besides pictures. An answer that is no success becomes a Problem (RFC 9457).
+import { t } from './i18n.js';
+
 export class Problem extends Error {
   constructor(document, status) {
     super(document.detail ?? document.title ?? `HTTP ${status}`);
@@ -8,7 +10,9 @@ export class Problem extends Error {
 }
 
 export async function ask(url, options) {
-  const answer = await fetch(url, options);
+  const answer = await fetch(url, options).catch(() => {
+    throw new Error(t('The server does not answer', 'Il server non risponde'));
+  });
   if (!answer.ok) throw new Problem(await answer.json().catch(() => ({})), answer.status);
   return answer;
 }

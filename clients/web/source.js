@@ -127,8 +127,9 @@ export function openSource(scene, size, shown, failed) {
       if (!pulling) pull();
     } catch (error) {
       if (error.status === 404 && session) return ((session = null), send());
+      error.again = !(error instanceof Problem) || error.status >= 500;
       failed(error);
-      if (!(error instanceof Problem) || error.status >= 500) timer = setTimeout(put, again_ms);
+      if (error.again) timer = setTimeout(put, again_ms);
     }
   }
   const put = latest(send);
@@ -161,7 +162,7 @@ export function openSource(scene, size, shown, failed) {
       try {
         await next(from);
       } catch (error) {
-        if (error.status !== 404) failed(error);
+        if (error.status !== 404) failed(Object.assign(error, { again: true }));
         else if (session === from) ((session = null), put());
         await pause(error.status === 404 ? 0 : again_ms);
       }

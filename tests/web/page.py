@@ -480,10 +480,53 @@ class Page(unittest.TestCase):
         page = self.open(viewport={'width': 1100, 'height': 420})
         self.open_groups(page)
         self.assertEqual(page.evaluate('() => document.documentElement.scrollHeight'), 420, 'the panel scrolls, the page does not')
+        page = self.open(viewport={'width': 500, 'height': 320}, device_scale_factor=2)  # a small window, and twice the size
+        box = page.locator('#stage').bounding_box()
+        self.assertLess(box['y'] + box['height'], 300)
         page = self.open('lang=it', viewport={'width': 844, 'height': 390}, has_touch=True)
         self.assertLess(page.locator('header').bounding_box()['height'], 60)
         box = page.locator('#stage').bounding_box()
         self.assertLess(box['y'] + box['height'], 320, 'there is room beside the picture to scroll by')
+
+    def test_back_goes_from_view_to_view(self):
+        page = self.open()
+        for view in ('physics', 'scale'):
+            page.click(f'nav [data-view={view}]')
+        loaded = len([r for r in self.requests if r.url.endswith('/app.js')])
+        self.assertIn('view=scale', page.url)
+        page.go_back()
+        page.wait_for_selector('body[data-view=physics]')
+        page.fill('#in-qnm-spin', '0.9')
+        page.keyboard.press('Tab')
+        page.go_back()
+        page.wait_for_selector('body[data-view=lensing]')
+        page.wait_for_timeout(300)
+        self.assertNotIn('view=', page.url)
+        self.assertIn('qnm.spin=0.9', page.url, 'what was changed stays')
+        page.go_forward()
+        page.wait_for_selector('body[data-view=physics]')
+        self.assertEqual(page.input_value('#in-qnm-spin'), '0.9')
+        self.assertEqual(len([r for r in self.requests if r.url.endswith('/app.js')]), loaded, 'without a new load')
+        page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # as if typed
+        page.wait_for_selector('html[lang=it] ' + AT_REST)
+        self.assertEqual(self.field(page, 'spacetime.spin'), '0.5')
+        page.go_back()
+        page.wait_for_selector('html[lang=en] body[data-view=physics]')
+
+    def test_a_server_that_is_full_or_gone(self):
+        full = dict(status=503, content_type='application/problem+json', body='{"status":503,"detail":"16 sessions are open, as many as may"}')
+        for lang, answer, told in (('it', lambda r: r.fulfill(**full), 'sono aperte 16 sessioni, quante se ne possono aprire – si riprova'),
+                                   ('en', lambda r: r.abort(), 'The server does not answer – trying again')):
+            context = self.browser.new_context(viewport={'width': 1000, 'height': 640})
+            self.contexts.append(context)
+            page = context.new_page()
+            page.route('**/v1/sessions', answer)
+            page.goto(self.base + '#lang=' + lang)
+            page.wait_for_selector('#status[data-wrong]')
+            self.assertEqual(page.inner_text('#status'), told)
+            page.unroute('**/v1/sessions')
+            page.wait_for_selector(AT_REST)
+            self.assertIsNone(page.get_attribute('#status', 'data-wrong'))
 
     def test_a_session_that_has_ended_is_opened_anew(self):
         page = self.open()
@@ -642,6 +685,17 @@ class Page(unittest.TestCase):
         page.keyboard.press('Enter')
         page.wait_for_timeout(300)
         self.assertEqual((self.field(page, 'spacetime.spin'), page.locator('[data-path="spacetime.spin"] input:invalid').count()), ('2', 1))
+
+        page = self.open('lang=en&camera.r=&time=1e400&disk.slow_light=yes&spacetime.spin=0.5')
+        self.assertEqual(page.inner_text('#link-fault'), 'Of the link this was not understood: camera.r, disk.slow_light, time.')
+        self.assertEqual(self.field(page, 'spacetime.spin'), '0.5')
+
+    def test_a_link_to_no_preset(self):
+        self.expected = '404'
+        page = self.open('lang=en&preset=nosuch')
+        self.assertEqual(page.inner_text('#link-fault'), 'Of the link this was not understood: preset.')
+        self.assertEqual(page.input_value('#preset'), '')
+        self.assertFalse(page.get_attribute('#status', 'data-wrong'))
 
     def test_when_the_rings_have_faded(self):
         page = self.open('lang=en&motion.time_rate=60')
