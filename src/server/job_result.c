@@ -256,6 +256,8 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
     enum MHD_Result refused;
     struct kd_job_status status;
     uint64_t frame;
+    if (!kd_reply_only(request, (const char *const[]) { "format", "frame", NULL }, &refused))
+        return refused;
     struct kd_job *job = kd_job_of(request, &refused);
     if (!job)
         return refused;

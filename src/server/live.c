@@ -82,6 +82,8 @@ enum MHD_Result kd_handle_session_frame(struct kd_request *request)
     enum MHD_Result refused;
     if (request->viewer)
         return look(request);
+    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", NULL }, &refused))
+        return refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
     if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
@@ -225,6 +227,13 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     return result;
 }
 
+/* An EventSource that lost its connection says what it had. */
+static uint64_t last_event(struct kd_request *request)
+{
+    const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
+    return id ? strtoull(id, NULL, 10) : 0;
+}
+
 static enum MHD_Result open_stream(struct kd_request *request, int form, const char *type)
 {
     enum MHD_Result refused;
@@ -240,6 +249,7 @@ static enum MHD_Result open_stream(struct kd_request *request, int form, const c
     }
     s->form = form;
     s->viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
+                                     .seen = form == EVENTS ? last_event(request) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
     if (form == MULTIPART)

@@ -125,6 +125,17 @@ enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error
     return kd_reply_problem(request, &problem);
 }
 
+bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused)
+{
+    struct kd_error error = { 0 };
+    if (!kd_target_only(&request->target, known, &error))
+        return true;
+    struct kd_problem problem = kd_problem_from(&error);
+    problem.type = KD_PROBLEM_INVALID_PARAMETERS;
+    *refused = kd_reply_problem(request, &problem);
+    return false;
+}
+
 enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
                               const char *type)
 {

@@ -29,6 +29,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
 /* kd_problem_from, sent. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
+/* Whether kd_target_only holds; if not *refused is the answer. */
+bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused);
 
 /* All values of a request header that is a list, joined by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);

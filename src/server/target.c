@@ -1,8 +1,10 @@
 #include "server/target.h"
 
 #include "image/utf8.h"
+#include "scene/text.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -102,6 +104,25 @@ enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_erro
             if (!strcmp(target->pairs[k].name, target->pairs[i].name))
                 return kd_error_field(error, "", "the query gives %.100s twice", target->pairs[i].name);
     return KD_OK;
+}
+
+enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error)
+{
+    char list[100] = "", pointer[sizeof error->pointer] = "", given[60];
+    for (size_t i = 0; known[i]; i++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", i ? ", " : "", known[i]);
+    for (size_t i = 0; i < target->n_pairs; i++) {
+        const char *name = target->pairs[i].name;
+        const char *const *one = known;
+        while (*one && strcmp(*one, name))
+            one++;
+        if (*one || !strcmp(name, "token"))
+            continue;
+        kd_text_pointer(pointer, sizeof pointer, name);
+        kd_text_clip(given, sizeof given, name);
+        return kd_error_field(error, pointer, "there is no parameter %s here; known are %s", given, list);
+    }
+    return kd_target_distinct(target, error);
 }
 
 bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out)

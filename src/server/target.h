@@ -27,6 +27,8 @@ void kd_target_finish(struct kd_target *target);
 
 /* KD_EINVAL: the query gives one twice. */
 enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
+/* KD_EINVAL: that, or it gives one that is not among the known, which end with a NULL, and is no token either. */
+enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error);
 /* A parameter of the query, NULL: it is not given. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
 /* The same as a whole number, or what holds without it; false: it is not one, or above most. */

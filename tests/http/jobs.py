@@ -300,6 +300,7 @@ class Jobs(Case):
         self.assertProblem(self.daemon.get(self.at(job, '/result')), 409, 'not-ready')
         self.assertProblem(self.daemon.get(self.at(job, '/result?format=png&frame=1')), 409, 'not-ready')
         self.assertEqual(self.daemon.get(self.at(job, '/result?format=png&frame=0')).status, 200)
+        self.assertProblem(self.daemon.get(self.at(job, '/result?fromat=png&frame=0')), 422, 'invalid-parameters', '/fromat')
 
     def test_a_frame_that_fails(self):
         job = self.make({'scenes': [SCENE, {**SCENE, 'time': -3}, SCENE]})

@@ -176,6 +176,12 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.daemon.get('/v1/sessions').header('Allow'), 'POST')
         for query in ('after=x', 'after=-1', 'after=', 'after=1.5', 'wait_ms=60001', 'wait_ms=1e3', 'after=1111111111111111111'):
             self.assertProblem(self.daemon.get(self.at(session, '/frame.png?' + query)), 422, 'invalid-parameters')
+        for query, pointer, word in (('aftr=1', '/aftr', 'there is no parameter aftr here; known are after, wait_ms'), ('after=1&wait=5', '/wait', 'wait here'),
+                                     ('after=1&after=2', '', 'twice')):
+            problem = self.assertProblem(self.daemon.get(self.at(session, '/frame.png?' + query)), 422, 'invalid-parameters')
+            self.assertEqual(problem.get('pointer', ''), pointer)
+            self.assertIn(word, problem['detail'])
+        self.assertEqual(self.daemon.get(self.at(session, '/frame.png?token=' + session['token'])).status, 200)
         self.assertProblem(self.daemon.post('/v1/sessions', {'camera': {'r': 0}}), 422, 'invalid-scene')
 
     def test_pull_waits_for_what_is_newer(self):
@@ -325,6 +331,22 @@ class Sessions(daemon.Owned):
         data = json.loads(events[2][1])
         self.assertEqual((data['frame'], data['revision'], data['quality']['width']), (3, 3, 64))
         self.assertLessEqual({'passes', 'accuracy', 'fps', 'time', 'bytes'}, set(data))
+
+    def test_events_go_on_where_they_broke_off(self):
+        session = self.open()
+        self.frame(session)
+        for sent, first in ((None, 1), ('1', 2), ('junk', 2)):
+            head = f'GET {self.at(session, "/events")} HTTP/1.1\r\nHost: localhost\r\n' + (f'Last-Event-ID: {sent}\r\n' if sent else '')
+            with self.daemon.connect() as s:
+                s.sendall((head + '\r\n').encode())
+                self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 1))
+                if sent == '1':
+                    self.patch(session, {'camera': {'inclination_deg': 20}})
+                text = b''
+                while not (found := re.search(rb'id: (\d+)\n', text)):
+                    text += s.recv(4096)
+                self.assertEqual(int(found[1]), first)
+            self.assertTrue(daemon.eventually(lambda: self.status(session)['viewers'] == 0))
 
     def event(self, scene):
         """The data of the first event of a session that shows this scene."""
