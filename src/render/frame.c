@@ -1,9 +1,8 @@
 /* One frame: the plan's passes, band by band, in short submissions. */
-#include "render/internal.h"
+#include "render/frame_job.h"
 
 #include "render/audit.h"
 #include "render/camera.h"
-#include "render/lens_listed.h"
 #include "render/particles.h"
 
 #include <math.h>
@@ -12,25 +11,6 @@
 #include <string.h>
 #include <time.h>
 
-#define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
-
-struct job {
-    struct kd_renderer *r;
-    struct kd_store *store;
-    struct kd_particles *particles;
-    bool aside; /* progress may render */
-    const struct kd_scene *scene;
-    const struct kd_plan *plan;
-    struct kd_camera_push camera;
-    struct kd_lens_map *lens;
-    uint64_t undecided;  /* listed rays that an engine gave up */
-    double listed_ms, audit_ms; /* the host's time for them, and for the audit */
-    kd_progress_fn progress;
-    void *user;
-    double done, weight; /* rows so far, of all passes */
-    struct kd_error *error;
-};
-
 double kd_render_now_ms(void)
 {
     struct timespec t;
@@ -38,7 +18,7 @@ double kd_render_now_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-static enum kd_status report(struct job *j, double rows)
+enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 {
     j->done += rows;
     if (j->aside) { /* what others measure must not hold what is under way here */
@@ -51,155 +31,8 @@ static enum kd_status report(struct job *j, double rows)
     return KD_OK;
 }
 
-static uint32_t band_first(const struct job *j, uint32_t band) { return band * j->plan->band_rows; }
-static uint32_t band_rows(const struct job *j, uint32_t band)
-{
-    uint32_t left = j->plan->height - band_first(j, band);
-    return left < j->plan->band_rows ? left : j->plan->band_rows;
-}
-static struct kd_vk_buffer *lens_buffer(const struct job *j, uint32_t band)
-{
-    return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
-}
-
-static uint32_t groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
-
-/* Rows of pixels that one submission takes, given nanoseconds a row. */
-static uint32_t slice_rows(double ns_per_row, uint32_t rows)
-{
-    double n = SLICE_MS * 1e6 / fmax(ns_per_row, 1);
-    return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
-}
-
-/* NULL where no kernel is run for it. */
-static enum kd_status trace_kernel(struct job *j, const struct kd_vk_pipeline **out)
-{
-    const struct kd_plan *p = j->plan;
-    *out = NULL;
-    if (p->path == KD_LENS_LISTED)
-        return KD_OK;
-    if (p->path == KD_LENS_RADIUS)
-        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, (uint32_t[]){ p->orders }, 1, out,
-                              j->error);
-    enum kd_status status = kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error);
-    if (status)
-        return status;
-    const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t constants[] = { p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method, p->fall };
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 7, out, j->error);
-}
-
-static enum kd_status transfer_kernel(struct job *j, const struct kd_vk_pipeline **out)
-{
-    const struct kd_plan *p = j->plan;
-    const struct kd_disk *d = &j->scene->disk;
-    const uint32_t alpha = p->orders * (1 + p->phi + p->delay + p->fall); /* the planes' order: kd_lens_listed */
-    const uint32_t constants[] = {
-        p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
-        alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
-        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0, p->fall,
-    };
-    _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);
-}
-
-/* Run a kernel over the rows of a band in slices. rays: the grid is that of the rays, not of the pixels. */
-static enum kd_status run_band(struct job *j, uint32_t band, const struct kd_vk_dispatch *base, bool rays,
-                               double ns_per_ray)
-{
-    const struct kd_plan *p = j->plan;
-    uint32_t first = band_first(j, band), rows = band_rows(j, band);
-    double row_ns = ns_per_ray * p->width * p->side * p->side;
-    uint32_t step = slice_rows(row_ns, rows);
-    for (uint32_t done = 0; done < rows; done += step) {
-        uint32_t n = rows - done < step ? rows - done : step;
-        struct kd_camera_push push = j->camera;
-        push.row0 = (first + done) * p->side;
-        push.rows = n * p->side;
-        push.band0 = first * p->side;
-        push.stride = p->width * p->side * p->band_rows * p->side;
-        struct kd_vk_dispatch d = *base;
-        d.push = &push;
-        d.groups[0] = groups(rays ? (uint64_t)p->width * p->side : p->width);
-        d.groups[1] = rays ? push.rows : n;
-        enum kd_status status = kd_vk_dispatch(j->r->vk, &d, j->error);
-        if (!status)
-            status = kd_vk_submit(j->r->vk, NULL, j->error);
-        if (!status)
-            status = report(j, n);
-        if (status)
-            return status;
-    }
-    return KD_OK;
-}
-
-static enum kd_status list_band(struct job *j, uint32_t band)
-{
-    const struct kd_plan *p = j->plan;
-    uint32_t first = band_first(j, band) * p->side, rows = band_rows(j, band) * p->side;
-    uint64_t width = (uint64_t)p->width * p->side;
-    uint32_t step = slice_rows(p->trace_ns * (double)width, rows);
-    enum kd_status status = KD_OK;
-    double start = kd_render_now_ms();
-    for (uint32_t done = 0; done < rows && !status; done += step) {
-        const struct kd_lens_rows part = {
-            .first = first + done, .count = rows - done < step ? rows - done : step, .to = lens_buffer(j, band),
-            .offset = done * width, .stride = width * p->band_rows * p->side,
-        };
-        status = kd_lens_listed(j->r, j->scene, p, &part, &j->undecided, j->error);
-        if (!status)
-            status = report(j, (double)part.count / p->side);
-    }
-    j->listed_ms += kd_render_now_ms() - start;
-    return status;
-}
-
-/* pipeline: of trace_kernel. */
-static enum kd_status trace_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline)
-{
-    const struct kd_plan *p = j->plan;
-    if (p->path == KD_LENS_LISTED)
-        return list_band(j, band);
-    struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, band), 0, 0, true } }, NULL, { 0 } };
-    if (p->path == KD_LENS_MAP)
-        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
-    return run_band(j, band, &d, true, p->trace_ns);
-}
-
-static enum kd_status transfer_band(struct job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
-{
-    const struct kd_vk_dispatch d = {
-        "transfer",
-        pipeline,
-        { { lens_buffer(j, band), 0, 0, false },
-          { j->store->transfer, 0, 0, false },
-          { j->store->radiance.buffers[band], 0, 0, true },
-          { j->plan->particles.count ? j->particles->density : j->store->transfer, 0, 0, false } },
-        NULL,
-        { 0 },
-    };
-    return run_band(j, band, &d, false, ns);
-}
-
-static enum kd_status trace_and_transfer(struct job *j, bool reused, const struct kd_capacity *c)
-{
-    const struct kd_plan *p = j->plan;
-    const struct kd_vk_pipeline *trace = NULL, *transfer;
-    bool needed = !reused && p->planes;
-    enum kd_status status = needed ? trace_kernel(j, &trace) : KD_OK;
-    if (!status)
-        status = transfer_kernel(j, &transfer);
-    for (uint32_t band = 0; band < p->bands && !status; band++) {
-        if (needed)
-            status = trace_band(j, band, trace);
-        if (!status)
-            status = transfer_band(j, band, transfer, c->ns_per_sample_transfer);
-    }
-    return status;
-}
-
 /* Histogram of the whole picture to the host. */
-static enum kd_status measure(struct job *j)
+static enum kd_status measure(struct kd_frame_job *j)
 {
     struct kd_vk *vk = j->r->vk;
     struct kd_store *s = j->store;
@@ -208,9 +41,9 @@ static enum kd_status measure(struct job *j)
     if (!status)
         status = kd_vk_fill(vk, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
-        uint32_t pixels = j->plan->width * band_rows(j, band);
+        uint32_t pixels = j->plan->width * kd_frame_band_rows(j, band);
         const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
-        uint32_t n = groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
+        uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         status = kd_vk_dispatch(vk,
                                 &(struct kd_vk_dispatch){ "expose",
                                                           expose,
@@ -228,7 +61,7 @@ static enum kd_status measure(struct job *j)
 }
 
 /* Sums of the light of all bands, on their way to the host. */
-static enum kd_status add_up(struct job *j)
+static enum kd_status add_up(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
@@ -238,8 +71,8 @@ static enum kd_status add_up(struct job *j)
     for (uint32_t band = 0; band < p->bands && !status; band++) {
         const struct kd_light_push push = {
             .pixels_x = p->width,
-            .pixels = p->width * band_rows(j, band),
-            .row0 = band_first(j, band),
+            .pixels = p->width * kd_frame_band_rows(j, band),
+            .row0 = kd_frame_band_first(j, band),
             .first = band * per_band * KD_GROUP_SIZE,
             .spots = 3 * p->width * p->band_rows,
             .middle_x = (float)(0.5 * (p->width - 1)),
@@ -284,7 +117,7 @@ static double auto_exposure(const uint32_t *counts, int tone_map)
 }
 
 /* Post and read back, one band at a time. */
-static enum kd_status finish_pixels(struct job *j, struct kd_frame *frame)
+static enum kd_status finish_pixels(struct kd_frame_job *j, struct kd_frame *frame)
 {
     struct kd_vk *vk = j->r->vk;
     struct kd_store *s = j->store;
@@ -295,8 +128,8 @@ static enum kd_status finish_pixels(struct job *j, struct kd_frame *frame)
     const uint32_t constants[] = { scene->style.tone_map == KD_TONE_ACES, wide };
     enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, constants, 2, &post, j->error);
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
-        uint32_t pixels = frame->width * band_rows(j, band);
-        uint32_t first = frame->width * band_first(j, band);
+        uint32_t pixels = frame->width * kd_frame_band_rows(j, band);
+        uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
             .gain = (float)exp2(frame->exposure),
             .levels = wide ? 65535 : 255,
@@ -311,7 +144,7 @@ static enum kd_status finish_pixels(struct job *j, struct kd_frame *frame)
                                                           { { s->radiance.buffers[band], 0, 0, false },
                                                             { s->words, 0, 0, true } },
                                                           &push,
-                                                          { groups(((uint64_t)pixels + 3) / 4) } },
+                                                          { kd_frame_groups(((uint64_t)pixels + 3) / 4) } },
                                 j->error);
         if (!status)
             status = kd_vk_copy(vk, "readback", s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);
@@ -322,7 +155,7 @@ static enum kd_status finish_pixels(struct job *j, struct kd_frame *frame)
         if (!status)
             memcpy((char *)frame->pixels + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
         if (!status)
-            status = report(j, band_rows(j, band));
+            status = kd_frame_report(j, kd_frame_band_rows(j, band));
     }
     return status;
 }
@@ -336,7 +169,7 @@ static void add_timing(struct kd_frame *frame, const char *name, double ms)
     t->ms = ms;
 }
 
-static void collect_timings(const struct job *j, struct kd_frame *frame, double total_ms)
+static void collect_timings(const struct kd_frame_job *j, struct kd_frame *frame, double total_ms)
 {
     struct kd_vk_time times[KD_VK_MAX_PASSES];
     size_t n = kd_vk_times(j->r->vk, times);
@@ -349,25 +182,7 @@ static void collect_timings(const struct job *j, struct kd_frame *frame, double 
     add_timing(frame, "total", total_ms);
 }
 
-/* Rays of the whole map that were given up. */
-static enum kd_status count_undecided(struct job *j, uint64_t *out)
-{
-    struct kd_store *s = j->store;
-    struct kd_vk *vk = j->r->vk;
-    *out = j->undecided;
-    if (j->plan->path != KD_LENS_MAP || !j->plan->sky)
-        return KD_OK;
-    enum kd_status status = kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error);
-    if (!status)
-        status = kd_vk_submit(vk, NULL, j->error);
-    if (!status)
-        status = kd_vk_wait(vk, 0, j->error);
-    if (!status)
-        *out = *(const uint32_t *)kd_vk_buffer_map(s->counts);
-    return status;
-}
-
-static enum kd_status run(struct job *j, struct kd_frame *frame)
+static enum kd_status run(struct kd_frame_job *j, struct kd_frame *frame)
 {
     struct kd_renderer *r = j->r;
     struct kd_capacity c;
@@ -388,7 +203,7 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     if (j->plan->particles.count)
         status = kd_particles_deposit(r, j->particles, j->scene, &j->plan->particles, c.ns_per_particle, j->error);
     if (!status)
-        status = trace_and_transfer(j, reused, &c);
+        status = kd_frame_light(j, reused);
     if (!status && j->plan->light)
         status = add_up(j);
     frame->exposure = j->scene->style.exposure;
@@ -408,14 +223,14 @@ static enum kd_status run(struct job *j, struct kd_frame *frame)
     if (j->plan->audit && !reused)
         j->audit_ms = kd_render_now_ms() - audited;
     if (!status && !reused)
-        status = count_undecided(j, &j->lens->accuracy.undecided);
+        status = kd_frame_undecided(j, &j->lens->accuracy.undecided);
     if (!status && !reused)
         kd_store_commit(j->store, j->lens, j->plan);
     frame->accuracy = j->lens->accuracy;
     return status;
 }
 
-static enum kd_status render(struct job *job, struct kd_frame *out)
+static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
     const struct kd_plan *plan = job->plan;
     struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = job->scene->image.bit_depth };
@@ -438,7 +253,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
     double start = kd_render_now_ms();
-    struct job job = {
+    struct kd_frame_job job = {
         .r = renderer, .store = &renderer->store, .particles = &renderer->particles, .scene = scene, .plan = plan,
         .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
     };
@@ -455,64 +270,13 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
                                kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
     double start = kd_render_now_ms();
-    struct job job = {
+    struct kd_frame_job job = {
         .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true,
         .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
     };
     enum kd_status status = render(&job, out);
     if (!status)
         add_timing(out, "total", kd_render_now_ms() - start);
-    return status;
-}
-
-/* Copy one band of the lens map to its place in each plane. */
-static enum kd_status read_band(struct job *j, uint32_t band, struct kd_vk_buffer *host, float *planes)
-{
-    const struct kd_plan *p = j->plan;
-    struct kd_vk *vk = j->r->vk;
-    uint64_t row = (uint64_t)p->width * p->side * p->side, stride = row * p->band_rows;
-    uint64_t first = row * band_first(j, band), rays = row * band_rows(j, band);
-    for (uint32_t plane = 0; plane < p->planes; plane++) {
-        enum kd_status status = kd_vk_copy(vk, "readback", host, 0, lens_buffer(j, band), 4 * plane * stride, 4 * rays, j->error);
-        if (!status)
-            status = kd_vk_submit(vk, NULL, j->error);
-        if (!status)
-            status = kd_vk_wait(vk, 0, j->error);
-        if (status)
-            return status;
-        memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);
-    }
-    return KD_OK;
-}
-
-enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                              float *planes, double *trace_ms, struct kd_error *error)
-{
-    struct job job = { .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
-                       .error = error };
-    const struct kd_vk_pipeline *trace;
-    struct kd_vk_buffer *host = NULL;
-    bool reused;
-    kd_vk_times_reset(renderer->vk);
-    enum kd_status status = kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error);
-    if (!status)
-        status = kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
-                                     KD_VK_READBACK, "lens map on the host", &host, error);
-    if (!status)
-        status = trace_kernel(&job, &trace);
-    for (uint32_t band = 0; band < plan->bands && !status; band++) {
-        status = trace_band(&job, band, trace);
-        if (!status)
-            status = read_band(&job, band, host, planes);
-    }
-    if (status)
-        kd_vk_discard(renderer->vk);
-    kd_vk_buffer_destroy(renderer->vk, host);
-    struct kd_vk_time times[KD_VK_MAX_PASSES];
-    size_t n = kd_vk_times(renderer->vk, times);
-    for (size_t i = 0; i < n && trace_ms; i++)
-        if (!strcmp(times[i].pass, "trace"))
-            *trace_ms = times[i].ms;
     return status;
 }
 
