@@ -147,6 +147,10 @@ export const fields = {
   'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla, o un reticolo celeste che mostra la lente'],
   'sky.brightness': ['Luminosità', 'Luminosità del cielo in unità della massima brillanza del disco a g = 1'],
   'sky.grid_deg': ['Passo del reticolo', 'Spaziatura del reticolo celeste'],
+  'image.critical_samples': [
+    'Campioni al bordo critico',
+    'Lo stesso per i pixel attraversati dalla curva critica, dove l’anello di fotoni è più sottile di loro; se non più dei campioni: come altrove',
+  ],
   'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati'],
   'image.bit_depth': ['Profondità', 'Bit per canale: 8 o 16'],
   'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1'],

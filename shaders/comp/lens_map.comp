@@ -24,24 +24,29 @@ layout(constant_id = 2) const bool FINITE = false;
 layout(constant_id = 3) const bool PHI = false;
 layout(constant_id = 4) const bool SKY = false;
 layout(constant_id = 6) const bool FALL = false;
+layout(constant_id = 7) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
+layout(constant_id = 8) const uint GENERATOR = 1; /* of the lattice that they are on */
+layout(constant_id = 9) const uint SHIFT = 0;
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
 #define U(name) uint name;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
-layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
+layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
 #include "camera.glsl"
+#include "place.glsl"
 #include "escape.glsl"
 
 const float EPSILON = 6e-8; /* unit roundoff */
 
 void main()
 {
-    uint x = gl_GlobalInvocationID.x, row = cam.row0 + gl_WorkGroupID.y;
-    if (x >= cam.width)
+    uvec2 step_;
+    uint at;
+    if (!kd_this_ray(step_, at))
         return;
-    kd_ray ray = kd_camera_ray(x, row);
+    kd_ray ray = kd_camera_ray(step_.x, step_.y);
     kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_azimuth azimuth;
@@ -51,7 +56,6 @@ void main()
         psi = azimuth.first;
     }
 
-    uint at = (row - cam.band0) * cam.width + x;
     kd_state y;
     y.w = ray.w;
     y.dw = ray.dw;

@@ -8,26 +8,30 @@
 #include "radial_closed.glsl"
 
 layout(constant_id = 0) const uint ORDERS = 3;
+layout(constant_id = 1) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
+layout(constant_id = 2) const uint GENERATOR = 1; /* of the lattice that they are on */
+layout(constant_id = 3) const uint SHIFT = 0;
 layout(local_size_x = KD_GROUP_SIZE) in;
 const bool FINITE = false;
 
 #define F(name) float name;
 #define U(name) uint name;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
-layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
+layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "camera.glsl"
+#include "place.glsl"
 
 void main()
 {
-    uint x = gl_GlobalInvocationID.x, row = cam.row0 + gl_WorkGroupID.y;
-    if (x >= cam.width)
+    uvec2 step_;
+    uint at;
+    if (!kd_this_ray(step_, at))
         return;
-    kd_ray ray = kd_camera_ray(x, row);
+    kd_ray ray = kd_camera_ray(step_.x, step_.y);
     kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_radial radial = kd_radial_of(m, cam.horizon);
 
-    uint at = (row - cam.band0) * cam.width + x;
     kd_radius r = kd_radial_at(radial, polar.first, 0);
     bool alive = polar.crosses && r.valid;
     lens[at] = alive ? r.w : 0.0;

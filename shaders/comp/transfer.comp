@@ -28,6 +28,9 @@ layout(constant_id = 13) const bool SLOW = false; /* particles and spots as they
 layout(constant_id = 14) const uint SPOTS = 0;    /* hot spots that are on */
 layout(constant_id = 15) const bool RINGDOWN = false; /* the hole was struck: image orders 1 and up ring */
 layout(constant_id = 16) const bool PLUNGE = false; /* some particles fall from the ISCO; the map holds w' */
+layout(constant_id = 17) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
+layout(constant_id = 18) const uint GENERATOR = 1; /* of the lattice that they are on */
+layout(constant_id = 19) const uint SHIFT = 0;
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -37,7 +40,7 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot { KD_SPOT_FIELDS_(F, U) };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     KD_TRANSFER_FIELDS_(F, U)
-    float pad[KD_TRANSFER_HEADER - 31];
+    float pad[KD_TRANSFER_HEADER - 32];
     kd_spot spots[KD_SPOT_MAX];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
@@ -46,6 +49,7 @@ layout(set = 0, binding = 1) readonly buffer Transfer {
 layout(set = 0, binding = 2) writeonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 3) readonly buffer Density { float density[]; };
 #include "camera.glsl"
+#include "place.glsl"
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */
 const vec3 UNDECIDED = vec3(1.0, 0.0, 1.0);
@@ -187,72 +191,84 @@ vec3 sky_light(uint at)
 
 void main()
 {
-    uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y;
-    if (px >= tr.pixels_x)
+    uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
+    if (px >= (CRITICAL > 0 ? cam.rows : tr.pixels_x))
         return;
+    if (CRITICAL > 0) {
+        listed = cam.row0 + px;
+        uvec2 pixel = kd_listed_pixel(listed);
+        px = pixel.x;
+        py = pixel.y;
+    }
     vec3 sum = vec3(0.0);
     float spots = 0.0;
-    for (uint j = 0; j < SIDE; j++) {
-        for (uint i = 0; i < SIDE; i++) {
-            uint x = px * SIDE + i, row = py * SIDE + j;
-            uint at = (row - cam.band0) * cam.width + x;
-            float energy = 1.0, momentum = 0.0;
-            if ((DISK || SPOTS > 0) && (DOPPLER || FINITE)) {
-                kd_ray ray = kd_camera_ray(x, row);
-                energy = ray.e;
-                momentum = (RING ? -lens[at + ALPHA_PLANE * cam.stride] : ray.l) * cam.s;
-            }
-            vec3 light = vec3(0.0);
-            float through = 1.0; /* what the gas in front lets pass */
-            if (DISK || SPOTS > 0) {
-                for (uint n = 0; n < ORDERS; n++) {
-                    float w = lens[at + n * cam.stride];
-                    if (w < 0.0) { /* given up here */
-                        light += through * UNDECIDED;
-                        through = 0.0;
-                    }
-                    if (w <= 0.0)
-                        break;
-                    kd_gas gas = kd_gas(0.0, 0.0);
-                    if (DISK)
-                        gas = disk_gas(w, energy, momentum);
-                    float phi = PARTICLES || SPOTS > 0 ? lens[at + (ORDERS + n) * cam.stride] : 0.0;
-                    float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
-                    float number = 1.0; /* of particles, over that expected */
-                    if (PARTICLES) {
-                        float turn = (phi + tr.azimuth) * (0.5 / KD_PI);
-                        kd_place place = disk_place(w, turn, ago);
-                        bool falls = PLUNGE && w >= tr.plunge_first && w <= tr.plunge_last;
-                        if (falls)
-                            place = plunge_place(w, turn, ago);
-                        number = density_at(place);
-                        if (falls) {
-                            gas = plunge_gas(w, lens[at + ((SLOW ? 3 : 2) * ORDERS + n) * cam.stride], energy, momentum, number);
-                            number = 1.0;
-                        }
-                    }
-                    float seen = RINGDOWN && n > 0 ? through * tr.ringing : through;
-                    light += seen * gas.alpha * number * black_body(gas.t);
-                    if (SPOTS > 0) { /* in the gas: its own element does not hide it */
-                        vec4 spot = seen * spot_light(w, phi, ago, energy, momentum);
-                        light += spot.rgb;
-                        spots += spot.a;
-                    }
-                    through *= 1.0 - gas.alpha;
-                    if (OPAQUE && through <= 0.0)
-                        break;
-                }
-            }
-            if (SKY)
-                light += through * sky_light(at + SKY_PLANE * cam.stride);
-            sum += light;
+    const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
+    for (uint i = 0; i < rays; i++) {
+        uint at;
+        uvec2 step_;
+        if (CRITICAL > 0) {
+            at = listed * CRITICAL + i;
+            step_ = kd_critical_place(uvec2(px, py), i);
+        } else {
+            step_ = uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
+            at = (step_.y - cam.band0) * cam.width + step_.x;
         }
+        float energy = 1.0, momentum = 0.0;
+        if ((DISK || SPOTS > 0) && (DOPPLER || FINITE)) {
+            kd_ray ray = kd_camera_ray(step_.x, step_.y);
+            energy = ray.e;
+            momentum = (RING ? -lens[at + ALPHA_PLANE * cam.stride] : ray.l) * cam.s;
+        }
+        vec3 light = vec3(0.0);
+        float through = 1.0; /* what the gas in front lets pass */
+        if (DISK || SPOTS > 0) {
+            for (uint n = 0; n < ORDERS; n++) {
+                float w = lens[at + n * cam.stride];
+                if (w < 0.0) { /* given up here */
+                    light += through * UNDECIDED;
+                    through = 0.0;
+                }
+                if (w <= 0.0)
+                    break;
+                kd_gas gas = kd_gas(0.0, 0.0);
+                if (DISK)
+                    gas = disk_gas(w, energy, momentum);
+                float phi = PARTICLES || SPOTS > 0 ? lens[at + (ORDERS + n) * cam.stride] : 0.0;
+                float ago = SLOW ? lens[at + (2 * ORDERS + n) * cam.stride] - tr.delay : 0.0;
+                float number = 1.0; /* of particles, over that expected */
+                if (PARTICLES) {
+                    float turn = (phi + tr.azimuth) * (0.5 / KD_PI);
+                    kd_place place = disk_place(w, turn, ago);
+                    bool falls = PLUNGE && w >= tr.plunge_first && w <= tr.plunge_last;
+                    if (falls)
+                        place = plunge_place(w, turn, ago);
+                    number = density_at(place);
+                    if (falls) {
+                        gas = plunge_gas(w, lens[at + ((SLOW ? 3 : 2) * ORDERS + n) * cam.stride], energy, momentum, number);
+                        number = 1.0;
+                    }
+                }
+                float seen = RINGDOWN && n > 0 ? through * tr.ringing : through;
+                light += seen * gas.alpha * number * black_body(gas.t);
+                if (SPOTS > 0) { /* in the gas: its own element does not hide it */
+                    vec4 spot = seen * spot_light(w, phi, ago, energy, momentum);
+                    light += spot.rgb;
+                    spots += spot.a;
+                }
+                through *= 1.0 - gas.alpha;
+                if (OPAQUE && through <= 0.0)
+                    break;
+            }
+        }
+        if (SKY)
+            light += through * sky_light(at + SKY_PLANE * cam.stride);
+        sum += light;
     }
-    float share = 1.0 / float(SIDE * SIDE);
-    uint o = (py - cam.band0 / SIDE) * tr.pixels_x + px;
+    float share = 1.0 / float(rays);
+    uint o = (py - (CRITICAL > 0 ? cam.band0 : cam.band0 / SIDE)) * tr.pixels_x + px;
     radiance[3 * o] = share * sum.r;
     radiance[3 * o + 1] = share * sum.g;
     radiance[3 * o + 2] = share * sum.b;
     if (SPOTS > 0) /* behind the band's pixels */
-        radiance[3 * (cam.stride / (SIDE * SIDE)) + o] = share * spots;
+        radiance[3 * tr.band_pixels + o] = share * spots;
 }

@@ -22,7 +22,9 @@
     U(width)                /* rays a row */                                                                   \
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */                    \
     U(band0)                /* first row of the band that the buffers hold */                                  \
-    U(stride)               /* rays of the band: distance between planes of the lens map */
+    U(stride)               /* rays of the band: distance between planes of the lens map */                    \
+    U(list)                 /* of listed pixels, where it begins in the lens map. Of these, row0 is the first of a slice, rows \
+                               how many, band0 the first row of pixels of the band that light is written to */
 
 /* What the transfer kernel needs beside the camera, in a storage buffer followed by the tables. */
 #define KD_TRANSFER_FIELDS_(F, U)                                                                              \
@@ -45,7 +47,8 @@
     F(plunge_laps) F(plunge_turns)        /* per M: from start to end; of the orbit at the ISCO */                \
     U(plunge_at)                          /* the grid of the plunging particles behind the other one's */         \
     U(plunge_rows) U(plunge_columns)                                                                              \
-    U(lap_rows) U(lead_rows)              /* from start to end; before the start */
+    U(lap_rows) U(lead_rows)              /* from start to end; before the start */                               \
+    U(band_pixels)                        /* whose light one buffer holds; behind it is that of the spots */
 
 /* A hot spot, KD_SPOT_MAX of them behind the header. */
 #define KD_SPOT_FIELDS_(F, U)                                                                                  \
@@ -57,7 +60,7 @@
 #define KD_SPOT_MAX 3
 
 /* Tables behind the transfer parameters, in floats. */
-#define KD_TRANSFER_HEADER 32
+#define KD_TRANSFER_HEADER 36
 #define KD_DISK_TABLE 1024    /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
 #define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
 #define KD_COLOUR_LOG_MIN 6.0 /* 64 K */

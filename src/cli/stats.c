@@ -51,6 +51,7 @@ char *kd_stats_json(const struct kd_stats *stats)
     cJSON_AddNumberToObject(root, "width", stats->frame->width);
     cJSON_AddNumberToObject(root, "height", stats->frame->height);
     cJSON_AddNumberToObject(root, "rays", (double)stats->plan->rays);
+    cJSON_AddNumberToObject(root, "critical_rays", (double)(kd_plan_rays(stats->plan) - stats->plan->rays));
     cJSON_AddNumberToObject(root, "exposure", stats->frame->exposure);
     cJSON_AddNumberToObject(root, "bytes", (double)stats->bytes);
     add_times(root, stats);

@@ -167,6 +167,23 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
     return q;
 }
 
+struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double along)
+{
+    double half = sin(0.5 * M_PI * along); /* denser at the ends, where beta is a root */
+    struct place p = see(c, c->low + (c->high - c->low) * half * half);
+    double y = sqrt(fmax(p.y2, 0));
+    struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = atan2(y, p.x), .inwards = 1 };
+    if (isinf(c->observer.radius)) {
+        q.beta = y;
+        q.rho = hypot(p.x, y);
+        return q;
+    }
+    q.right = p.right, q.up = y, q.inwards = p.inwards;
+    q.beta = y * c->tetrad.p / (c->tetrad.e0 - c->tetrad.e1 * p.right);
+    q.rho = atan2(hypot(p.x, y), p.inwards * cos(c->centre) + p.right * sin(c->centre));
+    return q;
+}
+
 /* Sums over the upper half, the ends weighed by a half; of rho less half the width, so that their squares
  * tell. */
 struct sums {

@@ -196,6 +196,7 @@ static enum kd_status run(struct kd_frame_job *j, struct kd_frame *frame)
 
     kd_tables_fill(r->tables, j->scene, !r->tables_ready);
     r->tables_ready = true;
+    r->tables->block.band_pixels = j->plan->width * j->plan->band_rows;
     memcpy(kd_vk_buffer_map(j->store->transfer), r->tables, sizeof *r->tables);
 
     frame->lens_reused = reused;

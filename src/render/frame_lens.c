@@ -14,6 +14,8 @@ static struct kd_vk_buffer *lens_buffer(const struct kd_frame_job *j, uint32_t b
     return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
 }
 
+static const struct kd_critical_lattice on_grid; /* none */
+
 /* Rows of pixels that one submission takes, given nanoseconds a row. */
 static uint32_t slice_rows(double ns_per_row, uint32_t rows)
 {
@@ -21,25 +23,25 @@ static uint32_t slice_rows(double ns_per_row, uint32_t rows)
     return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
 }
 
-/* NULL where no kernel is run for it. */
-static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_vk_pipeline **out)
+/* NULL where no kernel is run for it. l: of the listed pixels; all 0: for the grid. */
+static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     *out = NULL;
     if (p->path == KD_LENS_LISTED)
         return KD_OK;
-    if (p->path == KD_LENS_RADIUS)
-        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, (uint32_t[]){ p->orders }, 1, out,
-                              j->error);
-    enum kd_status status = kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error);
-    if (status)
-        return status;
+    if (p->path == KD_LENS_RADIUS) {
+        const uint32_t constants[] = { p->orders, l->rays, l->generator, l->shift };
+        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, constants, sizeof constants / 4, out, j->error);
+    }
     const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t constants[] = { p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method, p->fall };
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, 7, out, j->error);
+    const uint32_t constants[] = {
+        p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method, p->fall, l->rays, l->generator, l->shift,
+    };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, sizeof constants / 4, out, j->error);
 }
 
-static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_vk_pipeline **out)
+static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_disk *d = &j->scene->disk;
@@ -47,7 +49,7 @@ static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_vk
     const uint32_t constants[] = {
         p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
         alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
-        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0, p->fall,
+        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0, p->fall, l->rays, l->generator, l->shift,
     };
     _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);
@@ -116,19 +118,165 @@ static enum kd_status trace_band(struct kd_frame_job *j, uint32_t band, const st
     return run_band(j, band, &d, true, p->trace_ns);
 }
 
-static enum kd_status transfer_band(struct kd_frame_job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
+static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
+                                               struct kd_vk_buffer *lens, uint32_t band)
 {
-    const struct kd_vk_dispatch d = {
+    return (struct kd_vk_dispatch) {
         "transfer",
         pipeline,
-        { { lens_buffer(j, band), 0, 0, false },
+        { { lens, 0, 0, false },
           { j->store->transfer, 0, 0, false },
           { j->store->radiance.buffers[band], 0, 0, true },
           { j->plan->particles.count ? j->particles->density : j->store->transfer, 0, 0, false } },
         NULL,
         { 0 },
     };
+}
+
+static enum kd_status transfer_band(struct kd_frame_job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
+{
+    const struct kd_vk_dispatch d = transfer_dispatch(j, pipeline, lens_buffer(j, band), band);
     return run_band(j, band, &d, false, ns);
+}
+
+/* A part of the pixels at the critical curve. */
+struct part {
+    uint64_t first, n; /* among those pixels */
+    struct kd_vk_buffer *lens;
+    struct kd_camera_push push;
+};
+
+static struct part part_of(const struct kd_frame_job *j, uint32_t number)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_scene camera = kd_critical_camera(j->scene, p->critical);
+    struct part part = { number * p->critical_part, p->critical_part, j->lens->critical.buffers[number], kd_camera_push(&camera) };
+    if (part.n > p->critical_pixels - part.first)
+        part.n = p->critical_pixels - part.first;
+    part.push.stride = (uint32_t)p->critical_part * p->critical;
+    part.push.list = p->planes * part.push.stride;
+    return part;
+}
+
+/* Run a kernel over pixels `from` to `to` of a part in slices. rays: an invocation a ray, not a pixel. */
+static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, uint64_t from, uint64_t to,
+                               const struct kd_vk_dispatch *base, bool rays, double ns_per_ray)
+{
+    uint32_t step = slice_rows(ns_per_ray * j->plan->critical, (uint32_t)part->n);
+    enum kd_status status = KD_OK;
+    for (; from < to && !status; from += step) {
+        struct kd_camera_push push = part->push;
+        struct kd_vk_dispatch d = *base;
+        push.row0 = (uint32_t)from;
+        push.rows = (uint32_t)(to - from < step ? to - from : step);
+        d.push = &push;
+        d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * j->plan->critical : push.rows);
+        d.groups[1] = 1;
+        status = kd_vk_dispatch(j->r->vk, &d, j->error);
+        if (!status)
+            status = kd_vk_submit(j->r->vk, NULL, j->error);
+        if (!status)
+            status = kd_frame_report(j, 0);
+    }
+    return status;
+}
+
+/* The list behind the planes. */
+static enum kd_status upload_pixels(struct kd_frame_job *j, const struct part *part)
+{
+    struct kd_vk_buffer *staging;
+    struct kd_vk *vk = j->r->vk;
+    uint64_t bytes = 8 * part->n;
+    enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_UPLOAD, "pixels at the critical curve", &staging, j->error);
+    if (status)
+        return status;
+    float *to = kd_vk_buffer_map(staging);
+    for (uint64_t i = 0; i < part->n; i++) {
+        to[2 * i] = (float)j->lens->pixels.pixels[part->first + i].x;
+        to[2 * i + 1] = (float)j->lens->pixels.pixels[part->first + i].y;
+    }
+    status = kd_vk_copy(vk, "upload", part->lens, 4ull * part->push.list, staging, 0, bytes, j->error);
+    if (!status)
+        status = kd_vk_submit(vk, NULL, j->error);
+    if (!status)
+        status = kd_vk_wait(vk, 0, j->error);
+    kd_vk_buffer_destroy(vk, staging);
+    return status;
+}
+
+static enum kd_status list_part(struct kd_frame_job *j, const struct part *part)
+{
+    const struct kd_plan *p = j->plan;
+    uint32_t step = slice_rows(p->trace_ns * p->critical, (uint32_t)part->n);
+    enum kd_status status = KD_OK;
+    double start = kd_render_now_ms();
+    for (uint64_t done = 0; done < part->n && !status; done += step) {
+        const struct kd_lens_rows rows = {
+            .first = (uint32_t)(part->first + done), .count = (uint32_t)(part->n - done < step ? part->n - done : step),
+            .pixels = j->lens->pixels.pixels, .to = part->lens, .offset = done * p->critical, .stride = part->push.stride,
+        };
+        status = kd_lens_listed(j->r, j->scene, p, &rows, &j->undecided, j->error);
+        if (!status)
+            status = kd_frame_report(j, 0);
+    }
+    j->listed_ms += kd_render_now_ms() - start;
+    return status;
+}
+
+static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part, const struct kd_vk_pipeline *pipeline)
+{
+    enum kd_status status = upload_pixels(j, part);
+    if (status || j->plan->path == KD_LENS_LISTED)
+        return status ? status : list_part(j, part);
+    struct kd_vk_dispatch d = { "trace", pipeline, { { part->lens, 0, 0, true } }, NULL, { 0 } };
+    if (j->plan->path == KD_LENS_MAP)
+        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
+    return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
+}
+
+/* A pixel's light is written anew. */
+static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, const struct kd_vk_pipeline *pipeline, double ns)
+{
+    enum kd_status status = KD_OK;
+    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+        uint32_t row = kd_frame_band_first(j, band);
+        uint64_t from = kd_critical_pixels_above(&j->lens->pixels, row), first = part->first;
+        uint64_t to = kd_critical_pixels_above(&j->lens->pixels, row + kd_frame_band_rows(j, band));
+        from = from > first ? from - first : 0;
+        to = to < first ? 0 : to - first < part->n ? to - first : part->n;
+        const struct kd_vk_dispatch d = transfer_dispatch(j, pipeline, part->lens, band);
+        part->push.band0 = row;
+        status = run_part(j, part, from, to, &d, false, ns);
+    }
+    return status;
+}
+
+/* The pixels at the critical curve, by more rays than the others. */
+static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double transfer_ns)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_vk_pipeline *trace = NULL, *transfer;
+    const struct kd_critical_lattice lattice = kd_critical_lattice(p->critical);
+    enum kd_status status = needed ? trace_kernel(j, &lattice, &trace) : KD_OK;
+    if (!status)
+        status = transfer_kernel(j, &lattice, &transfer);
+    if (!status && needed) {
+        kd_critical_pixels_finish(&j->lens->pixels);
+        status = kd_critical_pixels_of(j->scene, &j->lens->pixels, j->error);
+    }
+    for (uint32_t k = 0; k < kd_plan_critical_parts(p) && !status; k++) {
+        struct part part = part_of(j, k);
+        if (needed)
+            status = trace_part(j, &part, trace);
+        if (!status)
+            status = transfer_part(j, &part, transfer, transfer_ns);
+    }
+    return status;
+}
+
+static enum kd_status forget_undecided(struct kd_frame_job *j)
+{
+    return j->plan->path == KD_LENS_MAP ? kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error) : KD_OK;
 }
 
 enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
@@ -138,15 +286,19 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *trace = NULL, *transfer;
     bool needed = !reused && p->planes;
-    enum kd_status status = needed ? trace_kernel(j, &trace) : KD_OK;
+    enum kd_status status = needed ? forget_undecided(j) : KD_OK;
+    if (!status && needed)
+        status = trace_kernel(j, &on_grid, &trace);
     if (!status)
-        status = transfer_kernel(j, &transfer);
+        status = transfer_kernel(j, &on_grid, &transfer);
     for (uint32_t band = 0; band < p->bands && !status; band++) {
         if (needed)
             status = trace_band(j, band, trace);
         if (!status)
             status = transfer_band(j, band, transfer, c.ns_per_sample_transfer);
     }
+    if (!status && p->critical)
+        status = light_at_curve(j, needed, c.ns_per_sample_transfer);
     return status;
 }
 
@@ -202,7 +354,9 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
         status = kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
                                      KD_VK_READBACK, "lens map on the host", &host, error);
     if (!status)
-        status = trace_kernel(&job, &trace);
+        status = forget_undecided(&job);
+    if (!status)
+        status = trace_kernel(&job, &on_grid, &trace);
     for (uint32_t band = 0; band < plan->bands && !status; band++) {
         status = trace_band(&job, band, trace);
         if (!status)

@@ -6,9 +6,10 @@
 #include "render/internal.h"
 
 struct kd_lens_rows {
-    uint32_t first, count;   /* rows of rays of the picture */
+    uint32_t first, count;   /* rows of rays of the picture; or with `pixels`, which of those, each with plan->critical rays */
+    const struct kd_pixel *pixels;
     struct kd_vk_buffer *to; /* the band's planes */
-    uint64_t offset, stride; /* rays before the first row in a plane; rays of a plane */
+    uint64_t offset, stride; /* rays before the first one in a plane; rays of a plane */
 };
 
 /* plan->planes planes as lens_map.comp writes them, but -1 instead of a crossing that the engine gave up looking for, delays

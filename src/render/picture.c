@@ -7,9 +7,10 @@
 
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
 {
-    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u undecided=%llu sampled=%u",
+    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
                      (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
-                     kd_precision_name(plan->setting.precision), plan->setting.steps, (unsigned long long)report->undecided,
+                     kd_precision_name(plan->setting.precision), plan->setting.steps, (unsigned long long)(kd_plan_rays(plan) - plan->rays),
+                     (unsigned long long)report->undecided,
                      report->sampled);
     if (report->sampled)
         snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,

@@ -2,6 +2,7 @@
 
 #include "physics/kerr.h"
 #include "render/accuracy.h"
+#include "render/critical_pixels.h"
 #include "render/plunging.h"
 
 #include <math.h>
@@ -57,6 +58,8 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
     say(plan, (disk || plan->spots) && scene->style.ringdown > 0,
         "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time");
+    say(plan, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4,
+        "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots");
     say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
     say(plan, plan->ring,
         "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale");
@@ -132,12 +135,12 @@ static void passes(struct kd_plan *plan, const struct kd_scene *scene, const str
     uint64_t pixels = (uint64_t)plan->width * plan->height;
     plan->trace_ns = ns_per_ray(plan, c);
     if (plan->planes)
-        add_pass(plan, "trace", kernel_of(plan), plan->rays, plan->trace_ns);
+        add_pass(plan, "trace", kernel_of(plan), kd_plan_rays(plan), plan->trace_ns);
     if (plan->audit)
         add_pass(plan, "audit", "", KD_AUDIT_RAYS, NS_PER_AUDIT);
     if (plan->particles.count)
         add_pass(plan, "particles", "particles.comp", plan->particles.count, c->ns_per_particle);
-    add_pass(plan, "transfer", "transfer.comp", plan->rays, c->ns_per_sample_transfer);
+    add_pass(plan, "transfer", "transfer.comp", kd_plan_rays(plan), c->ns_per_sample_transfer);
     if (plan->light)
         add_pass(plan, "light", "light.comp", pixels, 1.5 * c->ns_per_pixel_post);
     if (isinf(scene->style.exposure))
@@ -167,11 +170,12 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
         rows = 65535 / plan->side;
     plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
-    plan->lens_bytes = row_lens * plan->height;
+    uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
+    plan->lens_bytes = row_lens * plan->height + at_curve;
     plan->host_bytes = row_out * plan->height;
     uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
                      (plan->light ? 2 * kd_light_bytes(plan) : 0);
-    uint64_t one_band = row_lens * plan->band_rows;
+    uint64_t one_band = row_lens * plan->band_rows + at_curve;
     plan->cacheable = fixed + plan->lens_bytes <= c->memory_bytes;
     plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
     if (plan->device_bytes > c->memory_bytes)
@@ -179,6 +183,27 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
                             "the picture needs %.1f GiB of device memory, %.1f GiB are allowed: lower image.width, "
                             "image.height or image.samples",
                             (double)plan->device_bytes / (1 << 30), (double)c->memory_bytes / (1 << 30));
+    return KD_OK;
+}
+
+/* The pixels at the critical curve, where the image orders that are thinner than a pixel would show. */
+static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                               struct kd_error *error)
+{
+    struct kd_critical_pixels list;
+    uint64_t side = (uint64_t)scene->image.critical_samples;
+    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->sky)) /* the direct image is nowhere thin */
+        return KD_OK;
+    enum kd_status status = kd_critical_pixels_of(scene, &list, error);
+    uint64_t n = list.n, most = (c->max_binding_bytes - 64) / (4 * (plan->planes * side * side + 2));
+    kd_critical_pixels_finish(&list);
+    if (status || !n)
+        return status;
+    if (most > (1 << 22) / (side * side)) /* workgroups of one dispatch, and counts in 32 bits */
+        most = (1 << 22) / (side * side);
+    plan->critical = (uint32_t)(side * side);
+    plan->critical_pixels = n;
+    plan->critical_part = n < most ? n : most;
     return KD_OK;
 }
 
@@ -298,7 +323,9 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
 
-    status = bands(&plan, scene, capacity, error);
+    status = critical(&plan, scene, capacity, error);
+    if (!status)
+        status = bands(&plan, scene, capacity, error);
     if (status)
         return status;
     plan.audit = plan.cacheable && plan.orders && outside(scene);

@@ -37,7 +37,10 @@ struct kd_plan_pass {
 
 struct kd_plan {
     uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
-    uint64_t rays;
+    uint64_t rays;                  /* of the grid */
+    uint32_t critical;              /* rays of each pixel at the critical curve (critical_pixels.h); 0: as of any other */
+    uint64_t critical_pixels;       /* how many they are */
+    uint64_t critical_part;         /* how many one buffer holds the lens map of */
     enum kd_lens_path {
         KD_LENS_RADIUS, /* lens_radius.comp: nothing in the scene needs more than the crossing radii, from infinity */
         KD_LENS_MAP,    /* lens_map.comp */
@@ -72,6 +75,19 @@ struct kd_plan {
  * engine, precision or tolerance that this device or this camera cannot have. */
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
                             struct kd_plan *out, struct kd_error *error);
+
+/* Buffers that the lens map of the pixels at the critical curve takes, and bytes of one. */
+static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
+{
+    return plan->critical ? (uint32_t)((plan->critical_pixels + plan->critical_part - 1) / plan->critical_part) : 0;
+}
+static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
+{
+    return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
+}
+
+/* All that are followed. */
+static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->rays + plan->critical * plan->critical_pixels; }
 
 /* Of linear light, a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->spots ? 16 : 12; }

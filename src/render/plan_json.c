@@ -43,6 +43,8 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
 {
     cJSON *root = cJSON_CreateObject();
     cJSON_AddNumberToObject(root, "rays", (double)plan->rays);
+    cJSON_AddNumberToObject(root, "critical_pixels", (double)plan->critical_pixels);
+    cJSON_AddNumberToObject(root, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
     cJSON_AddNumberToObject(root, "width", plan->width);
     cJSON_AddNumberToObject(root, "height", plan->height);
     cJSON *list = cJSON_AddArrayToObject(root, "passes");

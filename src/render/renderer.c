@@ -126,8 +126,8 @@ void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan,
     uint64_t pixels = (uint64_t)plan->width * plan->height;
     pthread_mutex_lock(&renderer->lock);
     if (plan->path != KD_LENS_LISTED)
-        smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), plan->rays);
-    smooth(&c->ns_per_sample_transfer, timing(frame, "transfer"), plan->rays);
+        smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), kd_plan_rays(plan));
+    smooth(&c->ns_per_sample_transfer, timing(frame, "transfer"), kd_plan_rays(plan));
     smooth(&c->ns_per_pixel_post, timing(frame, "post"), pixels);
     smooth(&c->ns_per_particle, timing(frame, "particles"), plan->particles.count);
     c->measured = c->measured || pixels >= 4096;

@@ -37,6 +37,8 @@ static enum kd_status bands_init(struct kd_bands *bands, struct kd_vk *vk, uint3
 static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
 {
     bands_finish(&map->bands, vk);
+    bands_finish(&map->critical, vk);
+    kd_critical_pixels_finish(&map->pixels);
     map->key[0] = 0;
     map->used = 0;
 }
@@ -51,7 +53,7 @@ static void make_room(struct kd_store *store, const struct kd_plan *plan, const 
             struct kd_lens_map *m = &store->maps[i];
             if (m == spare || !m->bands.count)
                 continue;
-            held += m->bands.count * m->bands.band_bytes;
+            held += m->bands.count * m->bands.band_bytes + m->critical.count * m->critical.band_bytes;
             if (!oldest || m->used < oldest->used)
                 oldest = m;
         }
@@ -83,6 +85,9 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     make_room(store, plan, oldest);
     enum kd_status status =
         bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error);
+    if (!status)
+        status = bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(plan), kd_plan_critical_bytes(plan),
+                            "lens map at the critical curve", error);
     if (!status && !store->undecided)
         status = kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error);
     oldest->key[0] = 0;

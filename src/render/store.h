@@ -3,6 +3,7 @@
 #ifndef KD_RENDER_STORE_H
 #define KD_RENDER_STORE_H
 
+#include "render/critical_pixels.h"
 #include "render/plan.h"
 #include "render/render.h"
 #include "vk/vk.h"
@@ -17,6 +18,8 @@ struct kd_bands {
 struct kd_lens_map {
     char key[65]; /* "" while empty or half made */
     struct kd_bands bands;
+    struct kd_bands critical; /* the same of the pixels at the critical curve, part by part, each with their list behind it */
+    struct kd_critical_pixels pixels;
     struct kd_accuracy_report accuracy;
     uint64_t used;
 };

@@ -44,10 +44,11 @@ static cJSON *quality_json(const struct kd_render_job *job, const struct kd_live
     return o;
 }
 
-static cJSON *accuracy_json(const struct kd_accuracy_report *report, uint64_t rays)
+static cJSON *accuracy_json(const struct kd_accuracy_report *report, const struct kd_plan *plan)
 {
     cJSON *o = cJSON_CreateObject();
-    cJSON_AddNumberToObject(o, "rays", (double)rays);
+    cJSON_AddNumberToObject(o, "rays", (double)plan->rays);
+    cJSON_AddNumberToObject(o, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
     cJSON_AddNumberToObject(o, "undecided", (double)report->undecided);
     cJSON_AddNumberToObject(o, "sampled", report->sampled);
     if (report->sampled) {
@@ -134,7 +135,7 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     cJSON_AddNumberToObject(passes, "encode", job->encode_ms);
     cJSON_AddItemToObject(o, "passes", passes);
     cJSON_AddBoolToObject(o, "lens_map_reused", job->frame.lens_reused);
-    cJSON_AddItemToObject(o, "accuracy", accuracy_json(&job->frame.accuracy, job->plan.rays));
+    cJSON_AddItemToObject(o, "accuracy", accuracy_json(&job->frame.accuracy, &job->plan));
     cJSON_AddItemToObject(o, "simulation", simulation_json(&job->scene));
     cJSON_AddItemToObject(o, "isco", isco_json(&job->scene));
     cJSON_AddItemToObject(o, "orbits", orbits_json(&job->scene));

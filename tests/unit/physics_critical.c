@@ -349,9 +349,36 @@ static void bad_input(void **state)
     assert_int_equal(kd_critical_of(&held).status, KD_CRITICAL_IN_ERGOSPHERE);
 }
 
+/* The points for drawing lie on the curve, from end to end. */
+static void drawn(void **state)
+{
+    (void)state;
+    static const double radii[] = { INFINITY, 1e4, 30, 2.9 };
+    for (size_t i = 0; i < COUNT(spins); i++)
+        for (size_t k = 0; k < COUNT(cosines); k++)
+            for (size_t n = 0; n < COUNT(radii); n++) {
+                struct kd_critical c = curve_of(spins[i], cosines[k], radii[n], KD_CRITICAL_ZAMO);
+                double scale = kd_critical_at(&c, 1.5).rho, before = 4;
+                for (int j = 0; j <= 32; j++) {
+                    struct kd_critical_point q = kd_critical_upper(&c, j / 32.0), p = kd_critical_at(&c, q.angle);
+                    near(q.rho, p.rho, relative(3e-7, scale), "rho", spins[i], cosines[k]);
+                    near(q.alpha, p.alpha, 3e-6, "alpha", spins[i], cosines[k]);
+                    near(q.up, p.up, 1e-6, "up", spins[i], cosines[k]);
+                    near(q.inwards, p.inwards, 1e-6, "inwards", spins[i], cosines[k]);
+                    if (!(q.angle <= before))
+                        fail_msg("a = %.17g, u = %g, r = %g: the angle goes from %g to %g", spins[i], cosines[k], radii[n], before,
+                                 q.angle);
+                    before = q.angle;
+                }
+                near(kd_critical_upper(&c, 0).angle, M_PI, 1e-5, "left end", spins[i], cosines[k]);
+                near(kd_critical_upper(&c, 1).angle, 0, 1e-5, "right end", spins[i], cosines[k]);
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drawn),
         cmocka_unit_test(against_the_oracle),
         cmocka_unit_test(published_shapes),
         cmocka_unit_test(equatorial_orbits_keep_time),
