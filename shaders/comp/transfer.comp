@@ -37,15 +37,17 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define U(name) uint name;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+struct kd_transfer { KD_TRANSFER_FIELDS_(F, U) };
 struct kd_spot { KD_SPOT_FIELDS_(F, U) };
 layout(set = 0, binding = 1) readonly buffer Transfer {
-    KD_TRANSFER_FIELDS_(F, U)
+    kd_transfer header;
     float pad[KD_TRANSFER_HEADER - 32];
     kd_spot spots[KD_SPOT_MAX];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
     vec2 plunge_table[KD_PLUNGE_TABLE];
-} tr;
+} tables;
+kd_transfer tr; /* tables.header, read once: lavapipe reads a storage buffer anew for each lane and each use */
 layout(set = 0, binding = 2) writeonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 3) readonly buffer Density { float density[]; };
 #include "camera.glsl"
@@ -76,7 +78,7 @@ vec4 colour(float log_t)
     float place = (log_t - KD_COLOUR_LOG_MIN) * (float(KD_COLOUR_TABLE - 1) / (KD_COLOUR_LOG_MAX - KD_COLOUR_LOG_MIN));
     place = clamp(place, 0.0, float(KD_COLOUR_TABLE - 1));
     uint k = min(uint(place), KD_COLOUR_TABLE - 2);
-    return mix(tr.colour_table[k], tr.colour_table[k + 1], place - float(k));
+    return mix(tables.colour_table[k], tables.colour_table[k + 1], place - float(k));
 }
 
 /* A black body of t, over the disk's largest temperature. */
@@ -98,7 +100,7 @@ kd_gas disk_gas(float w, float energy, float momentum)
         return kd_gas(0.0, 0.0);
     float y = sqrt(max(1.0 - tr.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
     uint i = min(uint(y), KD_DISK_TABLE - 2);
-    float t = mix(tr.disk_table[i], tr.disk_table[i + 1], y - float(i)); /* T r^(3/4) over T_peak */
+    float t = mix(tables.disk_table[i], tables.disk_table[i + 1], y - float(i)); /* T r^(3/4) over T_peak */
     float w34 = sqrt(w * sqrt(w));
     t *= w34 * shift(w, energy, momentum);
 
@@ -158,7 +160,7 @@ vec4 spot_light(float w, float phi, float ago, float energy, float momentum)
     if (r < tr.r_isco)
         return sum;
     for (uint i = 0; i < SPOTS; i++) {
-        kd_spot spot = tr.spots[i];
+        kd_spot spot = tables.spots[i];
         float s = kd_cos_sin(0.5 * (phi - spot.phi + (SLOW ? spot.omega * ago : 0.0))).s;
         float off = (r - spot.r) * (r - spot.r) + 4.0 * r * spot.r * s * s;
         if (off > spot.reach)
@@ -191,6 +193,7 @@ vec3 sky_light(uint at)
 
 void main()
 {
+    tr = tables.header;
     uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
     if (px >= (CRITICAL > 0 ? cam.rows : tr.pixels_x))
         return;

@@ -15,7 +15,7 @@ kd_place plunge_place(float w, float turn, float ago)
 {
     float way = (log2((tr.r_isco * w - 1.0) / (1.0 - w / cam.horizon)) - tr.plunge_log) * tr.plunge_step;
     uint k = min(uint(max(way, 0.0)), KD_PLUNGE_TABLE - 2);
-    vec2 at = mix(tr.plunge_table[k], tr.plunge_table[k + 1], clamp(way - float(k), 0.0, 1.0));
+    vec2 at = mix(tables.plunge_table[k], tables.plunge_table[k + 1], clamp(way - float(k), 0.0, 1.0));
     float row = (at.x + ago * tr.plunge_laps) * float(tr.lap_rows) + float(tr.lead_rows);
     turn += ago * tr.plunge_turns - at.y;
     return kd_place(tr.plunge_at, tr.plunge_rows, tr.plunge_columns, clamp(row, 0.0, float(tr.plunge_rows)), turn, turn);
