@@ -57,7 +57,7 @@ static void the_file_says_how_it_was_made(void **state)
     assert_string_equal(kd_png_text_find(&png, "kerrd:version"), KD_VERSION);
     assert_string_equal(kd_png_text_find(&png, "kerrd:approximations"), "first\nsecond");
     assert_string_equal(kd_png_text_find(&png, "kerrd:device"), "llvmpipe, 256 bits");
-    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"), "rays=12 engine=ks-rk4 precision=f64 steps=64 undecided=0 sampled=0");
+    assert_string_equal(kd_png_text_find(&png, "kerrd:accuracy"), "rays=12 engine=ks-rk4 precision=f64 steps=64 critical_rays=0 undecided=0 sampled=0");
     assert_string_equal(kd_png_text_find(&png, "Software"), "kerrd " KD_VERSION);
     kd_png_finish(&png);
     kd_buffer_finish(&file);
