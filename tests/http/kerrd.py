@@ -148,6 +148,18 @@ class Kerrd(unittest.TestCase):
         self.addCleanup(self.daemon.request, 'DELETE', '/v1/sessions/' + session['id'], headers={'Authorization': 'Bearer ' + session['token']})
         return session
 
+    def test_frames_of_sessions_have_8_bits(self):
+        pictures = []
+        for bits in (8, 16):
+            session, number, quality = self.open({'image': {'width': 64, 'height': 36, 'bit_depth': bits}}), 0, ''
+            self.assertEqual(session['scene']['image']['bit_depth'], bits)
+            while 'final=1' not in quality:
+                answer = self.daemon.get(f'/v1/sessions/{session["id"]}/frame.png?after={number}')
+                number, quality = int(answer.header('Kerrd-Frame')), answer.header('Kerrd-Quality')
+            pictures.append(answer.body)
+        self.assertEqual(pictures[0][24], 8)
+        self.assertEqual(pictures[0], pictures[1])
+
     def test_particles_of_a_session(self):
         session = self.open({'disk': {'model': 'particles', 'particles': 300000}, 'spacetime': {'spin': 0.6}, 'motion': {'time_rate': 50}})
         all_of_them, answer = self.particles(session, '?time=1e4&fields=r,phi,latitude,x,y,z')

@@ -359,6 +359,15 @@ class Sessions(daemon.Owned):
                 text += s.recv(65536)
         return json.loads(found[1], parse_constant=self.fail)
 
+    def test_events_tell_the_pace(self):
+        session, times, text = self.open(MOVING), [], b''
+        with self.stream(session, '/events', 'text/event-stream') as s:
+            while len(times) < 60:
+                text += s.recv(65536)
+                times += [time.monotonic()] * (text.count(b'\n\n') - len(times))
+        fps = json.loads(re.findall(rb'\ndata: (\{.*?\})\n\n', text)[-1])['fps']
+        self.assertAlmostEqual(fps * (times[-1] - times[29]) / (len(times) - 30), 1, delta=0.5)
+
     def test_events_tell_orbits(self):
         """J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972: without spin the ISCO is at 6; an orbit takes 2 pi (r^3/2 + a)."""
         event = self.event({'spacetime': {'spin': 0}, 'time': 0})
@@ -426,6 +435,23 @@ class Sessions(daemon.Owned):
             answer.close()
         self.assertLess(len(numbers), 60)
         self.assertLess(numbers[0], number)
+
+    def test_little_waits_in_the_kernel(self):
+        """What it holds for a reader that stalls will be old: TCP_NOTSENT_LOWAT."""
+        session = self.open({**NOISE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 10}})
+        with self.stream(session, '/frames', 'application/x-kerrd-frames') as s:
+            n = 0
+            while n < 60 << 20:  # let it grow its buffers
+                n += len(s.recv(1 << 20))
+            ends, unsent = f'0100007F:{self.daemon.port:04X} 0100007F:{s.getsockname()[1]:04X}', [0, 1]
+
+            def stalled():
+                time.sleep(0.4)
+                with open('/proc/net/tcp') as table:
+                    unsent.append(*[int(line.split()[4].split(':')[0], 16) for line in table if ends in line])
+                return unsent[-1] == unsent[-2]
+            self.assertTrue(daemon.eventually(stalled, 20))  # what the reader's side takes is its own affair
+        self.assertTrue(0 < unsent[-1] < 200_000, unsent)
 
     def test_viewers_that_vanish(self):
         session = self.open(MOVING)
@@ -562,6 +588,15 @@ class Idle(daemon.Case):
             self.assertEqual(self.daemon.get('/v1/sessions/' + sessions[1]['id']).status, 404)
             self.assertEqual(count(), 1)
         self.assertTrue(daemon.eventually(lambda: time.sleep(2) or count() == 0, 15))
+
+    def test_a_stream_without_news_shows_that_it_lives(self):
+        session = self.daemon.post('/v1/sessions', SCENE).json()
+        with self.daemon.connect(25) as s:
+            s.sendall(f'GET /v1/sessions/{session["id"]}/events HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+            begun, text = time.monotonic(), b''
+            while b'\n:\n\n' not in text:
+                text += s.recv(4096)
+            self.assertTrue(10 < time.monotonic() - begun < 25)
 
     def test_on_the_way_down(self):
         server = daemon.Daemon('--drain-ms', 50)

@@ -586,6 +586,13 @@ static void lens_maps_that_are_never_kept(void **state)
     double mean = mean_over(&s, PLAY, 600e3);
     print_message("mean %.1f ms though nothing is kept\n", mean);
     assert_true(mean < 1.1 * 33);
+    uint64_t seen = 0;
+    for (double end = s.now + 600e3, last = s.last.scale; s.now < end; last = s.last.scale) {
+        run(&s, PLAY, 1);
+        seen += s.last.scale != last;
+    }
+    print_message("hoped for %llu times more\n", (unsigned long long)seen);
+    assert_true(seen <= 4); /* there and back; each hope is twice as rare as the one before */
 }
 
 /* Rest */
