@@ -44,11 +44,11 @@ function mergePatch(before, after) {
 }
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
-const visible = () =>
-  new Promise(resolve => {
-    if (!document.hidden) resolve();
-    else document.addEventListener('visibilitychange', resolve, { once: true });
-  });
+const events = ['visibilitychange', 'viewchange'];
+async function visible() {
+  while (document.hidden || document.body.dataset.view !== 'lensing')
+    await new Promise(resolve => events.forEach(event => document.addEventListener(event, resolve, { once: true })));
+}
 
 // scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
 //   refresh()      to be called whenever the scene or the window has changed

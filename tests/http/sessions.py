@@ -214,6 +214,15 @@ class Sessions(daemon.Owned):
         self.assertLess(len(revisions), 5)
         self.assertEqual(self.frame(session, number, 100).status, 204)
 
+    def test_what_is_overtaken_is_not_shown(self):
+        for _ in range(5):
+            session = self.open({'image': {'width': 4000, 'height': 3000}, 'time': 60})  # its first frame takes long to be encoded,
+            self.patch(session, {'image': {'width': 64, 'height': 36}, 'time': 0})      # the next one does not
+            self.assertEqual(self.frame(session, 1).header('Kerrd-Revision'), '2')
+            time.sleep(0.2)
+            self.assertEqual(self.frame(session).header('Kerrd-Revision'), '2')
+            self.delete(session)
+
     def test_many_viewers_cost_one_render(self):
         session = self.open({**SCENE, 'time': 100})
         number = int(self.frame(session).header('Kerrd-Frame'))

@@ -4,6 +4,7 @@ Skipped, with the reason, where Playwright for Python, Chromium or a Vulkan devi
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -123,7 +124,12 @@ class Page(unittest.TestCase):
         paths = {f'{section}.{name}' for section, spec in schema.items() for name in spec.get('properties', {})}
         shown = set(page.locator('[data-path]').evaluate_all('all => all.map(n => n.dataset.path)'))
         self.assertEqual(shown, (paths | {'time'}) - {'image.width', 'image.height'})
-        self.assertIn('traced again in double precision', page.inner_text('#accuracy-words'))
+        words = page.inner_text('#accuracy-words')
+        self.assertIn('traced again in double precision', words)
+        told = [value(x) for x in re.search('off by (.+?) of themselves in the median, (.+?) at worst', words).groups()]
+        last = [r for r in self.requests if '/frame.png' in r.url][-2].response().headers['kerrd-accuracy']  # one is still awaited
+        for got, name in zip(told, ('median', 'worst')):
+            self.assertAlmostEqual(got / float(re.search(rf'{name}=(\S+)', last)[1]), 1, delta=0.06)
         self.assertGreater(page.locator('#approximations li').count(), 3)
         self.assertGreater(page.locator('#timings tr').count(), 4)
         self.assertEqual(page.evaluate('() => document.createElement("canvas").getContext("webgl")'), None, 'the flag took WebGL away')
@@ -178,11 +184,20 @@ class Page(unittest.TestCase):
         page.keyboard.press('ArrowUp')
         page.keyboard.press('Shift+ArrowRight')
         self.assertEqual((self.field(page, 'camera.inclination_deg'), self.field(page, 'camera.azimuth_deg')), ('80', '10'))
+        for key, end in (('ArrowUp', '0'), ('ArrowDown', '180')):
+            for _ in range(20):
+                page.keyboard.press('Shift+' + key)
+            self.assertEqual(self.field(page, 'camera.inclination_deg'), end)
         page.click('#nearer')
         self.assertLess(float(self.field(page, 'camera.field_m')), far / 1.2)
         page.click('#reset')
         page.wait_for_selector(AT_REST)
         self.assertEqual((self.field(page, 'camera.field_m'), self.field(page, 'camera.inclination_deg')), ('46', '82'))
+        page = self.open(viewport={'width': 700, 'height': 600})
+        page.hover('#stage')
+        page.mouse.wheel(0, 300)
+        self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.field_m') != '46'))
+        self.assertEqual(page.evaluate('scrollY'), 0)
 
     def test_pinch(self):
         page = self.open(has_touch=True)
@@ -586,6 +601,30 @@ class Page(unittest.TestCase):
         page.keyboard.press('Enter')
         self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock').startswith('t = −')))
         self.shot(page, 'living-disk')
+
+    def test_what_is_not_seen_is_not_asked_for(self):
+        page = self.open('lang=en&preset=living-disk', '#stage[data-final]')
+        pictures = lambda: page.evaluate('0') or len([r for r in self.requests if '/frame.png' in r.url])
+        hide = '''hidden => {
+            Object.defineProperty(document, 'hidden', { configurable: true, get: () => hidden });
+            document.dispatchEvent(new Event('visibilitychange'));
+        }'''
+        for away, back in ((lambda: page.click('nav [data-view=physics]'), lambda: page.go_back()),
+                           (lambda: page.evaluate(hide, True), lambda: page.evaluate(hide, False))):
+            away()
+            page.wait_for_timeout(300)
+            before = pictures()
+            page.wait_for_timeout(1000)
+            self.assertEqual(pictures(), before)
+            back()
+            self.assertTrue(daemon.eventually(lambda: pictures() > before + 5))
+
+    def test_a_page_that_is_closed_ends_its_session(self):
+        page = self.open()
+        own = next(r.response().json() for r in self.requests if r.url.endswith('/v1/sessions'))
+        self.assertEqual(self.daemon.get('/v1/sessions/' + own['id']).status, 200)
+        page.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/sessions/' + own['id']).status == 404, 5))
 
     def test_other_particles_and_a_spot(self):
         page = self.open('lang=en&camera.inclination_deg=60')
