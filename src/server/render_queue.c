@@ -13,6 +13,7 @@
 
 #define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it */
 
+#define QUIET_MS 1000.0 /* without a live frame */
 #define OTHERS 10.0 /* times as long as a slice of what is in the background may what goes before it take */
 
 struct list {
@@ -33,7 +34,8 @@ struct kd_render_queue {
     struct list waiting, encoding;
     unsigned limit, n_waiting, unfinished;
     size_t frame_bytes;
-    double resumed_ms;             /* when what is in the background went on */
+    double resumed_ms;             /* when what is aside went on */
+    double live_ms;                /* when a live frame was begun */
     double waiting_ms, running_ms; /* estimates: of the waiting jobs, and what is left of the running one */
     bool lost;
     struct kd_error lost_error;
@@ -134,13 +136,19 @@ static bool unwanted(struct kd_render_queue *queue, struct kd_render_job *job)
 
 static void render_one(struct kd_render_queue *queue, struct kd_render_job *job);
 
+/* What may go between the slices of this: nothing to whose end others then would have to wait. */
+static int passed_by(const struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    return rank(job) == BACKGROUND && kd_clock_ms() - queue->live_ms < QUIET_MS ? PATIENT : rank(job);
+}
+
 /* Between two slices: those that wait, as long as they may. Locked. */
 static void make_way(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     double now = kd_clock_ms(), until = now + OTHERS * (now - queue->resumed_ms), left_ms = queue->running_ms;
     struct kd_render_job *other;
     while (queue->frame_bytes <= FRAME_BYTES && !queue->lost && kd_clock_ms() < until &&
-           (other = take_next(&queue->waiting, rank(job))))
+           (other = take_next(&queue->waiting, passed_by(queue, job))))
         render_one(queue, other);
     queue->running = true;
     queue->running_ms = left_ms;
@@ -156,10 +164,11 @@ static bool progress(void *user, double fraction)
     queue->running_ms = job->plan.estimate_ms * (1 - fraction);
     if (job->aside)
         make_way(queue, job);
+    const bool yields = job->patient && !job->aside && queue->waiting.first && rank(queue->waiting.first) == LIVE;
     pthread_mutex_unlock(&queue->lock);
     if (job->progress)
         job->progress(job, fraction);
-    return !unwanted(queue, job);
+    return !yields && !unwanted(queue, job);
 }
 
 static void mark_lost(struct kd_render_queue *queue, const struct kd_error *error)
@@ -233,6 +242,7 @@ static void render_one(struct kd_render_queue *queue, struct kd_render_job *job)
     leave(queue, job);
     queue->running = true;
     queue->running_ms = job->plan.estimate_ms;
+    queue->live_ms = rank(job) == LIVE ? kd_clock_ms() : queue->live_ms;
     bool aside = rank(job) >= PATIENT && !queue->aside;
     job->aside = aside;
     queue->aside |= aside;

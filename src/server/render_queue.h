@@ -30,8 +30,9 @@ struct kd_render_job {
     /* Behind all that is not, which also goes between its slices; but it begins after KD_BACKGROUND_MS at the latest, and has a tenth of the
      * time: others cannot stop it for good. A picture, and not counted either. */
     bool background;
-    /* Of a live one that is long and that nobody drags: as `background`, but before that. If something in the background is under
-     * way it goes between its slices, and nothing between its own. plan: for half of the memory. */
+    /* Of a live one that is long and that nobody drags: as `background`, but before that. While something in the background is under
+     * way it goes between its slices instead, unless there are other live ones, and is KD_ECANCELLED when one comes. plan: for half
+     * of the memory. */
     bool patient;
     bool sliced; /* a part of what comes in many: has its tenth of the time as well, that frames of sessions leave it none */
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */

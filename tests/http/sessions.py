@@ -551,6 +551,20 @@ class Sessions(daemon.Owned):
                 self.assertRegex(self.frame(session, number).header('Kerrd-Quality'), 'samples=2 .*final=1')
                 self.assertLess(time.monotonic() - begun, 10)
 
+    def test_a_long_refinement_makes_way_beside_a_job(self):
+        job = self.daemon.post('/v1/jobs', {'scene': {**SCENE, 'time': 60000}}).json()
+        self.addCleanup(self.daemon.request, 'DELETE', '/v1/jobs/' + job['id'], headers=self.owner(job))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).json()['fraction'] > 0))
+        other = self.open()
+        with self.stream(other, '/events'):
+            session, number, waiting = self.refining({**self.LONG, 'time': 2000})
+            with waiting:
+                time.sleep(0.3)  # it has begun by now
+                for _ in range(2):
+                    self.assertLess(self.first_frame_s(), 0.6)
+                self.assertEqual(self.status(session)['frame'], number)
+                self.assertRegex(self.frame(session, number).header('Kerrd-Quality'), 'samples=2 .*final=1')
+
     def test_a_long_refinement_that_was_alone_begins_again(self):
         session, number, waiting = self.refining({**self.LONG, 'time': 1800})
         with waiting:
