@@ -147,9 +147,9 @@ export const fields = {
   'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla, o un reticolo celeste che mostra la lente'],
   'sky.brightness': ['Luminosità', 'Luminosità del cielo in unità della massima brillanza del disco a g = 1'],
   'sky.grid_deg': ['Passo del reticolo', 'Spaziatura del reticolo celeste'],
-  'image.critical_samples': [
-    'Campioni al bordo critico',
-    'Lo stesso per i pixel attraversati dalla curva critica, dove l’anello di fotoni è più sottile di loro; se non più dei campioni: come altrove',
+  'image.critical_factor': [
+    'Fattore sulla curva critica',
+    'Tante volte di più per lato dei pixel attraversati dalla curva critica, dove l’anello di fotoni è più sottile di loro; al più 16 in tutto',
   ],
   'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati'],
   'image.bit_depth': ['Profondità', 'Bit per canale: 8 o 16'],

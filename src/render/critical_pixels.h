@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #define KD_CRITICAL_NEAR 2.5 /* pixels */
+#define KD_CRITICAL_SIDE 16  /* rays along each side of such a pixel, at most */
 
 struct kd_pixel { uint32_t x, y; };
 struct kd_critical_pixels {

@@ -18,20 +18,7 @@ double kd_render_now_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
-{
-    j->done += rows;
-    if (j->aside) { /* what others measure must not hold what is under way here */
-        enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
-        if (status)
-            return status;
-    }
-    if (j->progress && !j->progress(j->user, fmin(j->done / j->weight, 1)))
-        return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
-    return KD_OK;
-}
-
-/* Histogram of the whole picture to the host. */
+/* Histogram of what is lit to the host. */
 static enum kd_status measure(struct kd_frame_job *j)
 {
     struct kd_vk *vk = j->r->vk;
@@ -40,8 +27,8 @@ static enum kd_status measure(struct kd_frame_job *j)
     enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error);
     if (!status)
         status = kd_vk_fill(vk, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
-    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
-        uint32_t pixels = j->plan->width * kd_frame_band_rows(j, band);
+    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
+        uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
         const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         status = kd_vk_dispatch(vk,
@@ -116,9 +103,23 @@ static double auto_exposure(const uint32_t *counts, int tone_map)
     return over - white;
 }
 
-/* Post and read back, one band at a time. */
-static enum kd_status finish_pixels(struct kd_frame_job *j, struct kd_frame *frame)
+static enum kd_status expose(struct kd_frame_job *j)
 {
+    const struct kd_scene *scene = j->scene;
+    j->frame->exposure = scene->style.exposure;
+    if (!isinf(scene->style.exposure))
+        return KD_OK;
+    enum kd_status status = measure(j);
+    if (!status)
+        j->frame->exposure =
+            kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map));
+    return status;
+}
+
+/* Post and read back what is lit, one band at a time. */
+static enum kd_status finish_pixels(struct kd_frame_job *j)
+{
+    struct kd_frame *frame = j->frame;
     struct kd_vk *vk = j->r->vk;
     struct kd_store *s = j->store;
     const struct kd_scene *scene = j->scene;
@@ -127,8 +128,8 @@ static enum kd_status finish_pixels(struct kd_frame_job *j, struct kd_frame *fra
     size_t pixel_bytes = wide ? 6 : 3;
     const uint32_t constants[] = { scene->style.tone_map == KD_TONE_ACES, wide };
     enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, constants, 2, &post, j->error);
-    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
-        uint32_t pixels = frame->width * kd_frame_band_rows(j, band);
+    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
+        uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
         uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
             .gain = (float)exp2(frame->exposure),
@@ -160,6 +161,34 @@ static enum kd_status finish_pixels(struct kd_frame_job *j, struct kd_frame *fra
     return status;
 }
 
+static enum kd_status glance(struct kd_frame_job *j)
+{
+    j->looking = true;
+    enum kd_status status = expose(j);
+    if (!status)
+        status = finish_pixels(j);
+    if (!status)
+        j->glance->seen(j->user, j->frame, j->lit);
+    j->looking = false;
+    return status;
+}
+
+enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
+{
+    if (j->looking) /* none of the picture's own */
+        return KD_OK;
+    j->done += rows;
+    if (j->aside) { /* what others measure must not hold what is under way here */
+        enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
+        if (status)
+            return status;
+    }
+    if (j->progress && !j->progress(j->user, fmin(j->done / j->weight, 1)))
+        return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
+    bool part = j->glance && j->lit && j->lit < j->plan->height;
+    return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
+}
+
 static void add_timing(struct kd_frame *frame, const char *name, double ms)
 {
     if (frame->n_timings >= KD_FRAME_MAX_TIMINGS)
@@ -182,9 +211,10 @@ static void collect_timings(const struct kd_frame_job *j, struct kd_frame *frame
     add_timing(frame, "total", total_ms);
 }
 
-static enum kd_status run(struct kd_frame_job *j, struct kd_frame *frame)
+static enum kd_status run(struct kd_frame_job *j)
 {
     struct kd_renderer *r = j->r;
+    struct kd_frame *frame = j->frame;
     struct kd_capacity c;
     bool reused = false;
     kd_renderer_capacity(r, &c);
@@ -207,15 +237,10 @@ static enum kd_status run(struct kd_frame_job *j, struct kd_frame *frame)
         status = kd_frame_light(j, reused);
     if (!status && j->plan->light)
         status = add_up(j);
-    frame->exposure = j->scene->style.exposure;
-    if (!status && isinf(frame->exposure)) {
-        status = measure(j);
-        if (!status)
-            frame->exposure =
-                kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), j->scene->style.tone_map));
-    }
     if (!status)
-        status = finish_pixels(j, frame);
+        status = expose(j);
+    if (!status)
+        status = finish_pixels(j);
     if (!status && j->plan->light)
         frame->light = kd_light_of(j->scene, kd_vk_buffer_map(j->store->light_host), kd_light_bytes(j->plan) / (4 * KD_LIGHT_SUMS));
     double audited = kd_render_now_ms();
@@ -235,10 +260,11 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
     const struct kd_plan *plan = job->plan;
     struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = job->scene->image.bit_depth };
-    frame.pixels = malloc(plan->host_bytes);
+    frame.pixels = calloc(1, plan->host_bytes);
     if (!frame.pixels)
         return kd_error_set(job->error, KD_ENOMEM, "out of memory for %llu bytes of pixels", (unsigned long long)plan->host_bytes);
-    enum kd_status status = run(job, &frame);
+    job->frame = &frame;
+    enum kd_status status = run(job);
     if (!status) {
         *out = frame;
         return KD_OK;
@@ -268,12 +294,13 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
 }
 
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
+                               struct kd_error *error)
 {
     double start = kd_render_now_ms();
     struct kd_frame_job job = {
         .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true,
-        .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
+        .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .glance = glance, .user = user, .error = error,
     };
     enum kd_status status = render(&job, out);
     if (!status)

@@ -16,8 +16,12 @@ struct kd_frame_job {
     uint64_t undecided;  /* listed rays that an engine gave up */
     double listed_ms, audit_ms; /* the host's time for them, and for the audit */
     kd_progress_fn progress;
+    const struct kd_glance *glance;
     void *user;
     double done, weight; /* rows so far, of all passes */
+    uint32_t lit;        /* rows of pixels from the top whose light is there */
+    bool looking;        /* they are being looked at */
+    struct kd_frame *frame;
     struct kd_error *error;
 };
 
@@ -29,6 +33,12 @@ static inline uint32_t kd_frame_band_rows(const struct kd_frame_job *j, uint32_t
 {
     uint32_t left = j->plan->height - kd_frame_band_first(j, band);
     return left < j->plan->band_rows ? left : j->plan->band_rows;
+}
+/* Those of them that are lit. */
+static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t band)
+{
+    uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
+    return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
 }
 static inline uint32_t kd_frame_groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
 

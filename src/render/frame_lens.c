@@ -55,67 +55,47 @@ static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_cr
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);
 }
 
-/* Run a kernel over the rows of a band in slices. rays: the grid is that of the rays, not of the pixels. */
-static enum kd_status run_band(struct kd_frame_job *j, uint32_t band, const struct kd_vk_dispatch *base, bool rays,
-                               double ns_per_ray)
+/* Rows of pixels of a band, traced and lit in one go. */
+struct slice { uint32_t band, first, count; };
+
+/* Record a kernel over a slice. rays: the grid is that of the rays, not of the pixels. */
+static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, bool rays)
 {
     const struct kd_plan *p = j->plan;
-    uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
-    double row_ns = ns_per_ray * p->width * p->side * p->side;
-    uint32_t step = slice_rows(row_ns, rows);
-    for (uint32_t done = 0; done < rows; done += step) {
-        uint32_t n = rows - done < step ? rows - done : step;
-        struct kd_camera_push push = j->camera;
-        push.row0 = (first + done) * p->side;
-        push.rows = n * p->side;
-        push.band0 = first * p->side;
-        push.stride = p->width * p->side * p->band_rows * p->side;
-        struct kd_vk_dispatch d = *base;
-        d.push = &push;
-        d.groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
-        d.groups[1] = rays ? push.rows : n;
-        enum kd_status status = kd_vk_dispatch(j->r->vk, &d, j->error);
-        if (!status)
-            status = kd_vk_submit(j->r->vk, NULL, j->error);
-        if (!status)
-            status = kd_frame_report(j, n);
-        if (status)
-            return status;
-    }
-    return KD_OK;
+    struct kd_camera_push push = j->camera;
+    push.row0 = s->first * p->side;
+    push.rows = s->count * p->side;
+    push.band0 = kd_frame_band_first(j, s->band) * p->side;
+    push.stride = p->width * p->side * p->band_rows * p->side;
+    d->push = &push;
+    d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
+    d->groups[1] = rays ? push.rows : s->count;
+    return kd_vk_dispatch(j->r->vk, d, j->error);
 }
 
-static enum kd_status list_band(struct kd_frame_job *j, uint32_t band)
+static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
-    uint32_t first = kd_frame_band_first(j, band) * p->side, rows = kd_frame_band_rows(j, band) * p->side;
     uint64_t width = (uint64_t)p->width * p->side;
-    uint32_t step = slice_rows(p->trace_ns * (double)width, rows);
-    enum kd_status status = KD_OK;
+    const struct kd_lens_rows rows = {
+        .first = s->first * p->side, .count = s->count * p->side, .to = lens_buffer(j, s->band),
+        .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width, .stride = width * p->band_rows * p->side,
+    };
     double start = kd_render_now_ms();
-    for (uint32_t done = 0; done < rows && !status; done += step) {
-        const struct kd_lens_rows part = {
-            .first = first + done, .count = rows - done < step ? rows - done : step, .to = lens_buffer(j, band),
-            .offset = done * width, .stride = width * p->band_rows * p->side,
-        };
-        status = kd_lens_listed(j->r, j->scene, p, &part, &j->undecided, j->error);
-        if (!status)
-            status = kd_frame_report(j, (double)part.count / p->side);
-    }
+    enum kd_status status = kd_lens_listed(j->r, j->scene, p, &rows, &j->undecided, j->error);
     j->listed_ms += kd_render_now_ms() - start;
     return status;
 }
 
 /* pipeline: of trace_kernel. */
-static enum kd_status trace_band(struct kd_frame_job *j, uint32_t band, const struct kd_vk_pipeline *pipeline)
+static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s, const struct kd_vk_pipeline *pipeline)
 {
-    const struct kd_plan *p = j->plan;
-    if (p->path == KD_LENS_LISTED)
-        return list_band(j, band);
-    struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, band), 0, 0, true } }, NULL, { 0 } };
-    if (p->path == KD_LENS_MAP)
+    if (j->plan->path == KD_LENS_LISTED)
+        return list_slice(j, s);
+    struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, s->band), 0, 0, true } }, NULL, { 0 } };
+    if (j->plan->path == KD_LENS_MAP)
         d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
-    return run_band(j, band, &d, true, p->trace_ns);
+    return record(j, s, &d, true);
 }
 
 static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
@@ -133,10 +113,29 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
     };
 }
 
-static enum kd_status transfer_band(struct kd_frame_job *j, uint32_t band, const struct kd_vk_pipeline *pipeline, double ns)
+/* A band, slice by slice, so that what is done of a long picture can be looked at. trace: NULL if the lens map is reused, or of
+ * trace_kernel; ns: of a ray. */
+static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, const struct kd_vk_pipeline *trace,
+                                 const struct kd_vk_pipeline *transfer, double ns)
 {
-    const struct kd_vk_dispatch d = transfer_dispatch(j, pipeline, lens_buffer(j, band), band);
-    return run_band(j, band, &d, false, ns);
+    const struct kd_plan *p = j->plan;
+    uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
+    uint32_t step = slice_rows(ns * p->width * p->side * p->side, rows);
+    enum kd_status status = KD_OK;
+    for (uint32_t done = 0; done < rows && !status; done += step) {
+        const struct slice s = { band, first + done, rows - done < step ? rows - done : step };
+        struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, band), band);
+        if (needed)
+            status = trace_slice(j, &s, trace);
+        if (!status)
+            status = record(j, &s, &d, false);
+        if (!status)
+            status = kd_vk_submit(j->r->vk, NULL, j->error);
+        j->lit = s.first + s.count;
+        if (!status)
+            status = kd_frame_report(j, needed ? 2 * s.count : s.count);
+    }
+    return status;
 }
 
 /* A part of the pixels at the critical curve. */
@@ -286,17 +285,14 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *trace = NULL, *transfer;
     bool needed = !reused && p->planes;
+    double ns = c.ns_per_sample_transfer + (needed ? p->trace_ns : 0);
     enum kd_status status = needed ? forget_undecided(j) : KD_OK;
     if (!status && needed)
         status = trace_kernel(j, &on_grid, &trace);
     if (!status)
         status = transfer_kernel(j, &on_grid, &transfer);
-    for (uint32_t band = 0; band < p->bands && !status; band++) {
-        if (needed)
-            status = trace_band(j, band, trace);
-        if (!status)
-            status = transfer_band(j, band, transfer, c.ns_per_sample_transfer);
-    }
+    for (uint32_t band = 0; band < p->bands && !status; band++)
+        status = light_band(j, band, needed, trace, transfer, ns);
     if (!status && p->critical)
         status = light_at_curve(j, needed, c.ns_per_sample_transfer);
     return status;
@@ -358,7 +354,13 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     if (!status)
         status = trace_kernel(&job, &on_grid, &trace);
     for (uint32_t band = 0; band < plan->bands && !status; band++) {
-        status = trace_band(&job, band, trace);
+        uint32_t rows = kd_frame_band_rows(&job, band), step = slice_rows(plan->trace_ns * plan->width * plan->side * plan->side, rows);
+        for (uint32_t done = 0; done < rows && !status; done += step) {
+            const struct slice s = { band, kd_frame_band_first(&job, band) + done, rows - done < step ? rows - done : step };
+            status = trace_slice(&job, &s, trace);
+            if (!status)
+                status = kd_vk_submit(renderer->vk, NULL, error);
+        }
         if (!status)
             status = read_band(&job, band, host, planes);
     }

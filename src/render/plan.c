@@ -191,7 +191,9 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
                                struct kd_error *error)
 {
     struct kd_critical_pixels list;
-    uint64_t side = (uint64_t)scene->image.critical_samples;
+    uint64_t side = plan->side * (uint64_t)scene->image.critical_factor;
+    if (side > KD_CRITICAL_SIDE)
+        side = KD_CRITICAL_SIDE;
     if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->sky)) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_pixels_of(scene, &list, error);

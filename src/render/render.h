@@ -65,11 +65,20 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          const struct kd_plan *plan, kd_progress_fn progress, void *user,
                          struct kd_frame *out, struct kd_error *error);
 
+/* How a picture that takes long looks so far: it is drawn from the top, some rows at a time. Called between these. */
+struct kd_glance {
+    bool (*wanted)(void *user);
+    /* frame: of the whole size, black from row `rows` on, with an exposure of its own where that is "auto", no timings and no
+     * accuracy. Its pixels are not the callee's to keep. */
+    void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
+};
+
 /* The same with buffers of its own, at most half of the memory: plan must be made with a capacity of that. progress, called at least
  * every 100 ms or so, may use the renderer for anything but this, and the picture stays the same to the byte. Of timings only "total",
- * with what progress took; the capacity learns nothing from it. */
+ * with what progress took; the capacity learns nothing from it. glance: NULL, or both functions, with the same user. */
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
+                               struct kd_error *error);
 
 /* The lens map alone: plan->planes planes of plan->rays floats each, rows from the top, in the order that
  * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */

@@ -26,7 +26,7 @@ static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double bri
     scene.disk.outer = 1000;
     scene.disk.taper = 0;
     scene.image.width = scene.image.height = 1;
-    scene.image.critical_samples = 0;
+    scene.image.critical_factor = 1;
     scene.image.bit_depth = 16;
     scene.style.tone_map = KD_TONE_SRGB;
     scene.style.dither = false;

@@ -107,9 +107,9 @@
     INT(image, width, 1280, 1, 32768, "pixels", "width of the picture")                                       \
     INT(image, height, 720, 1, 32768, "pixels", "height of the picture")                                      \
     INT(image, samples, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")        \
-    INT(image, critical_samples, 4, 0, 16, "1",                                                               \
-        "the same for pixels that the critical curve passes, where the photon ring is thinner than they are; not more than "     \
-        "image.samples: as elsewhere")                                                                        \
+    INT(image, critical_factor, 4, 1, 16, "1",                                                                \
+        "so many times as many along each side of the pixels that the critical curve passes, where the photon ring is thinner "  \
+        "than they are; at most 16 in all")                                                                        \
     INT(image, bit_depth, 8, 8, 16, "bits", "bits a channel: 8 or 16")
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \

@@ -8,6 +8,14 @@
 
 struct kd_job_frame; /* one on its way through the render queue */
 
+/* What can be seen of it, job_glance.c. */
+struct kd_job_glance {
+    struct kd_buffer png;
+    unsigned frame;
+    uint32_t rows, height;
+    double until_ms, due_ms, began_ms; /* it is wanted until; not before; the last one was begun */
+};
+
 struct kd_job {
     struct kd_jobs *all;
     unsigned references;
@@ -24,6 +32,7 @@ struct kd_job {
     unsigned revision; /* of what its status says */
     char client[48];
     bool listed;
+    struct kd_job_glance glance;
     struct kd_job_watcher *watchers;
     struct kd_job *link;
 };
@@ -59,6 +68,9 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
 /* job_run.c: hand the next frame to the render queue if it is time for one. */
 void kd_jobs_pump(struct kd_jobs *all);
+/* Of a frame, by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
+struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
+extern const struct kd_glance kd_job_glance;
 /* The frame of this job that is being rendered, if there is one, is wanted no more; job NULL: of any. */
 void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
 

@@ -194,6 +194,43 @@ static enum MHD_Result send_png(struct kd_request *request, struct kd_job *job, 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
+static enum MHD_Result bad(struct kd_request *request, struct kd_job *job, const char *detail)
+{
+    kd_job_release(job);
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
+}
+
+/* As a viewer asks again and again. */
+enum MHD_Result kd_handle_job_preview(struct kd_request *request)
+{
+    enum MHD_Result refused;
+    struct kd_job_status status;
+    struct kd_job_sight sight;
+    struct kd_buffer png = { 0 };
+    char number[24], rows[32];
+    if (!kd_reply_only(request, (const char *const[]) { NULL }, &refused))
+        return refused;
+    struct kd_job *job = kd_job_of(request, &refused);
+    if (!job)
+        return refused;
+    kd_job_status(job, &status);
+    if (status.curve)
+        return bad(request, job, "the frames of this job are the rows of a light curve: there is nothing to look at");
+    if (!kd_job_glimpse(job, &png, &sight))
+        return not_ready(request, job, &status);
+    if (sight.finished)
+        return send_png(request, job, sight.frame, &status);
+    kd_job_release(job);
+    snprintf(number, sizeof number, "%u", sight.frame);
+    snprintf(rows, sizeof rows, "%u/%u", sight.rows, sight.height);
+    struct MHD_Response *response = kd_reply_take(&png, PNG_TYPE);
+    if (response) {
+        MHD_add_response_header(response, "Kerrd-Frame", number);
+        MHD_add_response_header(response, "Kerrd-Rows", rows);
+    }
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
 static bool read_row(struct kd_job *job, unsigned frame, struct kd_curve_row *out)
 {
     uint64_t size;
@@ -218,12 +255,6 @@ static enum MHD_Result send_curve(struct kd_request *request, struct kd_job *job
     if (csv)
         kd_reply_file(request, KD_ATTACHMENT, "light-curve.csv");
     return kd_reply_json(request, status, &text, csv ? CSV_TYPE : JSON_TYPE);
-}
-
-static enum MHD_Result bad(struct kd_request *request, struct kd_job *job, const char *detail)
-{
-    kd_job_release(job);
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
 }
 
 /* What Accept would rather have, JSON if it does not care; NULL: neither. */

@@ -93,6 +93,7 @@ static bool begin(struct kd_job *job)
     frame->render.encode = job->spec.curve ? encode_row : NULL;
     frame->render.socket = -1;
     frame->render.progress = progress;
+    frame->render.glance = job->spec.curve ? NULL : &kd_job_glance;
     frame->render.rendered = rendered;
     frame->render.done = done;
     frame->job = job;
@@ -103,6 +104,14 @@ static bool begin(struct kd_job *job)
     all->rendering = frame;
     kd_render_queue_push(all->params.renders, &frame->render);
     return true;
+}
+
+struct kd_job *kd_job_of_frame(const void *render, unsigned *number)
+{
+    const struct kd_job_frame *frame = render;
+    if (number)
+        *number = frame->number;
+    return frame->job;
 }
 
 void kd_jobs_pump(struct kd_jobs *all)
@@ -123,6 +132,8 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 static void finished(struct kd_job *job, unsigned number, uint64_t size)
 {
     job->have[number] = 1;
+    if (job->glance.frame == number)
+        kd_buffer_finish(&job->glance.png);
     job->finished++;
     job->finished_here++;
     job->all->frames++;

@@ -46,6 +46,7 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
 static void finish(struct kd_job *job)
 {
     kd_job_spec_finish(&job->spec);
+    kd_buffer_finish(&job->glance.png);
     free(job->have);
     free(job);
 }

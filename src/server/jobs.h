@@ -74,6 +74,14 @@ void kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* As kd_job_store_get. */
 int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);
+/* What there is to see of a job of pictures, which asks for more of it to come: of the frame under way `png`, drawn down to some row,
+ * else the last frame that is finished. False: nothing yet. */
+struct kd_job_sight {
+    unsigned frame;
+    bool finished;         /* it is in its file: kd_job_frame */
+    uint32_t rows, height; /* of one under way: drawn, of so many */
+};
+bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
 /* Nobody finds it any more; its files go with the last reference. */
 void kd_job_delete(struct kd_job *job);
 

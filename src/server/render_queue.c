@@ -210,9 +210,12 @@ static bool render(struct kd_render_queue *queue, struct kd_render_job *job)
         return false;
     }
     queue->resumed_ms = job->aside ? kd_clock_ms() : queue->resumed_ms;
-    job->status = job->run ? job->run(job, queue->renderer, progress, job)
-                           : (job->aside ? kd_render_aside : kd_render)(queue->renderer, &job->scene, &job->plan, progress, job,
-                                                                        &job->frame, &job->error);
+    if (job->run)
+        job->status = job->run(job, queue->renderer, progress, job);
+    else if (job->aside)
+        job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, progress, job->glance, job, &job->frame, &job->error);
+    else
+        job->status = kd_render(queue->renderer, &job->scene, &job->plan, progress, job, &job->frame, &job->error);
     if (job->status == KD_EDEVICE)
         mark_lost(queue, &job->error);
     else

@@ -36,6 +36,7 @@ struct kd_render_job {
     bool patient;
     bool sliced; /* a part of what comes in many: has its tenth of the time as well, that frames of sessions leave it none */
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */
+    const struct kd_glance *glance; /* of one in the background or a patient one; may be NULL; user: the job. On the render thread */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
     enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
     _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */

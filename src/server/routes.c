@@ -49,6 +49,8 @@ const struct kd_route kd_routes[] = {
       KD_TAKES_JOB, { 202 } },
     { "/v1/jobs/{id}", KD_GET | KD_DELETE, kd_handle_job, JSON, "How far a job is; its end, with its files" },
     { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
+    { "/v1/jobs/{id}/preview.png", KD_GET, kd_handle_job_preview, "image/png",
+      "The frame that is being rendered, as far as it is drawn, else the last finished one; 409 while there is nothing" },
     { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, "application/zip",
       "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; "
       "of a light curve its rows, as application/json or text/csv" },

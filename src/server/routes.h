@@ -67,6 +67,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request); /* job_routes.c */
 enum MHD_Result kd_handle_job(struct kd_request *request);
 enum MHD_Result kd_handle_job_events(struct kd_request *request);
 enum MHD_Result kd_handle_job_result(struct kd_request *request); /* job_result.c */
+enum MHD_Result kd_handle_job_preview(struct kd_request *request); /* job_result.c */
 enum MHD_Result kd_handle_quantities(struct kd_request *request); /* physics.c */
 enum MHD_Result kd_handle_quantity(struct kd_request *request);
 

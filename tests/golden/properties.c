@@ -11,7 +11,7 @@
 /* Linear light can be read back from these: no film curve, no dither, nothing clipped (g^4 stays below 16),
  * 16 bits. */
 #define LINEAR "\"style\":{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false}"
-#define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_samples\":0}"
+#define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
 /* Largest difference between a pixel of `a` and the one of `b` at the same place, or mirrored, in 1/255. */
 enum { FLIP_X = 1, FLIP_Y = 2 };
@@ -150,7 +150,7 @@ static void samples_are_averages(void **state)
                                     "\"r\":25,\"inclination_deg\":80,\"roll_deg\":10" };
     for (int k = 0; k < 2; k++) {
         struct kd_frame f = studio_shoot(
-            "{\"camera\":{%s},\"image\":{\"width\":60,\"height\":40,\"bit_depth\":16,\"samples\":2,\"critical_samples\":0}," LINEAR
+            "{\"camera\":{%s},\"image\":{\"width\":60,\"height\":40,\"bit_depth\":16,\"samples\":2,\"critical_factor\":1}," LINEAR
             "}",
             cameras[k]);
         struct kd_frame big = studio_shoot("{\"camera\":{%s}," SIZE(120, 80) "," LINEAR "}", cameras[k]);

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_samples\":0}"
+#define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
 /* The outline of the shadow for an observer at infinity: (alpha, beta) of the spherical photon orbits
  * (Bardeen 1973), of which the code under test knows nothing. The upper half from left to right in beta >= 0;

@@ -225,6 +225,56 @@ static void test_progress(void **state)
     kd_frame_finish(&frame);
 }
 
+struct glances {
+    const struct kd_frame *want; /* NULL: the exposure is its own */
+    uint32_t rows[64], n;
+};
+
+static bool wanted(void *user) { return ((struct glances *)user)->n < 64; }
+
+static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
+{
+    struct glances *g = user;
+    size_t size = bytes(frame), lit = size / frame->height * rows;
+    const unsigned char *pixels = frame->pixels;
+    assert_true(rows > (g->n ? g->rows[g->n - 1] : 0) && rows <= frame->height);
+    g->rows[g->n++] = rows;
+    if (g->want)
+        assert_memory_equal(pixels, g->want->pixels, lit);
+    for (size_t i = lit; i < size; i++)
+        assert_int_equal(pixels[i], 0);
+}
+
+/* A picture that is looked at while it is drawn comes out the same, and what is seen of it is its upper part. */
+static void test_glances(void **state)
+{
+    (void)state;
+    static const struct kd_glance glance = { wanted, seen };
+    const struct kd_capacity c = capacity();
+    for (int k = 0; k < 6; k++) {
+        struct kd_scene scene = small_scene();
+        struct kd_plan plan;
+        scene.camera.inclination_deg = 60 + k; /* a lens map of its own */
+        scene.image.bit_depth = k % 2 ? 16 : 8;
+        scene.style.exposure = k < 3 ? 0 : INFINITY;
+        scene.image.critical_factor = 1;
+        scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
+        struct kd_frame whole = render(&scene), looked;
+        struct kd_capacity narrow = c;
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        if (k % 3 == 1) {
+            narrow.max_binding_bytes = 4ull * plan.planes * 160 * 25 + 64;
+            OK(kd_plan_make(&scene, &narrow, &plan, &error));
+            assert_true(plan.bands > 2);
+        }
+        plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+        struct glances glances = { .want = isinf(scene.style.exposure) ? NULL : &whole };
+        OK(kd_render_aside(renderer, &scene, &plan, NULL, &glance, &glances, &looked, &error));
+        assert_in_range(glances.n, 12, 20);
+        assert_same(&whole, &looked);
+    }
+}
+
 static void test_too_big(void **state)
 {
     (void)state;
@@ -310,7 +360,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reuse),    cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
         cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_glances), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

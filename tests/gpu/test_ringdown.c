@@ -15,7 +15,7 @@ static struct kd_scene scene_of(double spin)
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = 75;
     scene.camera.field_m = 30;
-    scene.image.critical_samples = 0; /* pixels are their rays */
+    scene.image.critical_factor = 1; /* pixels are their rays */
     scene.disk.outer = 15;
     scene.disk.opacity = 0.5;
     scene.image.width = 96;

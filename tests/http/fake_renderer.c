@@ -126,10 +126,37 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     return KD_OK;
 }
 
-enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                               kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+struct aside {
+    kd_progress_fn progress;
+    const struct kd_glance *glance;
+    void *user;
+    const struct kd_plan *plan;
+};
+
+static bool go_on(void *user, double fraction)
 {
-    return kd_render(renderer, scene, plan, progress, user, out, error);
+    const struct aside *a = user;
+    if (!a->progress(a->user, fraction))
+        return false;
+    uint32_t rows = (uint32_t)(fraction * a->plan->height);
+    if (a->glance && rows && a->glance->wanted(a->user)) {
+        struct kd_frame frame = { .width = a->plan->width, .height = a->plan->height, .bit_depth = 8 };
+        frame.pixels = calloc(3, (size_t)frame.width * frame.height);
+        if (frame.pixels) {
+            memset(frame.pixels, 200, (size_t)3 * frame.width * rows);
+            a->glance->seen(a->user, &frame, rows);
+        }
+        kd_frame_finish(&frame);
+    }
+    return true;
+}
+
+enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
+                               struct kd_error *error)
+{
+    struct aside aside = { progress, glance, user, plan };
+    return kd_render(renderer, scene, plan, go_on, &aside, out, error);
 }
 
 void kd_frame_finish(struct kd_frame *frame)

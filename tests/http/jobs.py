@@ -294,6 +294,36 @@ class Jobs(Case):
             for t in threads:
                 t.join()
 
+    def test_preview(self):
+        job = self.make({'scenes': [SCENE, {'image': {'width': 32, 'height': 180}, 'time': 3000}, SLOW]})
+        seen, deadline = [], time.monotonic() + 20
+        while len(seen) < 3 and time.monotonic() < deadline:
+            answer = self.daemon.get(self.at(job, '/preview.png'))
+            if answer.status == 409:  # nothing is drawn
+                self.assertFalse(seen)
+            elif answer.header('Kerrd-Rows') is None:  # the first frame, until something of the second has been drawn
+                self.assertFalse(seen)
+                self.assertEqual(answer.body, self.daemon.get(self.at(job, '/result?format=png&frame=0')).body)
+            elif not seen or seen[-1][0] != answer.header('Kerrd-Rows'):
+                self.assertEqual((answer.status, answer.header('Content-Type'), answer.header('Kerrd-Frame')), (200, 'image/png', '1'))
+                seen.append((answer.header('Kerrd-Rows'), answer.body))
+            time.sleep(0.05)
+        rows = [int(r.removesuffix('/180')) for r, _ in seen]
+        self.assertTrue(len(rows) == 3 and 0 < rows[0] < rows[1] < rows[2] < 180, rows)
+        for text, png in seen:
+            self.assertEqual(size(png), (32, 180))
+            self.assertIn(b'kerrd:rows\0' + text.encode(), png)
+        self.assertProblem(self.daemon.get(self.at(job, '/preview.png?frame=1')), 422, 'invalid-parameters', '/frame')
+        self.assertTrue(daemon.eventually(lambda: self.status(job)['finished'] == 2, 10))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(job, '/preview.png')).header('Kerrd-Frame') == '2', 15))
+        self.delete(job)
+        self.assertProblem(self.daemon.get(self.at(job, '/preview.png')), 404, 'not-found')
+        done = self.make({'scene': SCENE})
+        self.until(done, 'done')
+        self.assertEqual(self.daemon.get(self.at(done, '/preview.png')).body, self.daemon.get(self.at(done, '/result')).body)
+        curve = self.make({'output': 'light-curve', 'scene': {**SCENE, 'spot1': {'brightness': 1}}})
+        self.assertIn('light curve', self.assertProblem(self.daemon.get(self.at(curve, '/preview.png')), 422, 'invalid-parameters')['detail'])
+
     def test_not_ready(self):
         job = self.make({'scenes': [SCENE, SLOW]})
         self.assertTrue(daemon.eventually(lambda: self.status(job)['finished'] == 1))

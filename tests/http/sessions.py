@@ -501,8 +501,8 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)['scene']['image']['width'], 64)
 
     # Frames as asked would take half a second, or two, by the plan, so that coarser ones come first; all take as long as `time` says.
-    COARSE = {'image': {'width': 400, 'height': 300, 'samples': 2, 'critical_samples': 0}, 'time': 1800}
-    LONG = {'image': {'width': 800, 'height': 600, 'samples': 2, 'critical_samples': 0}, 'time': 1200}
+    COARSE = {'image': {'width': 400, 'height': 300, 'samples': 2, 'critical_factor': 1}, 'time': 1800}
+    LONG = {'image': {'width': 800, 'height': 600, 'samples': 2, 'critical_factor': 1}, 'time': 1200}
 
     def refining(self, scene, samples=2):
         """A session in the middle of its step to so many samples, and the connection that waits for it."""
