@@ -23,13 +23,16 @@ const views = {
 const opened = new Set();
 const status = byId('status');
 
-function say(text) {
+// Where pictures follow each other nobody wants each of them read aloud.
+function say(text, aloud) {
+  status.setAttribute('aria-live', aloud ? 'polite' : 'off');
   status.textContent = text;
   status.removeAttribute('lang');
   delete status.dataset.wrong;
 }
 
 function sayWrong(text) {
+  status.setAttribute('aria-live', 'polite');
   tell(status, text);
   status.dataset.wrong = true;
 }
@@ -97,7 +100,7 @@ async function watch(scene) {
     URL.revokeObjectURL(old);
     old = url;
     const { complain, drawOverlays } = await parts;
-    say(caption(frame));
+    say(caption(frame), frame.final && !scene.goesOn());
     if (frame.final && stage.dataset.final !== 'true') drawOverlays();
     stage.dataset.final = frame.final;
     stage.dataset.samples = frame.samples;

@@ -445,7 +445,9 @@ class State(Case):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def start(self):
-        return daemon.Daemon('--drain-ms', 10, '--state', self.folder)
+        server = daemon.Daemon('--drain-ms', 10, '--state', self.folder)
+        self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
+        return server
 
     def folders(self):
         return sorted(n for n in os.listdir(os.path.join(self.folder, 'jobs')) if n != 'lock')
@@ -510,6 +512,17 @@ class State(Case):
         self.assertEqual((failed['state'], failed['finished']), ('failed', 1), failed)
         self.assertIn('ended 3 times', failed['error'])
         self.until(self.make({'scene': SCENE}, server=server), 'done', server)
+        self.assertEqual(server.stop(), 0)
+
+    def test_any_number_of_restarts_with_a_frame_between(self):
+        server = self.start()
+        job = self.make({'scenes': [{**SCENE, 'time': 150}] * 8}, server=server)
+        for finished in range(1, 6):
+            self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= finished))
+            server.process.send_signal(signal.SIGKILL)
+            server.wait()
+            server = self.start()
+        self.until(job, 'done', server)
         self.assertEqual(server.stop(), 0)
 
     def test_remains(self):
