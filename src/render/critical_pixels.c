@@ -112,7 +112,9 @@ static enum kd_status list(const struct work *w, struct kd_critical_pixels *out,
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
 {
     const struct kd_scene camera = kd_critical_camera(scene, 1);
-    struct work w = { .camera = kd_camera_exact(&camera), .width = (uint32_t)scene->image.width, .height = (uint32_t)scene->image.height };
+    struct work w = {
+        .camera = kd_camera_exact(&camera), .width = (uint32_t)scene->image.width, .height = (uint32_t)scene->image.height,
+    };
     const struct kd_critical_observer observer = {
         .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,
         .frame = scene->camera.observer == KD_OBSERVER_ZAMO ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC,

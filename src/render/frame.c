@@ -163,6 +163,8 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
 
 static enum kd_status glance(struct kd_frame_job *j)
 {
+    size_t lit = j->plan->host_bytes / j->plan->height * j->lit;
+    memset((char *)j->frame->pixels + lit, 0, j->plan->host_bytes - lit);
     j->looking = true;
     enum kd_status status = expose(j);
     if (!status)
@@ -175,9 +177,7 @@ static enum kd_status glance(struct kd_frame_job *j)
 
 enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 {
-    if (j->looking) /* none of the picture's own */
-        return KD_OK;
-    j->done += rows;
+    j->done += j->looking ? 0 : rows; /* none of the picture's own */
     if (j->aside) { /* what others measure must not hold what is under way here */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
@@ -185,7 +185,7 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     }
     if (j->progress && !j->progress(j->user, fmin(j->done / j->weight, 1)))
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
-    bool part = j->glance && j->lit && j->lit < j->plan->height;
+    bool part = j->glance && !j->looking && j->lit && j->lit < j->plan->height;
     return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
 }
 
@@ -260,7 +260,7 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
     const struct kd_plan *plan = job->plan;
     struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = job->scene->image.bit_depth };
-    frame.pixels = calloc(1, plan->host_bytes);
+    frame.pixels = malloc(plan->host_bytes);
     if (!frame.pixels)
         return kd_error_set(job->error, KD_ENOMEM, "out of memory for %llu bytes of pixels", (unsigned long long)plan->host_bytes);
     job->frame = &frame;
@@ -300,7 +300,8 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
     double start = kd_render_now_ms();
     struct kd_frame_job job = {
         .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true,
-        .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .glance = glance, .user = user, .error = error,
+        .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .glance = glance, .user = user,
+        .error = error,
     };
     enum kd_status status = render(&job, out);
     if (!status)

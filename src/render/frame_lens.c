@@ -73,6 +73,14 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     return kd_vk_dispatch(j->r->vk, d, j->error);
 }
 
+static enum kd_status list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
+{
+    double start = kd_render_now_ms();
+    enum kd_status status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
+    j->listed_ms += kd_render_now_ms() - start;
+    return status;
+}
+
 static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
@@ -81,10 +89,7 @@ static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
         .first = s->first * p->side, .count = s->count * p->side, .to = lens_buffer(j, s->band),
         .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width, .stride = width * p->band_rows * p->side,
     };
-    double start = kd_render_now_ms();
-    enum kd_status status = kd_lens_listed(j->r, j->scene, p, &rows, &j->undecided, j->error);
-    j->listed_ms += kd_render_now_ms() - start;
-    return status;
+    return list_rays(j, &rows);
 }
 
 /* pipeline: of trace_kernel. */
@@ -195,10 +200,6 @@ static enum kd_status upload_pixels(struct kd_frame_job *j, const struct part *p
         to[2 * i + 1] = (float)j->lens->pixels.pixels[part->first + i].y;
     }
     status = kd_vk_copy(vk, "upload", part->lens, 4ull * part->push.list, staging, 0, bytes, j->error);
-    if (!status)
-        status = kd_vk_submit(vk, NULL, j->error);
-    if (!status)
-        status = kd_vk_wait(vk, 0, j->error);
     kd_vk_buffer_destroy(vk, staging);
     return status;
 }
@@ -208,17 +209,15 @@ static enum kd_status list_part(struct kd_frame_job *j, const struct part *part)
     const struct kd_plan *p = j->plan;
     uint32_t step = slice_rows(p->trace_ns * p->critical, (uint32_t)part->n);
     enum kd_status status = KD_OK;
-    double start = kd_render_now_ms();
     for (uint64_t done = 0; done < part->n && !status; done += step) {
         const struct kd_lens_rows rows = {
             .first = (uint32_t)(part->first + done), .count = (uint32_t)(part->n - done < step ? part->n - done : step),
             .pixels = j->lens->pixels.pixels, .to = part->lens, .offset = done * p->critical, .stride = part->push.stride,
         };
-        status = kd_lens_listed(j->r, j->scene, p, &rows, &j->undecided, j->error);
+        status = list_rays(j, &rows);
         if (!status)
             status = kd_frame_report(j, 0);
     }
-    j->listed_ms += kd_render_now_ms() - start;
     return status;
 }
 
@@ -339,8 +338,10 @@ static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               float *planes, double *trace_ms, struct kd_error *error)
 {
-    struct kd_frame_job job = { .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
-                       .error = error };
+    struct kd_frame_job job = {
+        .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
+        .error = error,
+    };
     const struct kd_vk_pipeline *trace;
     struct kd_vk_buffer *host = NULL;
     bool reused;
@@ -354,7 +355,8 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     if (!status)
         status = trace_kernel(&job, &on_grid, &trace);
     for (uint32_t band = 0; band < plan->bands && !status; band++) {
-        uint32_t rows = kd_frame_band_rows(&job, band), step = slice_rows(plan->trace_ns * plan->width * plan->side * plan->side, rows);
+        uint32_t rows = kd_frame_band_rows(&job, band);
+        uint32_t step = slice_rows(plan->trace_ns * plan->width * plan->side * plan->side, rows);
         for (uint32_t done = 0; done < rows && !status; done += step) {
             const struct slice s = { band, kd_frame_band_first(&job, band) + done, rows - done < step ? rows - done : step };
             status = trace_slice(&job, &s, trace);
