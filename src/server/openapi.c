@@ -12,197 +12,249 @@
 #include <stdio.h>
 #include <string.h>
 
-static cJSON *reference(const char *to)
+static void add_reference(struct kd_json *json, const char *name, const char *to)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "$ref", to);
-    return o;
+    kd_json_object(json, name);
+    kd_json_string(json, "$ref", to);
+    kd_json_end(json);
 }
 
-static cJSON *content(const char *type, cJSON *schema)
+/* {"TYPE": {"schema": {"$ref": TO}}} */
+static void add_content(struct kd_json *json, const char *type, const char *to)
 {
-    cJSON *o = cJSON_CreateObject(), *media = cJSON_AddObjectToObject(o, type);
-    cJSON_AddItemToObject(media, "schema", schema);
-    return o;
+    kd_json_object(json, type);
+    add_reference(json, "schema", to);
+    kd_json_end(json);
 }
 
-static void add_parameter(cJSON *list, const char *in, const char *name, bool required, cJSON *schema)
+static void add_string_type(struct kd_json *json, const char *name)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "name", name);
-    cJSON_AddStringToObject(o, "in", in);
-    if (required)
-        cJSON_AddTrueToObject(o, "required");
-    cJSON_AddItemToObject(o, "schema", schema);
-    cJSON_AddItemToArray(list, o);
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "string");
+    kd_json_end(json);
 }
 
-static cJSON *string_type(void)
+static void begin_parameter(struct kd_json *json, const char *in, const char *name)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "type", "string");
-    return o;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name);
+    kd_json_string(json, "in", in);
+}
+
+static void add_text_parameter(struct kd_json *json, const char *in, const char *name)
+{
+    begin_parameter(json, in, name);
+    if (!strcmp(in, "path"))
+        kd_json_bool(json, "required", true);
+    add_string_type(json, "schema");
+    kd_json_end(json);
 }
 
 /* Every scalar of the schema by its dotted path. */
-static void add_fields(cJSON *list, const cJSON *schema, const char *prefix)
+static void add_fields(struct kd_json *json, const cJSON *schema, const char *prefix)
 {
     const cJSON *property;
     cJSON_ArrayForEach(property, cJSON_GetObjectItemCaseSensitive(schema, "properties"))
     {
         char name[128];
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", property->string);
-        if (cJSON_GetObjectItemCaseSensitive(property, "properties"))
-            add_fields(list, property, name);
-        else
-            add_parameter(list, "query", name, false, cJSON_Duplicate(property, true));
+        if (cJSON_GetObjectItemCaseSensitive(property, "properties")) {
+            add_fields(json, property, name);
+            continue;
+        }
+        char *text = cJSON_PrintUnformatted(property);
+        begin_parameter(json, "query", name);
+        kd_json_raw(json, "schema", text ? text : "", text ? strlen(text) : 0);
+        kd_json_end(json);
+        if (!text)
+            json->status = KD_ENOMEM;
+        cJSON_free(text);
     }
 }
 
-static void add_parameters(cJSON *operation, const struct kd_route *route, bool post, const cJSON *schema)
+static bool has_parameters(const struct kd_route *route)
 {
-    cJSON *list = cJSON_CreateArray();
+    return strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
+           route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES;
+}
+
+static void add_parameters(struct kd_json *json, const struct kd_route *route, bool post, const cJSON *schema)
+{
     const char *brace = strchr(route->path, '{');
 
+    kd_json_array(json, "parameters");
     if (brace) {
         char name[20];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(brace + 1, "}"), brace + 1);
-        add_parameter(list, "path", name, true, string_type());
+        add_text_parameter(json, "path", name);
     }
     if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
-        add_parameter(list, "query", "preset", false, string_type());
+        add_text_parameter(json, "query", "preset");
         if (!post)
-            add_fields(list, schema, "");
+            add_fields(json, schema, "");
     }
     if (route->takes == KD_TAKES_JOB)
-        add_parameter(list, "query", "preset", false, string_type());
+        add_text_parameter(json, "query", "preset");
     if (route->takes == KD_TAKES_RAYS)
-        kd_openapi_rays_parameters(list);
+        kd_openapi_rays_parameters(json);
     if (route->takes == KD_TAKES_PARTICLES)
-        kd_openapi_particles_parameters(list);
-    if (cJSON_GetArraySize(list))
-        cJSON_AddItemToObject(operation, "parameters", list);
-    else
-        cJSON_Delete(list);
+        kd_openapi_particles_parameters(json);
+    kd_json_end(json);
 }
 
-static void add_body(cJSON *operation, unsigned method)
+static void add_scene_body(struct kd_json *json, unsigned method)
 {
-    cJSON *body = cJSON_AddObjectToObject(operation, "requestBody");
-    cJSON_AddTrueToObject(body, "required");
-    cJSON *media = content("application/json", reference("#/components/schemas/Scene"));
+    kd_json_object(json, "requestBody");
+    kd_json_bool(json, "required", true);
+    kd_json_object(json, "content");
+    add_content(json, "application/json", "#/components/schemas/Scene");
     if (method == KD_PATCH)
-        cJSON_AddItemToObject(cJSON_AddObjectToObject(media, KD_PATCH_TYPE), "schema", reference("#/components/schemas/Scene"));
-    cJSON_AddItemToObject(body, "content", media);
+        add_content(json, KD_PATCH_TYPE, "#/components/schemas/Scene");
+    kd_json_end(json);
+    kd_json_end(json);
 }
 
-static cJSON *add_response(cJSON *responses, unsigned status, const char *description)
+static void add_body(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    switch (route->takes) {
+    case KD_TAKES_SCENE:
+        if (method == KD_POST || method == KD_PATCH)
+            add_scene_body(json, method);
+        break;
+    case KD_TAKES_RAYS: kd_openapi_rays_body(json); break;
+    case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
+    case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
+    case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
+    default: break;
+    }
+}
+
+static void begin_response(struct kd_json *json, unsigned status, const char *description)
 {
     char number[12];
     snprintf(number, sizeof number, "%u", status);
-    cJSON *o = cJSON_AddObjectToObject(responses, number);
-    cJSON_AddStringToObject(o, "description", description);
-    return o;
+    kd_json_object(json, number);
+    kd_json_string(json, "description", description);
 }
 
-static void add_answer(cJSON *operation, cJSON *ok, const struct kd_route *route)
+static void add_answer(struct kd_json *json, const struct kd_route *route)
 {
     char type[64];
     snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
-    if (route->takes == KD_TAKES_RAYS)
-        kd_openapi_rays_bodies(operation, ok);
-    else if (route->takes == KD_TAKES_ORBITS)
-        kd_openapi_orbits_bodies(operation, ok);
-    else if (route->takes == KD_TAKES_JOB)
-        kd_openapi_jobs_bodies(operation, ok);
-    else
-        cJSON_AddItemToObject(ok, "content", content(type, cJSON_CreateObject()));
+    kd_json_object(json, "content");
+    switch (route->takes) {
+    case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
+    case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
+    case KD_TAKES_JOB: kd_openapi_jobs_answer(json); break;
+    default:
+        kd_json_object(json, type);
+        kd_json_raw(json, "schema", "{}", 2);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
 }
 
-static cJSON *operation(const struct kd_route *route, unsigned method, const cJSON *schema)
+static void add_responses(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
-    cJSON *o = cJSON_CreateObject();
-    bool body = method == KD_POST || method == KD_PATCH;
-    cJSON_AddStringToObject(o, "summary", route->summary);
-    add_parameters(o, route, body, schema);
-    if (body && route->takes == KD_TAKES_SCENE)
-        add_body(o, method);
-    if (route->takes == KD_TAKES_STRIKE)
-        kd_openapi_strike_body(o);
-    cJSON *responses = cJSON_AddObjectToObject(o, "responses");
-    if (method == KD_DELETE)
-        add_response(responses, 204, route->summary);
-    else
-        add_answer(o, add_response(responses, route->status[0] ? route->status[0] : 200, route->summary), route);
-    if (method != KD_DELETE && route->status[1])
-        add_response(responses, route->status[1], route->status[1] == 304 ? "What If-None-Match names" : route->summary);
-    cJSON_AddItemToObject(responses, "default", reference("#/components/responses/Problem"));
-    return o;
+    kd_json_object(json, "responses");
+    begin_response(json, method == KD_DELETE ? 204 : route->status[0] ? route->status[0] : 200, route->summary);
+    if (method != KD_DELETE)
+        add_answer(json, route);
+    kd_json_end(json);
+    if (method != KD_DELETE && route->status[1]) {
+        begin_response(json, route->status[1], route->status[1] == 304 ? "What If-None-Match names" : route->summary);
+        kd_json_end(json);
+    }
+    add_reference(json, "default", "#/components/responses/Problem");
+    kd_json_end(json);
 }
 
-static cJSON *problem_schema(void)
+static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const cJSON *schema)
+{
+    bool body = method == KD_POST || method == KD_PATCH;
+    kd_json_object(json, name);
+    kd_json_string(json, "summary", route->summary);
+    if (has_parameters(route))
+        add_parameters(json, route, body, schema);
+    add_body(json, route, method);
+    add_responses(json, route, method);
+    kd_json_end(json);
+}
+
+static void add_problem_schema(struct kd_json *json)
 {
     static const char *const texts[] = { "type", "title", "detail", "pointer", "offered" };
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "type", "object");
-    cJSON *properties = cJSON_AddObjectToObject(o, "properties");
+    kd_json_object(json, "Problem");
+    kd_json_string(json, "type", "object");
+    kd_json_object(json, "properties");
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        cJSON_AddItemToObject(properties, texts[i], string_type());
-    cJSON_AddStringToObject(cJSON_AddObjectToObject(properties, "status"), "type", "integer");
-    return o;
+        add_string_type(json, texts[i]);
+    kd_json_object(json, "status");
+    kd_json_string(json, "type", "integer");
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
 }
 
-static void add_components(cJSON *root, cJSON *schema)
+static void add_components(struct kd_json *json, const struct kd_buffer *schema)
 {
-    cJSON *components = cJSON_AddObjectToObject(root, "components");
-    cJSON *schemas = cJSON_AddObjectToObject(components, "schemas");
-    cJSON_AddItemToObject(schemas, "Scene", schema);
-    cJSON_AddItemToObject(schemas, "Problem", problem_schema());
-    cJSON *responses = cJSON_AddObjectToObject(components, "responses");
-    cJSON *problem = cJSON_AddObjectToObject(responses, "Problem");
-    cJSON_AddStringToObject(problem, "description", "What went wrong (RFC 9457)");
-    cJSON_AddItemToObject(problem, "content",
-                          content("application/problem+json", reference("#/components/schemas/Problem")));
+    kd_json_object(json, "components");
+    kd_json_object(json, "schemas");
+    kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
+    add_problem_schema(json);
+    kd_json_end(json);
+    kd_json_object(json, "responses");
+    kd_json_object(json, "Problem");
+    kd_json_string(json, "description", "What went wrong (RFC 9457)");
+    kd_json_object(json, "content");
+    add_content(json, "application/problem+json", "#/components/schemas/Problem");
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
 }
 
-static cJSON *document(cJSON *schema)
+static void add_path(struct kd_json *json, const struct kd_route *route, const cJSON *schema)
 {
     static const struct { const char *name; unsigned bit; } methods[] = {
         { "get", KD_GET }, { "post", KD_POST }, { "patch", KD_PATCH }, { "delete", KD_DELETE },
     };
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "openapi", "3.1.0");
-    cJSON *info = cJSON_AddObjectToObject(root, "info");
-    cJSON_AddStringToObject(info, "title", "kerrd");
-    cJSON_AddStringToObject(info, "version", KD_VERSION);
-    cJSON *paths = cJSON_AddObjectToObject(root, "paths");
-    for (size_t i = 0; i < kd_n_routes; i++) {
-        const struct kd_route *route = &kd_routes[i];
-        if (route->takes == KD_TAKES_QUANTITY) {
-            kd_openapi_physics_paths(paths);
-            continue;
-        }
-        cJSON *item = cJSON_AddObjectToObject(paths, route->path);
-        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
-            if (route->methods & methods[k].bit)
-                cJSON_AddItemToObject(item, methods[k].name, operation(route, methods[k].bit, schema));
-    }
-    add_components(root, schema);
-    return root;
+    kd_json_object(json, route->path);
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+        if (route->methods & methods[k].bit)
+            add_operation(json, methods[k].name, route, methods[k].bit, schema);
+    kd_json_end(json);
+}
+
+static enum kd_status document(const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "openapi", "3.1.0");
+    kd_json_object(&json, "info");
+    kd_json_string(&json, "title", "kerrd");
+    kd_json_string(&json, "version", KD_VERSION);
+    kd_json_end(&json);
+    kd_json_object(&json, "paths");
+    for (size_t i = 0; i < kd_n_routes; i++)
+        if (kd_routes[i].takes == KD_TAKES_QUANTITY)
+            kd_openapi_physics_paths(&json);
+        else
+            add_path(&json, &kd_routes[i], schema);
+    kd_json_end(&json);
+    add_components(&json, schema_text);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
 }
 
 enum MHD_Result kd_handle_openapi(struct kd_request *request)
 {
-    struct kd_buffer json = { 0 };
-    enum kd_status status = kd_scene_schema(&json);
-    cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)json.data, json.size);
-    kd_buffer_finish(&json);
-    if (!schema)
-        return kd_reply_json(request, KD_ENOMEM, &json, "");
-    cJSON *root = document(schema);
-    char *text = cJSON_PrintUnformatted(root);
-    cJSON_Delete(root);
-    status = text ? kd_buffer_printf(&json, "%s\n", text) : KD_ENOMEM;
-    cJSON_free(text);
+    struct kd_buffer json = { 0 }, text = { 0 };
+    enum kd_status status = kd_scene_schema(&text);
+    cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
+    if (!status)
+        status = schema ? document(schema, &text, &json) : KD_ENOMEM;
+    cJSON_Delete(schema);
+    kd_buffer_finish(&text);
     return kd_reply_json(request, status, &json, request->route->answer);
 }

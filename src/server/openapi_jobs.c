@@ -1,6 +1,7 @@
 #include "server/openapi_jobs.h"
 
 #include "server/job_spec.h"
+#include "server/openapi_media.h"
 
 #define SCENE "{\"$ref\":\"#/components/schemas/Scene\"}"
 #define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,"
@@ -23,12 +24,12 @@ static const char answer[] =
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000, "openapi.json says so");
 
-void kd_openapi_jobs_bodies(cJSON *operation, cJSON *ok)
+void kd_openapi_jobs_body(struct kd_json *json)
 {
-    cJSON *body = cJSON_AddObjectToObject(operation, "requestBody");
-    cJSON_AddTrueToObject(body, "required");
-    cJSON *content = cJSON_AddObjectToObject(body, "content");
-    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(request));
-    content = cJSON_AddObjectToObject(ok, "content");
-    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(answer));
+    kd_openapi_body(json, request, sizeof request - 1, NULL);
+}
+
+void kd_openapi_jobs_answer(struct kd_json *json)
+{
+    kd_openapi_media(json, "application/json", answer, sizeof answer - 1);
 }

@@ -2,9 +2,10 @@
 #ifndef KD_SERVER_OPENAPI_JOBS_H
 #define KD_SERVER_OPENAPI_JOBS_H
 
-#include <cjson/cJSON.h>
+#include "base/json.h"
 
-/* The request's body, and the answer's content in `ok`. */
-void kd_openapi_jobs_bodies(cJSON *operation, cJSON *ok);
+/* The operation's requestBody; what belongs into the content of its answer. */
+void kd_openapi_jobs_body(struct kd_json *json);
+void kd_openapi_jobs_answer(struct kd_json *json);
 
 #endif

@@ -1,6 +1,7 @@
 #include "server/openapi_orbits.h"
 
 #include "orbit/request.h"
+#include "server/openapi_media.h"
 
 #define NUMBER "{\"type\":\"number\"}"
 #define BOOLEAN "{\"type\":\"boolean\"}"
@@ -36,15 +37,15 @@ static const char answer[] =
 
 _Static_assert(KD_ORBITS_MAX == 10000 && KD_ORBIT_SAMPLES_MAX == 200000, "openapi.json says so");
 
-void kd_openapi_orbits_bodies(cJSON *operation, cJSON *ok)
+void kd_openapi_orbits_body(struct kd_json *json)
+{
+    kd_openapi_body(json, request, sizeof request - 1, NULL);
+}
+
+void kd_openapi_orbits_answer(struct kd_json *json)
 {
     static const char *const others[] = { "application/x-ndjson", "text/csv", "application/x-npy" };
-    cJSON *body = cJSON_AddObjectToObject(operation, "requestBody");
-    cJSON_AddTrueToObject(body, "required");
-    cJSON *content = cJSON_AddObjectToObject(body, "content");
-    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(request));
-    content = cJSON_AddObjectToObject(ok, "content");
-    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(answer));
+    kd_openapi_media(json, "application/json", answer, sizeof answer - 1);
     for (int i = 0; i < 3; i++)
-        cJSON_AddObjectToObject(content, others[i]);
+        kd_openapi_media(json, others[i], "", 0);
 }

@@ -1,9 +1,11 @@
-/* What openapi.json says of POST /v1/orbits. HTTP thread only. */
+/* What openapi.json says of POST /v1/orbits. */
 #ifndef KD_SERVER_OPENAPI_ORBITS_H
 #define KD_SERVER_OPENAPI_ORBITS_H
 
-#include <cjson/cJSON.h>
+#include "base/json.h"
 
-void kd_openapi_orbits_bodies(cJSON *operation, cJSON *ok);
+/* The operation's requestBody; what belongs into the content of its answer. */
+void kd_openapi_orbits_body(struct kd_json *json);
+void kd_openapi_orbits_answer(struct kd_json *json);
 
 #endif

@@ -1,108 +1,143 @@
 #include "server/openapi_physics.h"
 
 #include "quantity/quantity.h"
+#include "server/openapi_media.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#define NUMBERS "{\"anyOf\":[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]}"
+#define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
 
-static cJSON *words(const char *text)
+static void add_words(struct kd_json *json, const char *text)
 {
-    cJSON *list = cJSON_CreateArray();
     char word[KD_WORD_TEXT];
+    kd_json_array(json, "enum");
     while (*text) {
         text = kd_parameter_word(text, word);
-        cJSON_AddItemToArray(list, cJSON_CreateString(word));
+        kd_json_string(json, NULL, word);
     }
-    return list;
+    kd_json_end(json);
+}
+
+static void add_number(struct kd_json *json, const struct kd_parameter *p)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "type", p->whole ? "integer" : "number");
+    kd_json_number(json, p->open ? "exclusiveMinimum" : "minimum", p->minimum);
+    kd_json_number(json, p->open ? "exclusiveMaximum" : "maximum", p->maximum);
+    kd_json_end(json);
 }
 
 /* A number, a range of them as text, or a word. */
-static cJSON *schema_of(const struct kd_parameter *p)
+static void add_schema(struct kd_json *json, const struct kd_parameter *p)
 {
-    cJSON *o = cJSON_CreateObject();
+    kd_json_object(json, "schema");
     if (p->words) {
-        cJSON_AddItemToObject(o, "enum", words(p->words));
+        add_words(json, p->words);
     } else {
-        cJSON *any = cJSON_AddArrayToObject(o, "anyOf"), *number = cJSON_CreateObject(), *range = cJSON_CreateObject();
-        cJSON_AddStringToObject(number, "type", p->whole ? "integer" : "number");
-        cJSON_AddNumberToObject(number, p->open ? "exclusiveMinimum" : "minimum", p->minimum);
-        cJSON_AddNumberToObject(number, p->open ? "exclusiveMaximum" : "maximum", p->maximum);
-        cJSON_AddItemToArray(any, number);
-        cJSON_AddStringToObject(range, "type", "string");
-        cJSON_AddStringToObject(range, "pattern", "^[^:]+:[^:]+:[0-9]+$");
-        cJSON_AddItemToArray(any, range);
+        kd_json_array(json, "anyOf");
+        add_number(json, p);
+        kd_json_object(json, NULL);
+        kd_json_string(json, "type", "string");
+        kd_json_string(json, "pattern", "^[^:]+:[^:]+:[0-9]+$");
+        kd_json_end(json);
         if (p->word) {
-            cJSON *word = cJSON_CreateObject();
-            cJSON_AddStringToObject(word, "const", p->word);
-            cJSON_AddItemToArray(any, word);
+            kd_json_object(json, NULL);
+            kd_json_string(json, "const", p->word);
+            kd_json_end(json);
         }
+        kd_json_end(json);
     }
-    cJSON_AddStringToObject(o, "default", p->initial);
-    return o;
+    kd_json_string(json, "default", p->initial);
+    kd_json_end(json);
 }
 
-static void add_parameter(cJSON *list, const char *name, const char *help, const char *unit, cJSON *schema)
+static void begin_parameter(struct kd_json *json, const char *name, const char *help, const char *unit)
 {
     char description[300];
     bool bare = !*unit || !strcmp(unit, "1");
     snprintf(description, sizeof description, "%s%s%s%s", help, bare ? "" : " [", bare ? "" : unit, bare ? "" : "]");
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "name", name);
-    cJSON_AddStringToObject(o, "in", "query");
-    cJSON_AddStringToObject(o, "description", description);
-    cJSON_AddItemToObject(o, "schema", schema);
-    cJSON_AddItemToArray(list, o);
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name);
+    kd_json_string(json, "in", "query");
+    kd_json_string(json, "description", description);
 }
 
-static cJSON *answer_of(const struct kd_quantity *quantity)
+static void add_parameters(struct kd_json *json, const struct kd_quantity *quantity)
 {
-    cJSON *o = cJSON_CreateObject(), *properties;
-    cJSON_AddStringToObject(o, "type", "object");
-    properties = cJSON_AddObjectToObject(o, "properties");
-    cJSON_AddItemToObject(properties, "quantity", cJSON_Parse("{\"type\":\"string\"}"));
-    cJSON_AddItemToObject(properties, "parameters", cJSON_Parse("{\"type\":\"object\"}"));
-    cJSON *values = cJSON_AddObjectToObject(cJSON_AddObjectToObject(properties, "values"), "properties");
-    for (size_t i = 0; i < quantity->n_outputs; i++) {
-        cJSON *one = cJSON_Parse(NUMBERS);
-        cJSON_AddStringToObject(one, "description", quantity->outputs[i].help);
-        cJSON_AddItemToObject(values, quantity->outputs[i].name, one);
-    }
-    cJSON_AddItemToObject(properties, "units", cJSON_Parse("{\"type\":\"object\"}"));
-    for (int i = 0; i < 2; i++)
-        cJSON_AddItemToObject(properties, i ? "approximations" : "sources",
-                              cJSON_Parse("{\"type\":\"array\",\"items\":{\"type\":\"string\"}}"));
-    return o;
-}
-
-static cJSON *operation_of(const struct kd_quantity *quantity)
-{
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "summary", quantity->summary);
-    cJSON *list = cJSON_AddArrayToObject(o, "parameters");
+    kd_json_array(json, "parameters");
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         const struct kd_parameter *p = &quantity->parameters[i];
-        add_parameter(list, p->name, p->help, p->words ? "" : p->unit, schema_of(p));
+        begin_parameter(json, p->name, p->help, p->words ? "" : p->unit);
+        add_schema(json, p);
+        kd_json_end(json);
     }
-    add_parameter(list, "format", "instead of Accept", "",
-                  cJSON_Parse(quantity->sound ? "{\"enum\":[\"json\",\"csv\",\"wav\"]}" : "{\"enum\":[\"json\",\"csv\"]}"));
-    cJSON *responses = cJSON_AddObjectToObject(o, "responses"), *ok = cJSON_AddObjectToObject(responses, "200");
-    cJSON_AddStringToObject(ok, "description", quantity->summary);
-    cJSON *content = cJSON_AddObjectToObject(ok, "content");
-    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", answer_of(quantity));
-    cJSON_AddObjectToObject(content, "text/csv");
-    if (quantity->sound)
-        cJSON_AddObjectToObject(content, "audio/wav");
-    cJSON_AddStringToObject(cJSON_AddObjectToObject(responses, "default"), "$ref", "#/components/responses/Problem");
-    return o;
+    begin_parameter(json, "format", "instead of Accept", "");
+    kd_json_object(json, "schema");
+    add_words(json, quantity->sound ? "json|csv|wav" : "json|csv");
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
 }
 
-void kd_openapi_physics_paths(cJSON *paths)
+static void add_type(struct kd_json *json, const char *name, const char *schema)
+{
+    kd_json_raw(json, name, schema, strlen(schema));
+}
+
+static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "object");
+    kd_json_object(json, "properties");
+    add_type(json, "quantity", "{\"type\":\"string\"}");
+    add_type(json, "parameters", "{\"type\":\"object\"}");
+    kd_json_object(json, "values");
+    kd_json_object(json, "properties");
+    for (size_t i = 0; i < quantity->n_outputs; i++) {
+        kd_json_object(json, quantity->outputs[i].name);
+        add_type(json, "anyOf", NUMBERS);
+        kd_json_string(json, "description", quantity->outputs[i].help);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_json_end(json);
+    add_type(json, "units", "{\"type\":\"object\"}");
+    add_type(json, "sources", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}");
+    add_type(json, "approximations", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}");
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_responses(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    kd_json_object(json, "responses");
+    kd_json_object(json, "200");
+    kd_json_string(json, "description", quantity->summary);
+    kd_json_object(json, "content");
+    kd_json_object(json, "application/json");
+    add_answer(json, quantity);
+    kd_json_end(json);
+    kd_openapi_media(json, "text/csv", "", 0);
+    if (quantity->sound)
+        kd_openapi_media(json, "audio/wav", "", 0);
+    kd_json_end(json);
+    kd_json_end(json);
+    add_type(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
+    kd_json_end(json);
+}
+
+void kd_openapi_physics_paths(struct kd_json *json)
 {
     for (size_t i = 0; i < kd_quantity_count; i++) {
         char path[80];
         snprintf(path, sizeof path, "/v1/physics/%s", kd_quantities[i]->name);
-        cJSON_AddItemToObject(cJSON_AddObjectToObject(paths, path), "get", operation_of(kd_quantities[i]));
+        kd_json_object(json, path);
+        kd_json_object(json, "get");
+        kd_json_string(json, "summary", kd_quantities[i]->summary);
+        add_parameters(json, kd_quantities[i]);
+        add_responses(json, kd_quantities[i]);
+        kd_json_end(json);
+        kd_json_end(json);
     }
 }

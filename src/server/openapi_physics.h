@@ -2,9 +2,9 @@
 #ifndef KD_SERVER_OPENAPI_PHYSICS_H
 #define KD_SERVER_OPENAPI_PHYSICS_H
 
-#include <cjson/cJSON.h>
+#include "base/json.h"
 
-/* Add "/v1/physics/kerr" and so on to `paths`. */
-void kd_openapi_physics_paths(cJSON *paths);
+/* "/v1/physics/kerr" and so on, among the paths. */
+void kd_openapi_physics_paths(struct kd_json *json);
 
 #endif

@@ -1,8 +1,7 @@
 #include "server/openapi_rays.h"
 
 #include "render/rays_check.h"
-
-#include <string.h>
+#include "server/openapi_media.h"
 
 #define STRING(x) #x
 #define TEXT(x) STRING(x)
@@ -19,9 +18,15 @@
 #define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,\"properties\":{"
 #define OBSERVER "\"observer\":" OBJECT "\"r\":" RADIUS ",\"inclination_deg\":" INCLINATION "}}"
 
-static const char parameters[] =
-    "{\"spin\":" SPIN ",\"r\":" RADIUS ",\"inclination_deg\":" INCLINATION ",\"orders\":" ORDERS ",\"profile\":" PROFILES ",\"tolerance\":" TOLERANCE ",\"engine\":" ENGINES
-    ",\"precision\":" PRECISIONS ",\"steps\":" STEPS "}";
+#define ROW(name, schema) { name, schema, sizeof schema - 1 }
+static const struct {
+    const char *name, *schema;
+    size_t size;
+} parameters[] = {
+    ROW("spin", SPIN), ROW("r", RADIUS), ROW("inclination_deg", INCLINATION), ROW("orders", ORDERS), ROW("profile", PROFILES),
+    ROW("tolerance", TOLERANCE), ROW("engine", ENGINES), ROW("precision", PRECISIONS), ROW("steps", STEPS),
+};
+#undef ROW
 
 static const char request[] =
     "{\"type\":\"object\",\"additionalProperties\":false,\"required\":[\"rays\"],\"properties\":{\"spin\":" SPIN "," OBSERVER
@@ -40,31 +45,25 @@ static const char answer[] =
     "\"r\":" NUMBER ",\"phi\":" NUMBER ",\"delay\":" NUMBER ",\"g\":" NUMBER "}}},"
     "\"sky\":{\"type\":\"object\",\"properties\":{\"theta\":" NUMBER ",\"phi\":" NUMBER "}},\"error\":" NUMBER "}}}}}";
 
-void kd_openapi_rays_parameters(cJSON *list)
+void kd_openapi_rays_parameters(struct kd_json *json)
 {
-    cJSON *all = cJSON_Parse(parameters);
-    for (cJSON *one; all && (one = cJSON_DetachItemFromArray(all, 0));) {
-        cJSON *o = cJSON_CreateObject();
-        cJSON_AddStringToObject(o, "name", one->string);
-        cJSON_AddStringToObject(o, "in", "query");
-        cJSON_AddStringToObject(o, "description", "with a body of application/x-npy only");
-        cJSON_AddItemToObject(o, "schema", one);
-        cJSON_AddItemToArray(list, o);
+    for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
+        kd_json_object(json, NULL);
+        kd_json_string(json, "name", parameters[i].name);
+        kd_json_string(json, "in", "query");
+        kd_json_string(json, "description", "with a body of application/x-npy only");
+        kd_json_raw(json, "schema", parameters[i].schema, parameters[i].size);
+        kd_json_end(json);
     }
-    cJSON_Delete(all);
 }
 
-static void add_content(cJSON *to, const char *schema)
+void kd_openapi_rays_body(struct kd_json *json)
 {
-    cJSON *content = cJSON_AddObjectToObject(to, "content");
-    cJSON_AddItemToObject(cJSON_AddObjectToObject(content, "application/json"), "schema", cJSON_Parse(schema));
-    cJSON_AddObjectToObject(content, "application/x-npy");
+    kd_openapi_body(json, request, sizeof request - 1, "application/x-npy");
 }
 
-void kd_openapi_rays_bodies(cJSON *operation, cJSON *ok)
+void kd_openapi_rays_answer(struct kd_json *json)
 {
-    cJSON *body = cJSON_AddObjectToObject(operation, "requestBody");
-    cJSON_AddTrueToObject(body, "required");
-    add_content(body, request);
-    add_content(ok, answer);
+    kd_openapi_media(json, "application/json", answer, sizeof answer - 1);
+    kd_openapi_media(json, "application/x-npy", "", 0);
 }

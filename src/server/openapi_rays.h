@@ -2,11 +2,12 @@
 #ifndef KD_SERVER_OPENAPI_RAYS_H
 #define KD_SERVER_OPENAPI_RAYS_H
 
-#include <cjson/cJSON.h>
+#include "base/json.h"
 
 /* Appended to the operation's list: what goes with an array. */
-void kd_openapi_rays_parameters(cJSON *list);
-/* requestBody of the operation and content of its 200. */
-void kd_openapi_rays_bodies(cJSON *operation, cJSON *ok);
+void kd_openapi_rays_parameters(struct kd_json *json);
+/* The operation's requestBody; what belongs into the content of its answer. */
+void kd_openapi_rays_body(struct kd_json *json);
+void kd_openapi_rays_answer(struct kd_json *json);
 
 #endif

@@ -2,16 +2,26 @@
 
 #include "render/particle_list.h"
 
-void kd_openapi_strike_body(cJSON *operation)
+#include <string.h>
+
+void kd_openapi_strike_body(struct kd_json *json)
 {
-    cJSON_AddItemToObject(operation, "requestBody",
-                          cJSON_Parse("{\"required\":false,\"content\":{\"application/json\":{\"schema\":{\"type\":\"object\","
-                                      "\"additionalProperties\":false,\"properties\":{\"amplitude\":{\"type\":\"number\","
-                                      "\"minimum\":0,\"maximum\":1,\"description\":"
-                                      "\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}"));
+    static const char body[] = "{\"required\":false,\"content\":{\"application/json\":{\"schema\":{\"type\":\"object\","
+                               "\"additionalProperties\":false,\"properties\":{\"amplitude\":{\"type\":\"number\","
+                               "\"minimum\":0,\"maximum\":1,\"description\":"
+                               "\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}";
+    kd_json_raw(json, "requestBody", body, sizeof body - 1);
 }
 
-void kd_openapi_particles_parameters(cJSON *list)
+static void begin(struct kd_json *json, const char *name, const char *help)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name);
+    kd_json_string(json, "in", "query");
+    kd_json_string(json, "description", help);
+}
+
+void kd_openapi_particles_parameters(struct kd_json *json)
 {
     static const struct { const char *name, *help, *schema; } known[] = {
         { "first", "number of the first particle; 0 without it", "{\"type\":\"integer\",\"minimum\":0}" },
@@ -20,19 +30,22 @@ void kd_openapi_particles_parameters(cJSON *list)
         { "time", "M; without it, the session's now", "{\"type\":\"number\",\"minimum\":-1e12,\"maximum\":1e12}" },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        cJSON *o = cJSON_CreateObject();
-        cJSON_AddStringToObject(o, "name", known[i].name);
-        cJSON_AddStringToObject(o, "in", "query");
-        cJSON_AddStringToObject(o, "description", known[i].help);
-        cJSON_AddItemToObject(o, "schema", cJSON_Parse(known[i].schema));
-        cJSON_AddItemToArray(list, o);
+        begin(json, known[i].name, known[i].help);
+        kd_json_raw(json, "schema", known[i].schema, strlen(known[i].schema));
+        kd_json_end(json);
     }
-    cJSON *fields = cJSON_Parse("{\"name\":\"fields\",\"in\":\"query\",\"style\":\"form\",\"explode\":false,\"description\":"
-                                "\"columns of a row; x,y,z without it\",\"schema\":{\"type\":\"array\",\"uniqueItems\":true,"
-                                "\"items\":{}}}");
-    cJSON *schema = cJSON_GetObjectItemCaseSensitive(fields, "schema");
-    cJSON *names = cJSON_AddArrayToObject(cJSON_GetObjectItemCaseSensitive(schema, "items"), "enum");
+    begin(json, "fields", "columns of a row; x,y,z without it");
+    kd_json_string(json, "style", "form");
+    kd_json_bool(json, "explode", false);
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "array");
+    kd_json_bool(json, "uniqueItems", true);
+    kd_json_object(json, "items");
+    kd_json_array(json, "enum");
     for (int i = 0; i < KD_PARTICLE_N_COLUMNS; i++)
-        cJSON_AddItemToArray(names, cJSON_CreateString(kd_particle_column_name((enum kd_particle_column)i)));
-    cJSON_AddItemToArray(list, fields);
+        kd_json_string(json, NULL, kd_particle_column_name((enum kd_particle_column)i));
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
 }

@@ -2,9 +2,9 @@
 #ifndef KD_SERVER_OPENAPI_SESSIONS_H
 #define KD_SERVER_OPENAPI_SESSIONS_H
 
-#include <cjson/cJSON.h>
+#include "base/json.h"
 
-void kd_openapi_strike_body(cJSON *operation);
-void kd_openapi_particles_parameters(cJSON *list);
+void kd_openapi_strike_body(struct kd_json *json);
+void kd_openapi_particles_parameters(struct kd_json *json);
 
 #endif
