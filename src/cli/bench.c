@@ -160,8 +160,10 @@ static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };
     for (int i = 0; i < argc; i++)
-        if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i]))
+        if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i])) {
+            kd_buffer_finish(&text); /* half a command would be another one */
             break;
+        }
     return (char *)text.data;
 }
 

@@ -106,12 +106,14 @@ static enum kd_status print_stats(const struct work *work, const struct kd_scene
         .encode_ms = work->encode_ms,
         .bytes = work->png.size,
     };
-    char *text = kd_stats_json(&stats);
-    if (!text)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for --stats");
-    fprintf(stderr, "%s\n", text);
-    free(text);
-    return KD_OK;
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_stats_json(&stats, &text);
+    if (status)
+        kd_error_set(error, status, "out of memory for --stats");
+    else
+        fputs((const char *)text.data, stderr);
+    kd_buffer_finish(&text);
+    return status;
 }
 
 static enum kd_status run(const struct arguments *arguments, struct kd_error *error)

@@ -1,16 +1,16 @@
 #include "cli/selftest.h"
 
+#include "base/json.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "render/selftest.h"
 
-#include <cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 struct report {
-    cJSON *rows; /* NULL: print */
+    struct kd_json *rows; /* NULL: print */
     unsigned checks, failed, compared;
     double nearest; /* largest error over bound of those that have passed */
     char nearest_what[128];
@@ -21,18 +21,18 @@ static void print_row(const struct kd_selftest_row *row)
     printf("%-4s  %-60s %-17s %8.1e %8.1e  %s\n", row->ok ? "ok" : "FAIL", row->what, row->by, row->error, row->bound, row->source);
 }
 
-static void add_row(cJSON *rows, const struct kd_selftest_row *row)
+static void add_row(struct kd_json *rows, const struct kd_selftest_row *row)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "what", row->what);
-    cJSON_AddStringToObject(o, "by", row->by);
-    cJSON_AddNumberToObject(o, "compared", row->compared);
+    kd_json_object(rows, NULL);
+    kd_json_string(rows, "what", row->what);
+    kd_json_string(rows, "by", row->by);
+    kd_json_number(rows, "compared", row->compared);
     if (isfinite(row->error)) /* a number that does not exist is left out, as everywhere */
-        cJSON_AddNumberToObject(o, "error", row->error);
-    cJSON_AddNumberToObject(o, "bound", row->bound);
-    cJSON_AddBoolToObject(o, "ok", row->ok);
-    cJSON_AddStringToObject(o, "source", row->source);
-    cJSON_AddItemToArray(rows, o);
+        kd_json_number(rows, "error", row->error);
+    kd_json_number(rows, "bound", row->bound);
+    kd_json_bool(rows, "ok", row->ok);
+    kd_json_string(rows, "source", row->source);
+    kd_json_end(rows);
 }
 
 static bool report(void *user, const struct kd_selftest_row *row)
@@ -64,34 +64,48 @@ static void print_summary(const struct report *r, const char *device, bool float
         printf("all ok; nearest to its bound, at %.0f %%: %s\n", 100 * r->nearest, r->nearest_what);
 }
 
-static enum kd_status print_json(cJSON *rows, const struct report *r, const char *device, bool float64, double seconds,
-                                 struct kd_error *error)
+static enum kd_status table_json(struct report *r, const char *device, bool float64, double seconds, struct kd_buffer *out)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "kerrd", KD_VERSION);
-    cJSON_AddStringToObject(root, "device", device);
-    cJSON_AddBoolToObject(root, "ok", r->failed == 0);
-    cJSON_AddNumberToObject(root, "checks", r->checks);
-    cJSON_AddNumberToObject(root, "failed", r->failed);
-    cJSON_AddNumberToObject(root, "compared", r->compared);
-    cJSON_AddNumberToObject(root, "seconds", seconds);
-    cJSON_AddBoolToObject(root, "float64", float64);
-    cJSON_AddItemToObject(root, "rows", rows);
-    char *text = cJSON_PrintUnformatted(root);
-    cJSON_Delete(root);
-    if (!text)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the table");
-    printf("%s\n", text);
-    free(text);
-    return KD_OK;
+    struct kd_json whole = kd_json_begin(out), *json = &whole;
+    kd_json_end(r->rows);
+    enum kd_status status = kd_json_finish(r->rows);
+    if (status)
+        return status;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "kerrd", KD_VERSION);
+    kd_json_string(json, "device", device);
+    kd_json_bool(json, "ok", r->failed == 0);
+    kd_json_number(json, "checks", r->checks);
+    kd_json_number(json, "failed", r->failed);
+    kd_json_number(json, "compared", r->compared);
+    kd_json_number(json, "seconds", seconds);
+    kd_json_bool(json, "float64", float64);
+    kd_json_raw(json, "rows", (const char *)r->rows->out->data, r->rows->out->size);
+    kd_json_end(json);
+    return kd_json_finish_line(json);
+}
+
+static enum kd_status print_json(struct report *r, const char *device, bool float64, double seconds, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = table_json(r, device, float64, seconds, &text);
+    if (status)
+        kd_error_set(error, status, "out of memory for the table");
+    else
+        fwrite(text.data, 1, text.size, stdout);
+    kd_buffer_finish(&text);
+    return status;
 }
 
 enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, struct kd_error *error)
 {
-    struct report r = { .rows = json ? cJSON_CreateArray() : NULL };
+    struct kd_buffer text = { 0 };
+    struct kd_json rows = kd_json_begin(&text);
+    struct report r = { .rows = json ? &rows : NULL };
     struct kd_renderer *renderer = NULL;
     struct kd_capacity capacity = { 0 };
     double started = kd_progress_clock();
+    kd_json_array(&rows, NULL);
     enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = device }, &renderer, error);
     if (!status) {
         kd_renderer_capacity(renderer, &capacity);
@@ -103,11 +117,10 @@ enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, 
         kd_cli_device_lost(error);
     double seconds = kd_progress_clock() - started;
     if (!status && json)
-        status = print_json(r.rows, &r, kd_renderer_device_name(renderer), capacity.float64, seconds, error);
+        status = print_json(&r, kd_renderer_device_name(renderer), capacity.float64, seconds, error);
     else if (!status)
         print_summary(&r, kd_renderer_device_name(renderer), capacity.float64, seconds);
-    else
-        cJSON_Delete(r.rows);
+    kd_buffer_finish(&text);
     kd_renderer_destroy(renderer);
     *failed = r.failed;
     return status;

@@ -1,65 +1,90 @@
 #include "cli/stats.h"
 
-#include <cJSON.h>
+#include "base/json.h"
+#include "scene/writer.h"
 
-/* The scene's own words for its accuracy, and what the plan makes of them. */
-static void add_accuracy(cJSON *root, const struct kd_stats *stats)
+#include <string.h>
+
+static void add_field(struct kd_json *json, const struct kd_field *field, const struct kd_scene *scene)
 {
     struct kd_buffer text = { 0 };
-    cJSON *scene = kd_scene_to_json(stats->scene, &text) ? NULL : cJSON_Parse((const char *)text.data);
-    cJSON *accuracy = cJSON_DetachItemFromObjectCaseSensitive(scene, "accuracy");
-    if (!accuracy)
-        accuracy = cJSON_CreateObject();
-    /* What the scene's words come to takes their place. */
-    const struct kd_setting *by = &stats->plan->setting;
-    cJSON_ReplaceItemInObjectCaseSensitive(accuracy, "engine", cJSON_CreateString(kd_engine_name(by->engine)));
-    cJSON_ReplaceItemInObjectCaseSensitive(accuracy, "precision", cJSON_CreateString(kd_precision_name(by->precision)));
-    cJSON_ReplaceItemInObjectCaseSensitive(accuracy, "steps", cJSON_CreateNumber(by->steps)); /* 0: the closed form */
-    const struct kd_accuracy_report *report = &stats->frame->accuracy;
-    cJSON_AddNumberToObject(accuracy, "undecided", (double)report->undecided);
-    cJSON_AddNumberToObject(accuracy, "sampled", report->sampled);
-    if (report->sampled) {
-        cJSON_AddNumberToObject(accuracy, "crossings", report->crossings);
-        cJSON_AddNumberToObject(accuracy, "differ", report->differ);
-        cJSON_AddNumberToObject(accuracy, "radius_error_median", report->median);
-        cJSON_AddNumberToObject(accuracy, "radius_error_worst", report->worst);
-    }
-    cJSON_AddItemToObject(root, "accuracy", accuracy);
-    cJSON_Delete(scene);
+    struct kd_writer writer = { .out = &text };
+    kd_write_value(&writer, field, kd_field_get(scene, field));
+    if (writer.status)
+        json->status = writer.status;
+    else
+        kd_json_raw(json, field->name, (const char *)text.data, text.size);
     kd_buffer_finish(&text);
 }
 
-static void add_times(cJSON *root, const struct kd_stats *stats)
+/* The scene's own words for its accuracy; what the plan makes of them takes their place. */
+static void add_setting(struct kd_json *json, const struct kd_stats *stats)
 {
-    cJSON *times = cJSON_AddObjectToObject(root, "device_ms");
-    for (size_t i = 0; i < stats->frame->n_timings; i++)
-        cJSON_AddNumberToObject(times, stats->frame->timings[i].name, stats->frame->timings[i].ms);
-    cJSON_AddNumberToObject(root, "render_ms", stats->render_ms);
-    cJSON_AddNumberToObject(root, "encode_ms", stats->encode_ms);
-    cJSON_AddNumberToObject(root, "estimate_ms", stats->plan->estimate_ms);
+    const struct kd_section *section = kd_section_find("accuracy");
+    const struct kd_setting *by = &stats->plan->setting;
+    for (size_t i = 0; i < section->count; i++) {
+        const struct kd_field *field = &kd_fields[section->first + i];
+        if (!strcmp(field->name, "engine"))
+            kd_json_string(json, "engine", kd_engine_name(by->engine));
+        else if (!strcmp(field->name, "precision"))
+            kd_json_string(json, "precision", kd_precision_name(by->precision));
+        else if (!strcmp(field->name, "steps"))
+            kd_json_number(json, "steps", by->steps); /* 0: the closed form */
+        else
+            add_field(json, field, stats->scene);
+    }
 }
 
-char *kd_stats_json(const struct kd_stats *stats)
+static void add_accuracy(struct kd_json *json, const struct kd_stats *stats)
 {
+    const struct kd_accuracy_report *report = &stats->frame->accuracy;
+    kd_json_object(json, "accuracy");
+    add_setting(json, stats);
+    kd_json_number(json, "undecided", (double)report->undecided);
+    kd_json_number(json, "sampled", report->sampled);
+    if (report->sampled) {
+        kd_json_number(json, "crossings", report->crossings);
+        kd_json_number(json, "differ", report->differ);
+        kd_json_number(json, "radius_error_median", report->median);
+        kd_json_number(json, "radius_error_worst", report->worst);
+    }
+    kd_json_end(json);
+}
+
+static void add_times(struct kd_json *json, const struct kd_stats *stats)
+{
+    kd_json_object(json, "device_ms");
+    for (size_t i = 0; i < stats->frame->n_timings; i++)
+        kd_json_number(json, stats->frame->timings[i].name, stats->frame->timings[i].ms);
+    kd_json_end(json);
+    kd_json_number(json, "render_ms", stats->render_ms);
+    kd_json_number(json, "encode_ms", stats->encode_ms);
+    kd_json_number(json, "estimate_ms", stats->plan->estimate_ms);
+}
+
+enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out)
+{
+    struct kd_json whole = kd_json_begin(out), *json = &whole;
     char hash[65] = "";
-    if (kd_scene_hash(stats->scene, hash))
-        return NULL;
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "kerrd", KD_VERSION);
-    cJSON_AddStringToObject(root, "device", stats->device);
-    cJSON_AddStringToObject(root, "hash", hash);
-    cJSON_AddNumberToObject(root, "width", stats->frame->width);
-    cJSON_AddNumberToObject(root, "height", stats->frame->height);
-    cJSON_AddNumberToObject(root, "rays", (double)stats->plan->rays);
-    cJSON_AddNumberToObject(root, "critical_rays", (double)(kd_plan_rays(stats->plan) - stats->plan->rays));
-    cJSON_AddNumberToObject(root, "exposure", stats->frame->exposure);
-    cJSON_AddNumberToObject(root, "bytes", (double)stats->bytes);
-    add_times(root, stats);
-    add_accuracy(root, stats);
-    cJSON *list = cJSON_AddArrayToObject(root, "approximations");
+    enum kd_status status = kd_scene_hash(stats->scene, hash);
+    if (status)
+        return status;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "kerrd", KD_VERSION);
+    kd_json_string(json, "device", stats->device);
+    kd_json_string(json, "hash", hash);
+    kd_json_number(json, "width", stats->frame->width);
+    kd_json_number(json, "height", stats->frame->height);
+    kd_json_number(json, "rays", (double)stats->plan->rays);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(stats->plan) - stats->plan->rays));
+    kd_json_number(json, "exposure", stats->frame->exposure);
+    kd_json_number(json, "bytes", (double)stats->bytes);
+    add_times(json, stats);
+    add_accuracy(json, stats);
+    kd_json_array(json, "approximations");
     for (size_t i = 0; i < stats->plan->n_approximations; i++)
-        cJSON_AddItemToArray(list, cJSON_CreateString(stats->plan->approximations[i]));
-    char *text = cJSON_PrintUnformatted(root);
-    cJSON_Delete(root);
-    return text;
+        kd_json_string(json, NULL, stats->plan->approximations[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+    return kd_json_finish_line(json);
 }

@@ -13,7 +13,7 @@ struct kd_stats {
     size_t bytes;                /* of the file */
 };
 
-/* One line of JSON, malloc'd; NULL when out of memory. */
-char *kd_stats_json(const struct kd_stats *stats);
+/* One line of JSON. */
+enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out);
 
 #endif

@@ -1,5 +1,7 @@
 #include "render/accuracy.h"
 
+#include "base/json.h"
+
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,77 +11,80 @@
 #define FORMAT 1 /* of the document; another one is measured anew */
 
 /* Four digits: more would be the weather of the day. */
-static void add_figure(cJSON *object, const char *name, double value)
+static void add_figure(struct kd_json *json, const char *name, double value)
 {
     char text[32];
     if (!isfinite(value))
         return;
     snprintf(text, sizeof text, "%.4g", value);
-    cJSON_AddNumberToObject(object, name, strtod(text, NULL));
+    kd_json_number(json, name, strtod(text, NULL));
 }
 
-static void add_entry(cJSON *sets, const char *name, const struct kd_accuracy_entry *e, uint32_t cores)
+static void add_entry(struct kd_json *json, const char *name, const struct kd_accuracy_entry *e, uint32_t cores)
 {
-    cJSON *o = cJSON_AddObjectToObject(sets, name);
-    add_figure(o, "rays_per_s", e->rays_per_s);
+    kd_json_object(json, name);
+    add_figure(json, "rays_per_s", e->rays_per_s);
     if (cores)
-        add_figure(o, "rays_per_s_per_core", e->rays_per_s / cores);
-    cJSON_AddNumberToObject(o, "rays", e->rays);
-    cJSON_AddNumberToObject(o, "crossings", e->crossings);
-    cJSON_AddNumberToObject(o, "differ", e->differ);
+        add_figure(json, "rays_per_s_per_core", e->rays_per_s / cores);
+    kd_json_number(json, "rays", e->rays);
+    kd_json_number(json, "crossings", e->crossings);
+    kd_json_number(json, "differ", e->differ);
     for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++) {
         if (!isfinite(e->of[q].median))
             continue;
-        cJSON *errors = cJSON_AddObjectToObject(o, kd_accuracy_quantity_names[q]);
-        add_figure(errors, "median", e->of[q].median);
-        add_figure(errors, "p99", e->of[q].p99);
-        add_figure(errors, "worst", e->of[q].worst);
+        kd_json_object(json, kd_accuracy_quantity_names[q]);
+        add_figure(json, "median", e->of[q].median);
+        add_figure(json, "p99", e->of[q].p99);
+        add_figure(json, "worst", e->of[q].worst);
+        kd_json_end(json);
     }
+    kd_json_end(json);
 }
 
-static cJSON *row_to_json(const struct kd_accuracy_table *table, const struct kd_accuracy_row *row)
+static void add_row(struct kd_json *json, const struct kd_accuracy_table *table, const struct kd_accuracy_row *row)
 {
-    cJSON *o = cJSON_CreateObject();
     bool closed = row->engine == KD_ENGINE_CLOSED;
-    cJSON_AddStringToObject(o, "engine", kd_engine_name(row->engine));
-    cJSON_AddStringToObject(o, "precision", kd_precision_name(row->precision));
-    cJSON_AddNumberToObject(o, "steps", row->steps);
-    add_figure(o, "holds", kd_accuracy_holds(row)); /* for readers; derived from the rest */
-    cJSON *sets = cJSON_AddObjectToObject(o, "sets");
+    kd_json_object(json, NULL);
+    kd_json_string(json, "engine", kd_engine_name(row->engine));
+    kd_json_string(json, "precision", kd_precision_name(row->precision));
+    kd_json_number(json, "steps", row->steps);
+    add_figure(json, "holds", kd_accuracy_holds(row)); /* for readers; derived from the rest */
+    kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
         if (row->sets[k].rays)
-            add_entry(sets, kd_accuracy_set_names[k], &row->sets[k], closed ? 1 : table->cores);
-    return o;
+            add_entry(json, kd_accuracy_set_names[k], &row->sets[k], closed ? 1 : table->cores);
+    kd_json_end(json);
+    kd_json_end(json);
 }
 
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddNumberToObject(root, "format", FORMAT);
-    cJSON_AddStringToObject(root, "kerrd", table->version);
-    cJSON_AddStringToObject(root, "date", table->date);
-    cJSON_AddStringToObject(root, "command", table->command);
-    cJSON_AddStringToObject(root, "machine", table->machine);
-    cJSON_AddStringToObject(root, "device", table->device);
-    cJSON_AddNumberToObject(root, "cores", table->cores);
-    cJSON_AddStringToObject(root, "clock", table->device_clock ? "device" : "host");
-    cJSON_AddBoolToObject(root, "quick", table->quick);
-    add_figure(root, "seconds", table->seconds);
-    cJSON_AddStringToObject(root, "skipped", table->skipped);
-    cJSON_AddStringToObject(root, "reference", kd_engine_name(KD_ENGINE_CLOSED));
-    cJSON_AddNumberToObject(root, "orders", KD_ACCURACY_ORDERS);
-    cJSON_AddNumberToObject(root, "safety", KD_ACCURACY_SAFETY);
-    cJSON *sets = cJSON_AddObjectToObject(root, "sets");
+    struct kd_json whole = kd_json_begin_lines(out), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_number(json, "format", FORMAT);
+    kd_json_string(json, "kerrd", table->version);
+    kd_json_string(json, "date", table->date);
+    kd_json_string(json, "command", table->command);
+    kd_json_string(json, "machine", table->machine);
+    kd_json_string(json, "device", table->device);
+    kd_json_number(json, "cores", table->cores);
+    kd_json_string(json, "clock", table->device_clock ? "device" : "host");
+    kd_json_bool(json, "quick", table->quick);
+    add_figure(json, "seconds", table->seconds);
+    kd_json_string(json, "skipped", table->skipped);
+    kd_json_string(json, "reference", kd_engine_name(KD_ENGINE_CLOSED));
+    kd_json_number(json, "orders", KD_ACCURACY_ORDERS);
+    kd_json_number(json, "safety", KD_ACCURACY_SAFETY);
+    kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
-        cJSON_AddStringToObject(sets, kd_accuracy_set_names[k], kd_accuracy_set_rays[k]);
-    cJSON *rows = cJSON_AddArrayToObject(root, "rows");
+        kd_json_string(json, kd_accuracy_set_names[k], kd_accuracy_set_rays[k]);
+    kd_json_end(json);
+    kd_json_array(json, "rows");
     for (uint32_t i = 0; i < table->n; i++)
-        cJSON_AddItemToArray(rows, row_to_json(table, &table->rows[i]));
-    char *text = root ? cJSON_Print(root) : NULL;
-    enum kd_status status = text ? kd_buffer_printf(out, "%s\n", text) : KD_ENOMEM;
-    cJSON_free(text);
-    cJSON_Delete(root);
-    return status;
+        add_row(json, table, &table->rows[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+    return kd_json_finish_line(json);
 }
 
 static double figure(const cJSON *object, const char *name)

@@ -1,73 +1,81 @@
 #include "render/plan.h"
 
-#include <cJSON.h>
+#include "base/json.h"
+
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-static cJSON *pass_json(const struct kd_plan_pass *pass)
+static void add_passes(struct kd_json *json, const struct kd_plan *plan)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "name", pass->name);
-    if (*pass->kernel)
-        cJSON_AddStringToObject(o, "kernel", pass->kernel);
-    cJSON_AddNumberToObject(o, "invocations", (double)pass->invocations);
-    cJSON_AddNumberToObject(o, "estimate_ms", pass->estimate_ms);
-    return o;
+    kd_json_array(json, "passes");
+    for (size_t i = 0; i < plan->n_passes; i++) {
+        const struct kd_plan_pass *pass = &plan->passes[i];
+        kd_json_object(json, NULL);
+        kd_json_string(json, "name", pass->name);
+        if (*pass->kernel)
+            kd_json_string(json, "kernel", pass->kernel);
+        kd_json_number(json, "invocations", (double)pass->invocations);
+        kd_json_number(json, "estimate_ms", pass->estimate_ms);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
 }
 
-static void add_constants(cJSON *root, const struct kd_plan *plan)
+static void add_constants(struct kd_json *json, const struct kd_plan *plan)
 {
-    cJSON *o = cJSON_AddObjectToObject(root, "specialisation");
-    cJSON_AddNumberToObject(o, "orders", plan->orders);
-    cJSON_AddNumberToObject(o, "steps", plan->setting.steps);
-    cJSON_AddNumberToObject(o, "samples", plan->side);
-    cJSON_AddBoolToObject(o, "radius_only", plan->path == KD_LENS_RADIUS);
-    cJSON_AddBoolToObject(o, "phi", plan->phi);
-    cJSON_AddBoolToObject(o, "sky", plan->sky);
+    kd_json_object(json, "specialisation");
+    kd_json_number(json, "orders", plan->orders);
+    kd_json_number(json, "steps", plan->setting.steps);
+    kd_json_number(json, "samples", plan->side);
+    kd_json_bool(json, "radius_only", plan->path == KD_LENS_RADIUS);
+    kd_json_bool(json, "phi", plan->phi);
+    kd_json_bool(json, "sky", plan->sky);
+    kd_json_end(json);
 }
 
-static void add_accuracy(cJSON *root, const struct kd_plan *plan)
+static void add_accuracy(struct kd_json *json, const struct kd_plan *plan)
 {
     const struct kd_setting *by = &plan->setting;
-    cJSON *o = cJSON_AddObjectToObject(root, "accuracy");
-    cJSON_AddStringToObject(o, "engine", kd_engine_name(by->engine));
-    cJSON_AddStringToObject(o, "precision", kd_precision_name(by->precision));
-    cJSON_AddNumberToObject(o, "steps", by->steps);
+    kd_json_object(json, "accuracy");
+    kd_json_string(json, "engine", kd_engine_name(by->engine));
+    kd_json_string(json, "precision", kd_precision_name(by->precision));
+    kd_json_number(json, "steps", by->steps);
     if (isfinite(by->holds))
-        cJSON_AddNumberToObject(o, "holds", by->holds);
-    cJSON_AddStringToObject(o, "table", plan->accuracy_measured ? "measured" : "built-in");
+        kd_json_number(json, "holds", by->holds);
+    kd_json_string(json, "table", plan->accuracy_measured ? "measured" : "built-in");
+    kd_json_end(json);
+}
+
+static void add_bytes(struct kd_json *json, const struct kd_plan *plan)
+{
+    kd_json_object(json, "bytes");
+    kd_json_number(json, "lens_map", (double)plan->lens_bytes);
+    kd_json_number(json, "device", (double)plan->device_bytes);
+    kd_json_number(json, "host", (double)plan->host_bytes);
+    kd_json_end(json);
 }
 
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out)
 {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddNumberToObject(root, "rays", (double)plan->rays);
-    cJSON_AddNumberToObject(root, "critical_pixels", (double)plan->critical_pixels);
-    cJSON_AddNumberToObject(root, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
-    cJSON_AddNumberToObject(root, "width", plan->width);
-    cJSON_AddNumberToObject(root, "height", plan->height);
-    cJSON *list = cJSON_AddArrayToObject(root, "passes");
-    for (size_t i = 0; i < plan->n_passes; i++)
-        cJSON_AddItemToArray(list, pass_json(&plan->passes[i]));
-    add_constants(root, plan);
-    add_accuracy(root, plan);
-    cJSON *bytes = cJSON_AddObjectToObject(root, "bytes");
-    cJSON_AddNumberToObject(bytes, "lens_map", (double)plan->lens_bytes);
-    cJSON_AddNumberToObject(bytes, "device", (double)plan->device_bytes);
-    cJSON_AddNumberToObject(bytes, "host", (double)plan->host_bytes);
-    cJSON_AddNumberToObject(root, "bands", plan->bands);
-    cJSON_AddBoolToObject(root, "lens_map_cacheable", plan->cacheable);
-    cJSON_AddStringToObject(root, "lens_map_key", plan->lens_key);
-    cJSON_AddNumberToObject(root, "estimate_ms", plan->estimate_ms);
-    cJSON_AddStringToObject(root, "estimate_basis", plan->measured ? "measured" : "guess");
-    list = cJSON_AddArrayToObject(root, "approximations");
+    struct kd_json whole = kd_json_begin_lines(out), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_number(json, "rays", (double)plan->rays);
+    kd_json_number(json, "critical_pixels", (double)plan->critical_pixels);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
+    kd_json_number(json, "width", plan->width);
+    kd_json_number(json, "height", plan->height);
+    add_passes(json, plan);
+    add_constants(json, plan);
+    add_accuracy(json, plan);
+    add_bytes(json, plan);
+    kd_json_number(json, "bands", plan->bands);
+    kd_json_bool(json, "lens_map_cacheable", plan->cacheable);
+    kd_json_string(json, "lens_map_key", plan->lens_key);
+    kd_json_number(json, "estimate_ms", plan->estimate_ms);
+    kd_json_string(json, "estimate_basis", plan->measured ? "measured" : "guess");
+    kd_json_array(json, "approximations");
     for (size_t i = 0; i < plan->n_approximations; i++)
-        cJSON_AddItemToArray(list, cJSON_CreateString(plan->approximations[i]));
-
-    char *text = root ? cJSON_Print(root) : NULL;
-    enum kd_status status = text ? kd_buffer_append(out, text, strlen(text)) : KD_ENOMEM;
-    cJSON_free(text);
-    cJSON_Delete(root);
-    return status;
+        kd_json_string(json, NULL, plan->approximations[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+    return kd_json_finish(json);
 }

@@ -1,8 +1,8 @@
 #include "render/internal.h"
 
+#include "base/json.h"
 #include "render/accuracy_store.h"
 
-#include <cJSON.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -150,36 +150,36 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     snprintf(version, sizeof version, "%u.%u.%u", info->api_version >> 22 & 0x7f, info->api_version >> 12 & 0x3ff,
              info->api_version & 0xfff);
 
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "kerrd", KD_VERSION);
-    cJSON_AddStringToObject(root, "name", info->name);
-    cJSON_AddStringToObject(root, "type", kd_vk_type_name(info->type));
-    cJSON_AddStringToObject(root, "driver", info->driver);
-    cJSON_AddStringToObject(root, "driver_info", info->driver_info);
-    cJSON_AddStringToObject(root, "vulkan", version);
-    cJSON_AddNumberToObject(root, "index", info->index);
-    cJSON_AddStringToObject(root, "choice", kd_vk_choice(renderer->vk));
-    cJSON *precision = cJSON_AddArrayToObject(root, "precision");
+    struct kd_json whole = kd_json_begin_lines(out), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "kerrd", KD_VERSION);
+    kd_json_string(json, "name", info->name);
+    kd_json_string(json, "type", kd_vk_type_name(info->type));
+    kd_json_string(json, "driver", info->driver);
+    kd_json_string(json, "driver_info", info->driver_info);
+    kd_json_string(json, "vulkan", version);
+    kd_json_number(json, "index", info->index);
+    kd_json_string(json, "choice", kd_vk_choice(renderer->vk));
+    kd_json_array(json, "precision");
     for (int p = KD_PRECISION_F32; p <= (info->float64 ? KD_PRECISION_F64 : KD_PRECISION_F32); p++)
-        cJSON_AddItemToArray(precision, cJSON_CreateString(kd_precision_name((enum kd_precision)p)));
-    cJSON_AddBoolToObject(root, "float64_hardware", info->float64);
-    cJSON_AddBoolToObject(root, "timestamps", info->timestamps);
-    cJSON *limits = cJSON_AddObjectToObject(root, "limits");
-    cJSON_AddNumberToObject(limits, "heap_bytes", (double)info->heap_bytes);
-    cJSON_AddNumberToObject(limits, "memory_bytes", (double)c.memory_bytes);
-    cJSON_AddNumberToObject(limits, "binding_bytes", (double)info->max_binding_bytes);
-    cJSON_AddNumberToObject(limits, "subgroup_size", info->subgroup_size);
-    cJSON *speed = cJSON_AddObjectToObject(root, "ns_per_item");
-    cJSON_AddStringToObject(speed, "basis", c.measured ? "measured" : "guess");
-    cJSON_AddNumberToObject(speed, "ray_radius", c.ns_per_ray_radius);
-    cJSON_AddNumberToObject(speed, "ray_full", c.ns_per_ray_full);
-    cJSON_AddNumberToObject(speed, "sample_transfer", c.ns_per_sample_transfer);
-    cJSON_AddNumberToObject(speed, "pixel_post", c.ns_per_pixel_post);
-    cJSON_AddNumberToObject(speed, "particle", c.ns_per_particle);
-
-    char *text = root ? cJSON_Print(root) : NULL;
-    enum kd_status status = text ? kd_buffer_append(out, text, strlen(text)) : KD_ENOMEM;
-    cJSON_free(text);
-    cJSON_Delete(root);
-    return status;
+        kd_json_string(json, NULL, kd_precision_name((enum kd_precision)p));
+    kd_json_end(json);
+    kd_json_bool(json, "float64_hardware", info->float64);
+    kd_json_bool(json, "timestamps", info->timestamps);
+    kd_json_object(json, "limits");
+    kd_json_number(json, "heap_bytes", (double)info->heap_bytes);
+    kd_json_number(json, "memory_bytes", (double)c.memory_bytes);
+    kd_json_number(json, "binding_bytes", (double)info->max_binding_bytes);
+    kd_json_number(json, "subgroup_size", info->subgroup_size);
+    kd_json_end(json);
+    kd_json_object(json, "ns_per_item");
+    kd_json_string(json, "basis", c.measured ? "measured" : "guess");
+    kd_json_number(json, "ray_radius", c.ns_per_ray_radius);
+    kd_json_number(json, "ray_full", c.ns_per_ray_full);
+    kd_json_number(json, "sample_transfer", c.ns_per_sample_transfer);
+    kd_json_number(json, "pixel_post", c.ns_per_pixel_post);
+    kd_json_number(json, "particle", c.ns_per_particle);
+    kd_json_end(json);
+    kd_json_end(json);
+    return kd_json_finish(json);
 }

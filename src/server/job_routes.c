@@ -1,11 +1,11 @@
 /* POST /v1/jobs; how far one is, by asking and as events; its end. */
+#include "base/json.h"
 #include "server/clock.h"
 #include "server/job_routes.h"
 #include "server/reply.h"
 #include "server/scene_source.h"
 #include "server/task.h"
 
-#include <cjson/cJSON.h>
 #include <limits.h>
 #include <math.h>
 #include <netdb.h>
@@ -37,27 +37,25 @@ static const char *state_word(const struct kd_job_status *s)
 
 static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s, bool token, struct kd_buffer *out)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddStringToObject(o, "id", kd_job_id(job));
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "id", kd_job_id(job));
     if (token)
-        cJSON_AddStringToObject(o, "token", kd_job_token(job));
-    cJSON_AddStringToObject(o, "state", state_word(s));
-    cJSON_AddStringToObject(o, "output", s->curve ? "light-curve" : "pictures");
-    cJSON_AddNumberToObject(o, "place", s->place);
-    cJSON_AddNumberToObject(o, "frames", s->frames);
-    cJSON_AddNumberToObject(o, "finished", s->finished);
-    cJSON_AddNumberToObject(o, "fraction", s->fraction);
-    cJSON_AddItemToObject(o, "remaining_s", isnan(s->remaining_s) ? cJSON_CreateNull() : cJSON_CreateNumber(s->remaining_s));
-    cJSON_AddNumberToObject(o, "bytes", (double)s->bytes);
-    cJSON_AddNumberToObject(o, "created", s->created);
-    cJSON_AddItemToObject(o, "ended", s->ended > 0 ? cJSON_CreateNumber(s->ended) : cJSON_CreateNull());
+        kd_json_string(&json, "token", kd_job_token(job));
+    kd_json_string(&json, "state", state_word(s));
+    kd_json_string(&json, "output", s->curve ? "light-curve" : "pictures");
+    kd_json_number(&json, "place", s->place);
+    kd_json_number(&json, "frames", s->frames);
+    kd_json_number(&json, "finished", s->finished);
+    kd_json_number(&json, "fraction", s->fraction);
+    kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN: null */
+    kd_json_number(&json, "bytes", (double)s->bytes);
+    kd_json_number(&json, "created", s->created);
+    kd_json_number(&json, "ended", s->ended > 0 ? s->ended : NAN);
     if (s->state == KD_JOB_FAILED)
-        cJSON_AddStringToObject(o, "error", s->error);
-    char *text = cJSON_PrintUnformatted(o);
-    cJSON_Delete(o);
-    enum kd_status status = text ? kd_buffer_printf(out, "%s", text) : KD_ENOMEM;
-    cJSON_free(text);
-    return status;
+        kd_json_string(&json, "error", s->error);
+    kd_json_end(&json);
+    return kd_json_finish(&json);
 }
 
 static enum MHD_Result answer(struct kd_request *request, struct kd_job *job, bool created)

@@ -1,10 +1,10 @@
 #include "server/live_frame.h"
 
+#include "base/json.h"
 #include "physics/kerr.h"
 #include "render/picture.h"
 #include "server/reply.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,123 +29,134 @@ static void describe_timing(struct kd_live_frame *frame, const struct kd_render_
         snprintf(frame->timing + n, sizeof frame->timing - n, ", encode;dur=%.3f", job->encode_ms);
 }
 
-static cJSON *quality_json(const struct kd_render_job *job, const struct kd_live_note *note)
+static void add_quality(struct kd_json *json, const struct kd_render_job *job, const struct kd_live_note *note)
 {
     const struct kd_plan *p = &job->plan;
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddNumberToObject(o, "width", p->width);
-    cJSON_AddNumberToObject(o, "height", p->height);
-    cJSON_AddNumberToObject(o, "samples", p->side);
-    cJSON_AddNumberToObject(o, "orders", p->orders);
-    cJSON_AddStringToObject(o, "engine", kd_engine_name(p->setting.engine));
-    cJSON_AddStringToObject(o, "precision", kd_precision_name(p->setting.precision));
-    cJSON_AddNumberToObject(o, "steps", p->setting.steps);
-    cJSON_AddBoolToObject(o, "final", note->final);
-    return o;
+    kd_json_object(json, "quality");
+    kd_json_number(json, "width", p->width);
+    kd_json_number(json, "height", p->height);
+    kd_json_number(json, "samples", p->side);
+    kd_json_number(json, "orders", p->orders);
+    kd_json_string(json, "engine", kd_engine_name(p->setting.engine));
+    kd_json_string(json, "precision", kd_precision_name(p->setting.precision));
+    kd_json_number(json, "steps", p->setting.steps);
+    kd_json_bool(json, "final", note->final);
+    kd_json_end(json);
 }
 
-static cJSON *accuracy_json(const struct kd_accuracy_report *report, const struct kd_plan *plan)
+static void add_passes(struct kd_json *json, const struct kd_render_job *job)
 {
-    cJSON *o = cJSON_CreateObject();
-    cJSON_AddNumberToObject(o, "rays", (double)plan->rays);
-    cJSON_AddNumberToObject(o, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
-    cJSON_AddNumberToObject(o, "undecided", (double)report->undecided);
-    cJSON_AddNumberToObject(o, "sampled", report->sampled);
+    kd_json_object(json, "passes");
+    kd_json_number(json, "queue", job->queue_ms);
+    for (size_t i = 0; i < job->frame.n_timings; i++)
+        kd_json_number(json, job->frame.timings[i].name, job->frame.timings[i].ms);
+    kd_json_number(json, "encode", job->encode_ms);
+    kd_json_end(json);
+}
+
+static void add_accuracy(struct kd_json *json, const struct kd_accuracy_report *report, const struct kd_plan *plan)
+{
+    kd_json_object(json, "accuracy");
+    kd_json_number(json, "rays", (double)plan->rays);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
+    kd_json_number(json, "undecided", (double)report->undecided);
+    kd_json_number(json, "sampled", report->sampled);
     if (report->sampled) {
-        cJSON_AddNumberToObject(o, "crossings", report->crossings);
-        cJSON_AddNumberToObject(o, "differ", report->differ);
-        cJSON_AddNumberToObject(o, "median", report->median);
-        cJSON_AddNumberToObject(o, "worst", report->worst);
+        kd_json_number(json, "crossings", report->crossings);
+        kd_json_number(json, "differ", report->differ);
+        kd_json_number(json, "median", report->median);
+        kd_json_number(json, "worst", report->worst);
     }
-    return o;
+    kd_json_end(json);
 }
 
-static void add_light(cJSON *o, const struct kd_light *light)
+static void add_light(struct kd_json *json, const struct kd_light *light)
 {
-    const double at[] = { light->x, light->y };
-    cJSON_AddNumberToObject(o, "flux", light->flux);
-    cJSON_AddItemToObject(o, "centroid", isnan(light->x) ? cJSON_CreateNull() : cJSON_CreateDoubleArray(at, 2));
+    kd_json_number(json, "flux", light->flux);
+    if (isnan(light->x)) {
+        kd_json_null(json, "centroid");
+        return;
+    }
+    kd_json_array(json, "centroid");
+    kd_json_number(json, NULL, light->x);
+    kd_json_number(json, NULL, light->y);
+    kd_json_end(json);
 }
 
-static cJSON *light_json(const struct kd_light_report *report)
+static void add_lights(struct kd_json *json, const struct kd_light_report *report)
 {
-    cJSON *o = cJSON_CreateObject(), *spots = cJSON_CreateObject();
-    add_light(o, &report->all);
-    add_light(spots, &report->spots);
-    cJSON_AddItemToObject(o, "spots", spots);
-    return o;
+    kd_json_object(json, "light");
+    add_light(json, &report->all);
+    kd_json_object(json, "spots");
+    add_light(json, &report->spots);
+    kd_json_end(json);
+    kd_json_end(json);
 }
 
-static void add_orbit(cJSON *o, double spin, double r)
+static void add_orbit(struct kd_json *json, double spin, double r)
 {
-    cJSON_AddNumberToObject(o, "r", r);
-    cJSON_AddNumberToObject(o, "period", 2 * M_PI / kd_kerr_omega(spin, r));
+    kd_json_number(json, "r", r);
+    kd_json_number(json, "period", 2 * M_PI / kd_kerr_omega(spin, r));
 }
 
-static cJSON *isco_json(const struct kd_scene *scene)
+static void add_isco(struct kd_json *json, const struct kd_scene *scene)
 {
-    cJSON *o = cJSON_CreateObject();
-    add_orbit(o, scene->spacetime.spin, kd_kerr_isco(scene->spacetime.spin));
-    return o;
+    kd_json_object(json, "isco");
+    add_orbit(json, scene->spacetime.spin, kd_kerr_isco(scene->spacetime.spin));
+    kd_json_end(json);
 }
 
-static cJSON *simulation_json(const struct kd_scene *scene)
+static void add_simulation(struct kd_json *json, const struct kd_scene *scene)
 {
-    cJSON *o = cJSON_CreateObject();
     double wave;
-    cJSON_AddNumberToObject(o, "time_rate", scene->motion.time_rate);
-    cJSON_AddNumberToObject(o, "particles", scene->disk.model == KD_DISK_PARTICLES ? scene->disk.particles : 0);
+    kd_json_object(json, "simulation");
+    kd_json_number(json, "time_rate", scene->motion.time_rate);
+    kd_json_number(json, "particles", scene->disk.model == KD_DISK_PARTICLES ? scene->disk.particles : 0);
     if (kd_scene_ringdown(scene, &wave))
-        cJSON_AddNumberToObject(o, "ringdown", wave);
-    return o;
+        kd_json_number(json, "ringdown", wave);
+    kd_json_end(json);
 }
 
 /* Where the centre of each spot that is on stands at the frame's time. */
-static cJSON *orbits_json(const struct kd_scene *scene)
+static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
 {
     const struct kd_spot *spots[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
-    cJSON *list = cJSON_CreateArray();
+    kd_json_array(json, "orbits");
     for (int i = 0; i < KD_SPOTS; i++) {
         if (!(spots[i]->brightness > 0))
             continue;
-        cJSON *o = cJSON_CreateObject();
         double turned = remainder(kd_kerr_omega(scene->spacetime.spin, spots[i]->r) * scene->top.time, 2 * M_PI);
-        cJSON_AddNumberToObject(o, "spot", i + 1);
-        cJSON_AddNumberToObject(o, "phi_deg", remainder(spots[i]->phase_deg + turned * (180 / M_PI), 360));
-        add_orbit(o, scene->spacetime.spin, spots[i]->r);
-        cJSON_AddItemToArray(list, o);
+        kd_json_object(json, NULL);
+        kd_json_number(json, "spot", i + 1);
+        kd_json_number(json, "phi_deg", remainder(spots[i]->phase_deg + turned * (180 / M_PI), 360));
+        add_orbit(json, scene->spacetime.spin, spots[i]->r);
+        kd_json_end(json);
     }
-    return list;
+    kd_json_end(json);
 }
 
 static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
 {
-    cJSON *o = cJSON_CreateObject(), *passes = cJSON_CreateObject();
-    cJSON_AddNumberToObject(o, "frame", (double)note->number);
-    cJSON_AddNumberToObject(o, "revision", note->revision);
-    cJSON_AddNumberToObject(o, "time", job->scene.top.time);
-    cJSON_AddNumberToObject(o, "azimuth_deg", job->scene.camera.azimuth_deg);
-    cJSON_AddNumberToObject(o, "exposure", job->frame.exposure);
-    cJSON_AddNumberToObject(o, "fps", note->fps);
-    cJSON_AddNumberToObject(o, "bytes", (double)frame->png.size);
-    cJSON_AddItemToObject(o, "quality", quality_json(job, note));
-    cJSON_AddNumberToObject(passes, "queue", job->queue_ms);
-    for (size_t i = 0; i < job->frame.n_timings; i++)
-        cJSON_AddNumberToObject(passes, job->frame.timings[i].name, job->frame.timings[i].ms);
-    cJSON_AddNumberToObject(passes, "encode", job->encode_ms);
-    cJSON_AddItemToObject(o, "passes", passes);
-    cJSON_AddBoolToObject(o, "lens_map_reused", job->frame.lens_reused);
-    cJSON_AddItemToObject(o, "accuracy", accuracy_json(&job->frame.accuracy, &job->plan));
-    cJSON_AddItemToObject(o, "simulation", simulation_json(&job->scene));
-    cJSON_AddItemToObject(o, "isco", isco_json(&job->scene));
-    cJSON_AddItemToObject(o, "orbits", orbits_json(&job->scene));
+    struct kd_json whole = kd_json_begin(&frame->event), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_number(json, "frame", (double)note->number);
+    kd_json_number(json, "revision", note->revision);
+    kd_json_number(json, "time", job->scene.top.time);
+    kd_json_number(json, "azimuth_deg", job->scene.camera.azimuth_deg);
+    kd_json_number(json, "exposure", job->frame.exposure);
+    kd_json_number(json, "fps", note->fps);
+    kd_json_number(json, "bytes", (double)frame->png.size);
+    add_quality(json, job, note);
+    add_passes(json, job);
+    kd_json_bool(json, "lens_map_reused", job->frame.lens_reused);
+    add_accuracy(json, &job->frame.accuracy, &job->plan);
+    add_simulation(json, &job->scene);
+    add_isco(json, &job->scene);
+    add_orbits(json, &job->scene);
     if (job->frame.light.measured)
-        cJSON_AddItemToObject(o, "light", light_json(&job->frame.light));
-    char *text = cJSON_PrintUnformatted(o);
-    enum kd_status status = text ? kd_buffer_printf(&frame->event, "%s", text) : KD_ENOMEM;
-    cJSON_free(text);
-    cJSON_Delete(o);
-    return status;
+        add_lights(json, &job->frame.light);
+    kd_json_end(json);
+    return kd_json_finish(json);
 }
 
 struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct kd_live_note *note)

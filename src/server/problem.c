@@ -1,8 +1,8 @@
 #include "server/problem.h"
 
+#include "base/json.h"
 #include "image/utf8.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -46,7 +46,7 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
 }
 
 /* A message may echo bytes of the request, or end in the middle of a character: JSON must not. */
-static void add_text(cJSON *object, const char *key, const char *text)
+static void add_text(struct kd_json *json, const char *key, const char *text)
 {
     char copy[512];
     snprintf(copy, sizeof copy, "%s", text);
@@ -54,28 +54,26 @@ static void add_text(cJSON *object, const char *key, const char *text)
         for (char *p = copy; *p; p++)
             if (*p & 0x80)
                 *p = '?';
-    cJSON_AddStringToObject(object, key, copy);
+    kd_json_string(json, key, copy);
 }
 
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out)
 {
     char type[80];
-    cJSON *o = cJSON_CreateObject();
+    struct kd_json json = kd_json_begin(out);
 
     snprintf(type, sizeof type, "urn:kerrd:problem:%s", table[problem->type].word);
-    add_text(o, "type", type);
-    add_text(o, "title", table[problem->type].title);
-    cJSON_AddNumberToObject(o, "status", table[problem->type].status);
-    add_text(o, "detail", problem->detail ? problem->detail : table[problem->type].title);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "type", type);
+    kd_json_string(&json, "title", table[problem->type].title);
+    kd_json_number(&json, "status", table[problem->type].status);
+    add_text(&json, "detail", problem->detail ? problem->detail : table[problem->type].title);
     if (problem->pointer && *problem->pointer)
-        add_text(o, "pointer", problem->pointer);
+        add_text(&json, "pointer", problem->pointer);
     if (problem->offered)
-        add_text(o, "offered", problem->offered);
-    char *text = cJSON_PrintUnformatted(o);
-    cJSON_Delete(o);
-    enum kd_status status = text ? kd_buffer_printf(out, "%s\n", text) : KD_ENOMEM;
-    cJSON_free(text);
-    return status;
+        add_text(&json, "offered", problem->offered);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
 }
 
 void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail)

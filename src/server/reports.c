@@ -1,8 +1,7 @@
 /* What the server says of itself: health, device, presets, schema. */
+#include "base/json.h"
 #include "server/reply.h"
 #include "server/request.h"
-
-#include <cjson/cJSON.h>
 
 enum MHD_Result kd_handle_health(struct kd_request *request)
 {
@@ -34,22 +33,26 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
     return kd_reply_json(request, status, &json, request->route->answer);
 }
 
+static enum kd_status presets_json(struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_array(&json, "presets");
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) {
+        kd_json_object(&json, NULL);
+        kd_json_string(&json, "name", kd_scene_preset_name(i));
+        kd_json_string(&json, "title", kd_scene_preset_title(i));
+        kd_json_end(&json);
+    }
+    kd_json_end(&json);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
 enum MHD_Result kd_handle_presets(struct kd_request *request)
 {
-    cJSON *o = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(o, "presets");
     struct kd_buffer json = { 0 };
-
-    for (size_t i = 0; i < kd_scene_preset_count(); i++) {
-        cJSON *one = cJSON_CreateObject();
-        cJSON_AddStringToObject(one, "name", kd_scene_preset_name(i));
-        cJSON_AddStringToObject(one, "title", kd_scene_preset_title(i));
-        cJSON_AddItemToArray(list, one);
-    }
-    char *text = cJSON_PrintUnformatted(o);
-    cJSON_Delete(o);
-    enum kd_status status = text ? kd_buffer_printf(&json, "%s\n", text) : KD_ENOMEM;
-    cJSON_free(text);
-    return kd_reply_json(request, status, &json, request->route->answer);
+    return kd_reply_json(request, presets_json(&json), &json, request->route->answer);
 }
 
 enum MHD_Result kd_handle_preset(struct kd_request *request)

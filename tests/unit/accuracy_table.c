@@ -184,8 +184,8 @@ static void no_table(void **state)
     for (size_t n = 0; n + 2 < text.size; n += 7)
         assert_int_equal(kd_accuracy_from_json((const char *)text.data, n, &again, &error), KD_EINVAL);
     static const struct { const char *from, *to; } damage[] = {
-        { "\"format\":\t1", "\"format\":\t2" }, { "mino-rkn6", "mino-rkn7" }, { "\"f32\"", "\"f16\"" },
-        { "\"steps\":\t8", "\"steps\":\t.8" },  { "\"rays\":\t10", "\"rays\":\t-1" }, { "\"differ\":\t0", "\"differ\":\t\"" },
+        { "\"format\": 1", "\"format\": 2" }, { "mino-rkn6", "mino-rkn7" }, { "\"f32\"", "\"f16\"" },
+        { "\"steps\": 8", "\"steps\": .8" },  { "\"rays\": 10", "\"rays\": -1" }, { "\"differ\": 0", "\"differ\": \"" },
     };
     for (size_t i = 0; i < sizeof damage / sizeof *damage; i++) {
         char *copy = strdup((const char *)text.data), *at = strstr(copy, damage[i].from);
