@@ -13,7 +13,17 @@ static void list_names(const struct kd_vk_info *infos, size_t count, char *out, 
                                  infos[i].missing[0] ? " (unusable)" : "");
 }
 
-/* The best usable device whose name contains `part` ("": all); count when there is none. */
+/* Of two devices of one type the one that has double precision is better, then the one that computes more lanes at once. */
+static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
+{
+    if (a->type != b->type)
+        return a->type > b->type;
+    if (a->float64 != b->float64)
+        return a->float64;
+    return a->subgroup_size > b->subgroup_size;
+}
+
+/* The best usable device whose name contains `part` ("": all), of equals the first; count when there is none. */
 static size_t best(const struct kd_vk_info *infos, size_t count, const char *part, size_t *matches)
 {
     size_t found = count;
@@ -22,7 +32,7 @@ static size_t best(const struct kd_vk_info *infos, size_t count, const char *par
         if (!strcasestr(infos[i].name, part))
             continue;
         ++*matches;
-        if (!infos[i].missing[0] && (found == count || infos[i].type > infos[found].type))
+        if (!infos[i].missing[0] && (found == count || better(&infos[i], &infos[found])))
             found = i;
     }
     return found;
@@ -81,7 +91,7 @@ enum kd_status kd_vk_choose(const struct kd_vk_info *infos, size_t count, const 
     if (!wish || !wish[0] || !strcmp(wish, "auto")) {
         status = any(infos, count, index, &n, error);
         if (n > 1 && !status)
-            snprintf(reason, sizeof reason, "the first %s among %zu usable devices",
+            snprintf(reason, sizeof reason, "the best %s among %zu usable devices",
                      kd_vk_type_name(infos[*index].type), n);
         else
             snprintf(reason, sizeof reason, "the only usable device");
