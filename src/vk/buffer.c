@@ -1,6 +1,7 @@
 #include "vk/buffer.h"
 
 #include "vk/device.h"
+#include "vk/mapped.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 static void buffer_free(struct kd_vk *vk, struct kd_vk_retired *object)
 {
     struct kd_vk_buffer *buffer = (struct kd_vk_buffer *)object;
+    kd_vk_mapped_forget(vk, buffer);
     vk->fn.DestroyBuffer(vk->device, buffer->handle, NULL);
     if (buffer->slice.block)
         kd_vk_heap_give(vk, &buffer->slice);
@@ -15,8 +17,7 @@ static void buffer_free(struct kd_vk *vk, struct kd_vk_retired *object)
     free(buffer);
 }
 
-static enum kd_status buffer_init(struct kd_vk *vk, struct kd_vk_buffer *buffer, enum kd_vk_memory memory,
-                                  struct kd_error *error)
+static enum kd_status buffer_init(struct kd_vk *vk, struct kd_vk_buffer *buffer, struct kd_error *error)
 {
     enum kd_status status;
     VkMemoryRequirements needs;
@@ -25,7 +26,7 @@ static enum kd_status buffer_init(struct kd_vk *vk, struct kd_vk_buffer *buffer,
                                       .usage = KD_VK_BUFFER_USAGE };
     KD_VK_TRY(&vk->fn, CreateBuffer, vk->device, &info, NULL, &buffer->handle);
     vk->fn.GetBufferMemoryRequirements(vk->device, buffer->handle, &needs);
-    status = kd_vk_heap_take(vk, memory, needs.size, needs.alignment, &buffer->slice, error);
+    status = kd_vk_heap_take(vk, buffer->memory, needs.size, needs.alignment, &buffer->slice, error);
     if (status)
         return status;
     KD_VK_TRY(&vk->fn, BindBufferMemory, vk->device, buffer->handle, buffer->slice.block->memory,
@@ -58,14 +59,16 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
     buffer->retired.free = buffer_free;
     buffer->id = ++vk->next_buffer_id;
     buffer->size = size;
+    buffer->memory = memory;
     snprintf(buffer->name, sizeof buffer->name, "%s", name);
     vk->n_buffers++;
     struct kd_error why = { 0 };
-    status = buffer_init(vk, buffer, memory, &why);
+    status = buffer_init(vk, buffer, &why);
     if (status) {
         buffer_free(vk, &buffer->retired);
         return kd_error_set(error, status, "buffer '%s': %s", name, why.message);
     }
+    kd_vk_mapped_enter(vk, buffer);
     *out = buffer;
     return KD_OK;
 }
@@ -79,7 +82,7 @@ void kd_vk_buffer_destroy(struct kd_vk *vk, struct kd_vk_buffer *buffer)
 void *kd_vk_buffer_map(struct kd_vk_buffer *buffer)
 {
     uint8_t *map = buffer->slice.block->map;
-    return map ? map + buffer->slice.offset : NULL;
+    return map && (buffer->slice.block->coherent || buffer->memory != KD_VK_DEVICE) ? map + buffer->slice.offset : NULL;
 }
 
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer)

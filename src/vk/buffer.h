@@ -4,12 +4,16 @@
 
 #include "vk/memory.h"
 #include "vk/retire.h"
+#include "vk/vk.h"
 
 struct kd_vk_buffer {
     struct kd_vk_retired retired; /* first: retire.c knows only this part */
     VkBuffer handle;
     struct kd_vk_slice slice;
     uint64_t id, size;
+    enum kd_vk_memory memory;
+    struct kd_vk_buffer *next_mapped; /* in kd_vk.mapped */
+    uint64_t read, written, seen;     /* mapped.h */
     char name[64];
 };
 

@@ -1,6 +1,7 @@
 #include "vk/barrier.h"
 #include "vk/buffer.h"
 #include "vk/device.h"
+#include "vk/mapped.h"
 #include "vk/pipeline.h"
 #include "vk/submit.h"
 
@@ -55,15 +56,16 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
     return status;
 }
 
-static struct kd_vk_access access_of(const struct kd_vk_buffer *buffer, uint64_t begin, uint64_t end,
+static struct kd_vk_access access_of(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_t begin, uint64_t end,
                                      VkPipelineStageFlags stage, bool write)
 {
+    kd_vk_mapped_use(vk, buffer, write);
     return (struct kd_vk_access) { .buffer = buffer->id,
                                    .begin = begin,
                                    .end = end,
                                    .stage = stage,
                                    .write = write,
-                                   .host = buffer->slice.block->map != NULL };
+                                   .host = kd_vk_buffer_map(buffer) != NULL };
 }
 
 static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
@@ -100,7 +102,7 @@ static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const stru
     for (uint32_t i = 0; i < n; i++) {
         const struct kd_vk_binding *b = &dispatch->bindings[i];
         accesses[i] =
-            access_of(b->buffer, b->offset, end_of(b), VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, b->write);
+            access_of(vk, b->buffer, b->offset, end_of(b), VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, b->write);
         b->buffer->retired.ticket = kd_vk_current(vk);
     }
     kd_vk_barrier_before(vk, slot->commands, accesses, n);
@@ -154,8 +156,8 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
     if (status)
         return status;
     const struct kd_vk_access accesses[] = {
-        access_of(from, from_offset, from_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, false),
-        access_of(to, to_offset, to_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true),
+        access_of(vk, from, from_offset, from_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, false),
+        access_of(vk, to, to_offset, to_offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true),
     };
     const VkBufferCopy region = { from_offset, to_offset, size };
     kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
@@ -180,7 +182,7 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_
     if (status)
         return status;
     const struct kd_vk_access access =
-        access_of(buffer, offset, offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true);
+        access_of(vk, buffer, offset, offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true);
     kd_vk_timing_pass(vk, &slot->stamps, slot->commands, "fill");
     kd_vk_barrier_before(vk, slot->commands, &access, 1);
     vk->fn.CmdFillBuffer(slot->commands, buffer->handle, offset, size, value);

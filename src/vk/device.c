@@ -53,7 +53,12 @@ static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
 {
     enum kd_status status;
     const float priority = 1;
-    const char *portability = "VK_KHR_portability_subset";
+    const char *extensions[2];
+    uint32_t n_extensions = 0;
+    if (vk->physical.portability_subset)
+        extensions[n_extensions++] = KD_VK_PORTABILITY_SUBSET;
+    if (vk->physical.memory_budget)
+        extensions[n_extensions++] = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
     const VkDeviceQueueCreateInfo queue = { .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                             .queueFamilyIndex = vk->physical.family,
                                             .queueCount = 1,
@@ -73,8 +78,8 @@ static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
                                       .pNext = &features,
                                       .queueCreateInfoCount = 1,
                                       .pQueueCreateInfos = &queue,
-                                      .enabledExtensionCount = vk->physical.portability_subset,
-                                      .ppEnabledExtensionNames = &portability };
+                                      .enabledExtensionCount = n_extensions,
+                                      .ppEnabledExtensionNames = extensions };
     KD_VK_TRY(&vk->fn, CreateDevice, vk->physical.handle, &info, NULL, &vk->device);
     status = kd_vk_functions_device(&vk->fn, vk->device, error);
     if (status)

@@ -27,6 +27,7 @@
     X(GetPhysicalDeviceProperties2)                                                                          \
     X(GetPhysicalDeviceFeatures2)                                                                            \
     X(GetPhysicalDeviceMemoryProperties)                                                                     \
+    X(GetPhysicalDeviceMemoryProperties2)                                                                    \
     X(GetPhysicalDeviceQueueFamilyProperties)                                                                \
     X(CreateDevice)                                                                                          \
     X(GetDeviceProcAddr)
@@ -44,6 +45,8 @@
     X(AllocateMemory)                                                                                        \
     X(FreeMemory)                                                                                            \
     X(MapMemory)                                                                                             \
+    X(FlushMappedMemoryRanges)                                                                               \
+    X(InvalidateMappedMemoryRanges)                                                                          \
     X(CreateBuffer)                                                                                          \
     X(DestroyBuffer)                                                                                         \
     X(GetBufferMemoryRequirements)                                                                           \
@@ -105,7 +108,7 @@ enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance i
                                         struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);
 
-/* For tests alone: called after each step, to replace members. NULL otherwise. */
+/* For tests alone: called after each step, to replace members (tests/gpu/fake_device.h). NULL otherwise. */
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 
 const char *kd_vk_result_name(VkResult result); /* "VK_ERROR_DEVICE_LOST", ... never NULL */

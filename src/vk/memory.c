@@ -16,17 +16,18 @@ static bool plain(VkMemoryPropertyFlags flags)
     return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED));
 }
 
-/* Points for a type, -1 where it will not do. Host memory is sought outside the device's: on a discrete
+/* Points for a type, -1 where it will not do. The host reads memory that it does not cache ten times more slowly: for reading
+ * back, cached memory is worth the invalidation that it may need; for writing, which goes past the cache, coherence is. Host memory is sought outside the device's: on a discrete
  * card the part of its memory that the host can map may be as small as 256 MiB. */
 static int points(VkMemoryPropertyFlags flags, enum kd_vk_memory memory, bool host_near)
 {
-    bool mappable = (flags & VISIBLE) && (flags & COHERENT);
+    bool visible = flags & VISIBLE, local = flags & LOCAL, cached = flags & CACHED, coherent = flags & COHERENT;
     if (!plain(flags))
         return -1;
     switch (memory) {
-    case KD_VK_DEVICE: return flags & LOCAL ? 1 + (mappable == host_near) : -1;
-    case KD_VK_UPLOAD: return mappable ? 1 + 2 * !(flags & LOCAL) + !(flags & CACHED) : -1;
-    case KD_VK_READBACK: return mappable ? 1 + 2 * !!(flags & CACHED) + !(flags & LOCAL) : -1;
+    case KD_VK_DEVICE: return local ? 1 + 2 * (visible == host_near) + coherent : -1;
+    case KD_VK_UPLOAD: return visible ? 1 + 4 * coherent + 2 * !local + !cached : -1;
+    case KD_VK_READBACK: return visible ? 1 + 4 * cached + 2 * coherent + !local : -1;
     }
     return -1;
 }
@@ -113,7 +114,8 @@ static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, ui
     KD_VK_TRY(&vk->fn, AllocateMemory, vk->device, &info, NULL, &block->memory);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_DEVICE_MEMORY, KD_VK_HANDLE(block->memory), "block of type %u",
                      block->type);
-    if ((flags & VISIBLE) && (flags & COHERENT))
+    block->coherent = flags & COHERENT;
+    if (flags & VISIBLE)
         KD_VK_TRY(&vk->fn, MapMemory, vk->device, block->memory, 0, VK_WHOLE_SIZE, 0, &map);
     block->map = map;
     return KD_OK;
@@ -163,8 +165,7 @@ static enum kd_status take_or_grow(struct kd_vk *vk, uint32_t type, uint64_t siz
 {
     struct kd_vk_heap *heap = &vk->heap;
     uint64_t usual = heap->properties.memoryHeaps[heap->properties.memoryTypes[type].heapIndex].size / 8;
-    if (usual > KD_VK_BLOCK_BYTES)
-        usual = KD_VK_BLOCK_BYTES;
+    usual = usual > KD_VK_BLOCK_BYTES ? KD_VK_BLOCK_BYTES : usual & ~(uint64_t)(KD_VK_ALIGNMENT - 1);
     if (take(vk, type, size, alignment, out))
         return KD_OK;
     enum kd_status status = block_create(vk, type, size > usual ? size : usual, error);

@@ -9,7 +9,7 @@
 /* Vulkan guarantees 4096 allocations; a block this large keeps us far below. A larger buffer gets a block of
  * its own. */
 #define KD_VK_BLOCK_BYTES (UINT64_C(64) << 20)
-#define KD_VK_ALIGNMENT 256
+#define KD_VK_ALIGNMENT 256 /* no nonCoherentAtomSize is larger (Vulkan 1.2, table 53): buffers share no atom */
 #define KD_VK_BUFFER_USAGE                                                                                   \
     (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)
 
@@ -19,6 +19,7 @@ struct kd_vk_block {
     uint32_t type;
     struct kd_vk_arena arena;
     uint8_t *map; /* NULL if the host cannot see it */
+    bool coherent;
 };
 
 struct kd_vk_heap {

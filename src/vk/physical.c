@@ -35,24 +35,29 @@ static void lacks(struct kd_vk_info *info, const char *what)
     snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
 }
 
-/* A compute family with timestamps if there is one; of those the first, which on every driver known is the
- * one that also draws and so the least surprising. */
+/* A family that computes at all; better one with timestamps, then one that does not draw: a desktop's frames and ours do not
+ * wait for each other in its queue. Of equals the first. */
+static int family_points(const VkQueueFamilyProperties *family)
+{
+    if (!(family->queueFlags & VK_QUEUE_COMPUTE_BIT) || !family->queueCount)
+        return 0;
+    return 1 + 2 * (family->timestampValidBits > 0) + !(family->queueFlags & VK_QUEUE_GRAPHICS_BIT);
+}
+
 static void choose_family(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
     VkQueueFamilyProperties families[32];
     uint32_t n = 32;
-    bool found = false;
+    int best = 0;
     fn->GetPhysicalDeviceQueueFamilyProperties(device->handle, &n, families);
     for (uint32_t i = 0; i < n; i++) {
-        if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) || !families[i].queueCount)
+        if (family_points(&families[i]) <= best)
             continue;
-        if (found && (device->timestamp_bits || !families[i].timestampValidBits))
-            continue;
+        best = family_points(&families[i]);
         device->family = i;
         device->timestamp_bits = families[i].timestampValidBits;
-        found = true;
     }
-    if (!found)
+    if (!best)
         lacks(&device->info, "a compute queue");
     if (device->properties.limits.timestampPeriod <= 0)
         device->timestamp_bits = 0;
@@ -66,9 +71,11 @@ static void read_limits(struct kd_vk_physical *device)
     snprintf(info->name, sizeof info->name, "%s", device->properties.deviceName);
     info->type = type_of(device->properties.deviceType);
     info->api_version = device->properties.apiVersion;
+    info->driver_version = device->properties.driverVersion;
     info->max_binding_bytes = limits->maxStorageBufferRange;
     info->max_push_bytes = limits->maxPushConstantsSize;
     info->max_groups_x = limits->maxComputeWorkGroupCount[0];
+    info->max_groups_y = limits->maxComputeWorkGroupCount[1];
     info->max_workgroup = limits->maxComputeWorkGroupInvocations;
     if (limits->maxPerStageDescriptorStorageBuffers < KD_VK_MAX_BINDINGS)
         lacks(info, "8 storage buffers a shader");
@@ -76,12 +83,22 @@ static void read_limits(struct kd_vk_physical *device)
 
 static void read_heaps(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
-    VkPhysicalDeviceMemoryProperties memory;
-    fn->GetPhysicalDeviceMemoryProperties(device->handle, &memory);
-    for (uint32_t i = 0; i < memory.memoryHeapCount; i++)
-        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) &&
-            memory.memoryHeaps[i].size > device->info.heap_bytes)
-            device->info.heap_bytes = memory.memoryHeaps[i].size;
+    VkPhysicalDeviceMemoryBudgetPropertiesEXT budget = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT
+    };
+    VkPhysicalDeviceMemoryProperties2 all = { .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
+                                              .pNext = device->memory_budget ? &budget : NULL };
+    const VkPhysicalDeviceMemoryProperties *memory = &all.memoryProperties;
+    if (device->memory_budget)
+        fn->GetPhysicalDeviceMemoryProperties2(device->handle, &all);
+    else
+        fn->GetPhysicalDeviceMemoryProperties(device->handle, &all.memoryProperties);
+    for (uint32_t i = 0; i < memory->memoryHeapCount; i++)
+        if ((memory->memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) &&
+            memory->memoryHeaps[i].size > device->info.heap_bytes) {
+            device->info.heap_bytes = memory->memoryHeaps[i].size;
+            device->info.budget_bytes = budget.heapBudget[i];
+        }
 }
 
 /* Only a 1.2 device knows the structures asked for here. */
@@ -103,6 +120,7 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
     snprintf(info->driver_info, sizeof info->driver_info, "%s", p12.driverInfo);
     info->max_allocation_bytes = p11.maxMemoryAllocationSize;
     info->subgroup_size = p11.subgroupSize;
+    memcpy(info->uuid, p11.deviceUUID, sizeof info->uuid);
     info->float64 = f.features.shaderFloat64;
     device->int64 = f.features.shaderInt64;
     device->host_query_reset = f12.hostQueryReset;
@@ -111,19 +129,19 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
         lacks(info, "timeline semaphores");
 }
 
-/* Layered drivers (Vulkan over Metal) demand that this extension be enabled where it is listed. */
-static bool lists_portability_subset(const struct kd_vk_functions *fn, VkPhysicalDevice device)
+/* Layered drivers (Vulkan over Metal) demand that VK_KHR_portability_subset be enabled where it is listed. */
+static void read_extensions(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
     uint32_t n = 0;
-    bool found = false;
-    if (fn->EnumerateDeviceExtensionProperties(device, NULL, &n, NULL) < 0 || !n)
-        return false;
+    if (fn->EnumerateDeviceExtensionProperties(device->handle, NULL, &n, NULL) < 0 || !n)
+        return;
     VkExtensionProperties *list = calloc(n, sizeof *list);
-    if (list && fn->EnumerateDeviceExtensionProperties(device, NULL, &n, list) >= 0)
-        for (uint32_t i = 0; i < n && !found; i++)
-            found = !strcmp(list[i].extensionName, "VK_KHR_portability_subset");
+    if (list && fn->EnumerateDeviceExtensionProperties(device->handle, NULL, &n, list) >= 0)
+        for (uint32_t i = 0; i < n; i++) {
+            device->portability_subset |= !strcmp(list[i].extensionName, KD_VK_PORTABILITY_SUBSET);
+            device->memory_budget |= !strcmp(list[i].extensionName, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+        }
     free(list);
-    return found;
 }
 
 static void inspect(const struct kd_vk_functions *fn, uint32_t index, struct kd_vk_physical *device)
@@ -138,11 +156,11 @@ static void inspect(const struct kd_vk_functions *fn, uint32_t index, struct kd_
         lacks(&device->info, text);
     }
     read_limits(device);
+    read_extensions(fn, device);
     read_heaps(fn, device);
     choose_family(fn, device);
     if (version >= VK_API_VERSION_1_2)
         read_1_2(fn, device);
-    device->portability_subset = lists_portability_subset(fn, device->handle);
 }
 
 enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance instance,

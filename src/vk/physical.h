@@ -5,13 +5,17 @@
 #include "vk/functions.h"
 #include "vk/vk.h"
 
+/* Of vulkan_beta.h, which needs a macro. */
+#define KD_VK_PORTABILITY_SUBSET "VK_KHR_portability_subset"
+
 struct kd_vk_physical {
     VkPhysicalDevice handle;
     struct kd_vk_info info;
     VkPhysicalDeviceProperties properties;
     uint32_t family;         /* the queue family we submit to */
     uint32_t timestamp_bits; /* valid ones; 0: no timestamps */
-    bool int64, host_query_reset, subgroup_extended_types, portability_subset;
+    bool int64, host_query_reset, subgroup_extended_types;
+    bool portability_subset, memory_budget; /* it lists that extension */
 };
 
 /* Every physical device of the instance; *out is malloc'd. KD_EDEVICE if there is none. */

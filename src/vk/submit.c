@@ -2,6 +2,7 @@
 
 #include "vk/barrier.h"
 #include "vk/device.h"
+#include "vk/mapped.h"
 
 #include <inttypes.h>
 #include <time.h>
@@ -63,23 +64,25 @@ void kd_vk_submit_finish(struct kd_vk *vk)
     vk->fn.DestroySemaphore(vk->device, vk->timeline, NULL);
 }
 
-/* The timeline has reached this value: collect what that finished. */
-static void reached(struct kd_vk *vk, uint64_t value)
-{
-    if (value <= vk->done)
-        return;
-    for (uint64_t v = vk->done + 1; v <= value; v++)
-        kd_vk_timing_collect(vk, &slot_of(vk, v)->stamps);
-    vk->done = value;
-    vk->progress_ns = now_ns();
-    kd_vk_retire_idle(vk);
-}
-
 /* A failed call that says the device is gone makes it so for us. */
 static enum kd_status failed(struct kd_vk *vk, struct kd_error *error, VkResult result, const char *call)
 {
     enum kd_status status = kd_vk_result_error(error, result, call);
     return status == KD_EDEVICE ? kd_vk_lose(vk, error, "%s: %s", call, kd_vk_result_name(result)) : status;
+}
+
+/* The timeline has reached this value: collect what that finished. */
+static enum kd_status reached(struct kd_vk *vk, uint64_t value, struct kd_error *error)
+{
+    if (value <= vk->done)
+        return KD_OK;
+    for (uint64_t v = vk->done + 1; v <= value; v++)
+        kd_vk_timing_collect(vk, &slot_of(vk, v)->stamps);
+    vk->done = value;
+    vk->progress_ns = now_ns();
+    kd_vk_retire_idle(vk);
+    VkResult result = kd_vk_mapped_invalidate(vk);
+    return result < 0 ? failed(vk, error, result, "vkInvalidateMappedMemoryRanges") : KD_OK;
 }
 
 static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
@@ -88,8 +91,8 @@ static enum kd_status poll_timeline(struct kd_vk *vk, struct kd_error *error)
     VkResult result = vk->fn.GetSemaphoreCounterValue(vk->device, vk->timeline, &value);
     if (result < 0)
         return failed(vk, error, result, "vkGetSemaphoreCounterValue");
-    reached(vk, value < vk->submitted ? value : vk->submitted); /* a dying driver may report any value */
-    return KD_OK;
+    /* A dying driver may report any value. */
+    return reached(vk, value < vk->submitted ? value : vk->submitted, error);
 }
 
 /* The next unfinished submission; its time runs from when it could first start. */
@@ -109,8 +112,7 @@ static enum kd_status wait_one(struct kd_vk *vk, uint64_t value, struct kd_error
                           vk->deadline_ns / 1000000);
     if (result < 0)
         return failed(vk, error, result, "vkWaitSemaphores");
-    reached(vk, value);
-    return KD_OK;
+    return reached(vk, value, error);
 }
 
 enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *error)
@@ -168,7 +170,10 @@ static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_
     kd_vk_timing_end(vk, &slot->stamps, slot->commands);
     kd_vk_barrier_to_host(vk, slot->commands);
     KD_VK_TRY(&vk->fn, EndCommandBuffer, slot->commands);
-    VkResult result = vk->fn.QueueSubmit(vk->queue, 1, &info, VK_NULL_HANDLE);
+    VkResult result = kd_vk_mapped_flush(vk, value);
+    if (result < 0)
+        return failed(vk, error, result, "vkFlushMappedMemoryRanges");
+    result = vk->fn.QueueSubmit(vk->queue, 1, &info, VK_NULL_HANDLE);
     return result < 0 ? failed(vk, error, result, "vkQueueSubmit") : KD_OK;
 fail:
     return status;
@@ -202,6 +207,7 @@ void kd_vk_discard(struct kd_vk *vk)
         return;
     vk->recording = false;
     vk->hazards = vk->hazards_before; /* its barriers are gone with it */
+    kd_vk_mapped_discard(vk);
     for (struct kd_vk_retired *object = vk->retired; object; object = object->next)
         if (object->ticket > vk->submitted)
             object->ticket = vk->submitted;

@@ -27,10 +27,13 @@ struct kd_vk_info {
     enum kd_vk_type type;
     uint32_t api_version;       /* VK_MAKE_API_VERSION packing */
     uint64_t heap_bytes;        /* largest device-local heap */
+    uint64_t budget_bytes;      /* of it, what this process may use now (VK_EXT_memory_budget); 0: not told */
     uint64_t max_binding_bytes; /* largest storage-buffer binding: 128 MiB on lavapipe */
     uint64_t max_allocation_bytes;
-    uint32_t max_push_bytes, subgroup_size, max_groups_x, max_workgroup;
+    uint32_t max_push_bytes, subgroup_size, max_groups_x, max_groups_y, max_workgroup;
     bool float64, timestamps;
+    uint8_t uuid[16];           /* of the device, the same for every driver and process */
+    uint32_t driver_version;    /* in the driver's own packing */
     char missing[256]; /* what this device lacks for kerrd, "" if it is usable */
 };
 
@@ -58,7 +61,9 @@ uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and erro
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
 /* Buffers: suballocated from few large allocations. DEVICE: storage + transfer. UPLOAD and READBACK are
- * host-visible, coherent, persistently mapped (storage + transfer as well). */
+ * host-visible and persistently mapped (storage + transfer as well). What the host has written to an UPLOAD buffer before
+ * kd_vk_submit is seen by that submission; what the device has written to either is seen by the host after kd_vk_wait, also
+ * where the memory is not coherent. A READBACK buffer's contents are the device's alone. */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
 enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
                                    const char *name, struct kd_vk_buffer **out, struct kd_error *error);

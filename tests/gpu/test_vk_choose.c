@@ -46,6 +46,32 @@ static void chosen(void **state)
     }
 }
 
+/* SwiftShader, as Chromium brings it, beside lavapipe: both are CPUs. */
+static void among_equals(void **state)
+{
+    static const struct kd_vk_info equals[] = {
+        { .index = 0, .name = "four lanes", .type = KD_VK_CPU, .subgroup_size = 4 },
+        { .index = 1, .name = "many lanes", .type = KD_VK_CPU, .subgroup_size = 64 },
+        { .index = 2, .name = "f64, four lanes", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 4 },
+        { .index = 3, .name = "f64, eight lanes", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 8 },
+        { .index = 4, .name = "f64, eight again", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 8 },
+        { .index = 5, .name = "f64, broken", .type = KD_VK_CPU, .float64 = true, .subgroup_size = 16, .missing = "all" },
+        { .index = 6, .name = "a GPU without", .type = KD_VK_INTEGRATED, .subgroup_size = 1 },
+    };
+    static const struct {
+        size_t n;
+        const char *wish;
+        size_t index;
+    } cases[] = { { 1, "auto", 0 }, { 2, "auto", 1 }, { 3, "auto", 2 }, { 6, "auto", 3 }, { 7, "auto", 6 }, { 7, "lanes", 3 } };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t index = 99;
+        char why[640];
+        OK(kd_vk_choose(equals, cases[i].n, cases[i].wish, &index, why, sizeof why, &error));
+        assert_int_equal(index, cases[i].index);
+    }
+}
+
 static void refused(void **state)
 {
     size_t index;
@@ -80,7 +106,8 @@ static void memory_types(void **state)
           { 1, 3, 4 } },
         { "integrated", { L, L | V | C, L | V | C | K }, true, { 1, 1, 2 } },
         { "CPU", { L | V | C | K }, true, { 0, 0, 0 } },
-        { "cached but not coherent", { L, V | K, V | C }, false, { 0, 2, 2 } },
+        { "cached but not coherent", { L, V | K, V | C }, false, { 0, 2, 1 } }, /* reading back is worth an invalidation */
+        { "nothing coherent", { L, V, V | K, L | V }, false, { 0, 1, 2 } },
         { "not local", { V | C }, false, { -1, 0, 0 } },
         { "not visible", { L }, false, { 0, -1, -1 } },
     };
@@ -100,7 +127,7 @@ static void memory_types(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(chosen), cmocka_unit_test(refused),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(chosen), cmocka_unit_test(among_equals), cmocka_unit_test(refused),
                                         cmocka_unit_test(memory_types) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
