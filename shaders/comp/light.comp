@@ -46,6 +46,6 @@ void main()
         for (px += KD_GROUP_SIZE; px >= push.pixels_x; px -= push.pixels_x)
             row++;
     }
-    sums[2 * (push.first + gl_GlobalInvocationID.x)] = all.value;
-    sums[2 * (push.first + gl_GlobalInvocationID.x) + 1] = spots.value;
+    sums[2 * gl_GlobalInvocationID.x] = all.value;
+    sums[2 * gl_GlobalInvocationID.x + 1] = spots.value;
 }

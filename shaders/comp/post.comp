@@ -46,11 +46,11 @@ uvec3 pixel(uint i)
 
 void main()
 {
-    uint block = gl_GlobalInvocationID.x, i = 4 * block;
+    uint block = gl_GlobalInvocationID.x, i = KD_POST_PIXELS * block;
     if (i >= push.pixels)
         return;
-    uvec3 p[4];
-    for (uint k = 0; k < 4; k++)
+    uvec3 p[KD_POST_PIXELS];
+    for (uint k = 0; k < KD_POST_PIXELS; k++)
         p[k] = pixel(min(i + k, push.pixels - 1));
     if (WIDE) {
         uint o = 6 * block;

@@ -86,6 +86,7 @@
     U(plunge_rows) U(plunge_columns_log2)                                                                      \
     U(lap_rows) U(lead_rows) /* as in the transfer kernel */
 
+#define KD_POST_PIXELS 4 /* of one invocation of post.comp: three words, or six */
 #define KD_POST_FIELDS_(F, U)                                                                                  \
     F(gain)                  /* 2^exposure */                                                                  \
     F(levels)                /* 255 or 65535 */                                                                \
@@ -98,7 +99,6 @@
 #define KD_LIGHT_FIELDS_(F, U)                                                                                 \
     U(pixels_x) U(pixels)     /* a row, and of the band */                                                     \
     U(row0)                   /* of the band in the picture */                                                 \
-    U(first)                  /* invocation of the band among those of the picture */                          \
     U(spots)                  /* where the spots' own luminance begins */                                      \
     F(middle_x) F(middle_y)   /* pixel coordinates of the middle of the picture */                             \
     F(step_)                  /* from pixel to pixel, over the distance of the picture */

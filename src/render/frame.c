@@ -53,6 +53,7 @@ static enum kd_status add_up(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
+    const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
     const uint32_t constants[] = { p->spots > 0, finite }, per_band = kd_light_groups(p->width * p->band_rows);
     enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LIGHT, constants, 2, &light, j->error);
     for (uint32_t band = 0; band < p->bands && !status; band++) {
@@ -60,14 +61,13 @@ static enum kd_status add_up(struct kd_frame_job *j)
             .pixels_x = p->width,
             .pixels = p->width * kd_frame_band_rows(j, band),
             .row0 = kd_frame_band_first(j, band),
-            .first = band * per_band * KD_GROUP_SIZE,
             .spots = 3 * p->width * p->band_rows,
             .middle_x = (float)(0.5 * (p->width - 1)),
             .middle_y = (float)(0.5 * (p->height - 1)),
             .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
         };
         const struct kd_vk_dispatch d = {
-            "light", light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, 0, 0, true } }, &push,
+            "light", light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } }, &push,
             { per_band }, /* of the last, smaller band too: they write zeros */
         };
         status = kd_vk_dispatch(j->r->vk, &d, j->error);
@@ -145,7 +145,7 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
                                                           { { s->radiance.buffers[band], 0, 0, false },
                                                             { s->words, 0, 0, true } },
                                                           &push,
-                                                          { kd_frame_groups(((uint64_t)pixels + 3) / 4) } },
+                                                          { kd_frame_groups(((uint64_t)pixels + KD_POST_PIXELS - 1) / KD_POST_PIXELS) } },
                                 j->error);
         if (!status)
             status = kd_vk_copy(vk, "readback", s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);

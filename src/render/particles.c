@@ -11,7 +11,6 @@
 
 #define PER_CELL 5.0 /* particles: the density scatters by a third, in spots some pixels wide */
 #define SLICE_MS 40.0
-#define GROUPS_MAX 65535u
 #define EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
 
 static double inner(const struct kd_scene *scene)
@@ -276,7 +275,7 @@ static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, c
     const struct kd_vk_pipeline *kernel;
     const uint32_t constants[] = { scene->disk.epicycles > 0, false, plunge };
     enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
-    double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)GROUPS_MAX * KD_GROUP_SIZE));
+    double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)kd_vk_info(r->vk)->max_groups_x * KD_GROUP_SIZE));
     for (; push->first < end && !status; push->first += push->count) {
         uint32_t left = end - push->first;
         push->count = left < slice ? left : (uint32_t)slice;

@@ -1,5 +1,6 @@
 #include "render/plan.h"
 
+#include "interface.h"
 #include "physics/kerr.h"
 #include "render/accuracy.h"
 #include "render/critical_pixels.h"
@@ -155,19 +156,42 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops)
     return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
 }
 
-/* Rows of pixels whose lens map, radiance and packed pixels each fit one binding. */
+/* Limits of the device, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize) where the capacity
+ * names none. */
+static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
+static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
+static uint64_t buffer_bytes(const struct kd_capacity *c)
+{
+    uint64_t allocation = c->max_allocation_bytes ? c->max_allocation_bytes : 1ull << 30;
+    return allocation < c->max_binding_bytes ? allocation : c->max_binding_bytes;
+}
+
+static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
+
+/* Rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays; the others go through
+ * the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few hundred groups, is far from it. */
+static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
+    return least(rows, in_line * KD_POST_PIXELS / plan->width);
+}
+
+/* Rows of pixels whose lens map, radiance and packed pixels each fit one buffer and one binding, and whose workgroups one
+ * dispatch. */
 static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                             struct kd_error *error)
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
     uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
-    uint64_t rows = (c->max_binding_bytes - 64) / widest;
+    uint64_t rows = (buffer_bytes(c) - 64) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
         return kd_error_set(error, KD_ETOOBIG, "one row of the picture needs %llu bytes, this device binds %llu at once",
-                            (unsigned long long)widest, (unsigned long long)c->max_binding_bytes);
-    if (rows > 65535 / plan->side)
-        rows = 65535 / plan->side;
+                            (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
+    if (fit < 1 || (uint64_t)plan->width * plan->side > groups_x(c) * KD_GROUP_SIZE)
+        return kd_error_set(error, KD_ETOOBIG, "one row of the picture has %llu rays, this device dispatches %llu workgroups of %d",
+                            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c), KD_GROUP_SIZE);
+    rows = least(rows, fit);
     plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
@@ -197,12 +221,14 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
     if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->sky)) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_pixels_of(scene, &list, error);
-    uint64_t n = list.n, most = (c->max_binding_bytes - 64) / (4 * (plan->planes * side * side + 2));
+    uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
     kd_critical_pixels_finish(&list);
     if (status || !n)
         return status;
-    if (most > (1 << 22) / (side * side)) /* workgroups of one dispatch, and counts in 32 bits */
-        most = (1 << 22) / (side * side);
+    most = least(most, groups_x(c) * KD_GROUP_SIZE / (side * side));
+    most = least(most, (1ull << 32) / (4 * (plan->planes * side * side + 2))); /* the kernel counts in 32 bits */
+    if (!most)
+        return KD_OK;
     plan->critical = (uint32_t)(side * side);
     plan->critical_pixels = n;
     plan->critical_part = n < most ? n : most;

@@ -20,6 +20,8 @@
 /* What the device allows and how fast it has been measured to be. */
 struct kd_capacity {
     uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything */
+    uint64_t max_allocation_bytes;            /* of one buffer; 0: 2^30, the least that Vulkan 1.2 has */
+    uint32_t max_groups_x, max_groups_y;      /* workgroups of one dispatch; 0: 65535, the least that Vulkan has */
     double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post, ns_per_particle;
     bool measured; /* false: the figures are a default guess for this type of device */
     bool float64;  /* the device has double precision */

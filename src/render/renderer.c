@@ -14,13 +14,23 @@ static unsigned cores(void)
     return sched_getaffinity(0, sizeof set, &set) ? 1 : (unsigned)CPU_COUNT(&set);
 }
 
+/* Three quarters of the heap, and nothing that others hold already. */
+static uint64_t free_bytes(const struct kd_vk_info *info)
+{
+    uint64_t share = info->heap_bytes / 4 * 3;
+    return info->budget_bytes && info->budget_bytes < share ? info->budget_bytes : share;
+}
+
 /* Before anything has been measured: orders of magnitude for this type of device, per item. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
     double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
     return (struct kd_capacity){
         .max_binding_bytes = info->max_binding_bytes,
-        .memory_bytes = memory_bytes ? memory_bytes : info->heap_bytes / 4 * 3,
+        .max_allocation_bytes = info->max_allocation_bytes,
+        .max_groups_x = info->max_groups_x,
+        .max_groups_y = info->max_groups_y,
+        .memory_bytes = memory_bytes ? memory_bytes : free_bytes(info),
         .ns_per_ray_radius = 30 * scale,
         .ns_per_ray_full = 150 * scale,
         .ns_per_sample_transfer = 20 * scale,

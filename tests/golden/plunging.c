@@ -14,6 +14,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -87,6 +88,9 @@ static void redshift_of_light(void **state)
     double worst[3] = { 0 };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         char json[1024];
+        bool wide = strstr(views[v].accuracy, "f64") && !strstr(views[v].accuracy, "closed");
+        if (wide && !studio_has_float64(views[v].what))
+            continue;
         snprintf(json, sizeof json, "{%s,"
                  "\"disk\":{\"model\":\"particles\",\"plunging\":0.5,\"plunging_temperature\":1,\"density_index\":0},"
                  "\"image\":{\"width\":160,\"height\":120,\"samples\":1,\"bit_depth\":16},\"accuracy\":{\"orders\":1%s},"

@@ -43,6 +43,15 @@ void studio_close(void)
     renderer = NULL;
 }
 
+bool studio_has_float64(const char *what)
+{
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    if (!capacity.float64)
+        printf("SKIP: %s: the device has no double precision\n", what);
+    return capacity.float64;
+}
+
 struct kd_scene studio_scene(const char *preset, const char *json)
 {
     struct kd_scene scene;

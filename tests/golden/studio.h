@@ -13,6 +13,9 @@
 int studio_open(void);
 void studio_close(void);
 
+/* Whether kernels can compute in double precision here; if not, a line says that `what` is left out. */
+bool studio_has_float64(const char *what);
+
 /* A preset (NULL: the defaults) with a JSON document merged over it. A scene that is not valid ends the
  * program. */
 struct kd_scene studio_scene(const char *preset, const char *json);

@@ -195,7 +195,10 @@ static void both(struct kd_renderer *renderer, const char *what, struct view v)
     static struct list list;
     make(&v, &list);
     trace(renderer, &v, what, &list, KD_PRECISION_F32);
-    trace(renderer, &v, what, &list, KD_PRECISION_F64);
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    if (capacity.float64)
+        trace(renderer, &v, what, &list, KD_PRECISION_F64);
 }
 
 static const struct { const char *name; double a; } spins[] = {
@@ -247,6 +250,10 @@ static void critical_rays(struct kd_renderer *renderer)
 
 void extreme_rays(struct kd_renderer *renderer)
 {
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    if (!capacity.float64)
+        printf("SKIP: mino-rkn6 f64: the device has no double precision\n");
     inclinations(renderer);
     observers(renderer);
     critical_rays(renderer);

@@ -23,6 +23,16 @@ static inline int open_renderer(void)
     return 1;
 }
 
+/* Whether kernels can compute in double precision here. If not, say which case is left out for it. */
+static inline bool has_float64(const char *what)
+{
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    if (!capacity.float64)
+        printf("SKIP: %s: the device has no double precision\n", what);
+    return capacity.float64;
+}
+
 /* The exit status of a group of which so many tests failed. */
 static inline int close_renderer(int failed)
 {

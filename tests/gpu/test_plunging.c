@@ -136,6 +136,8 @@ static void test_stream(void **state)
 static void test_slopes(void **state)
 {
     (void)state;
+    if (!has_float64("slopes in f64"))
+        skip();
     static const double cameras[] = { INFINITY, 20, 3 };
     for (size_t v = 0; v < 3; v++) {
         struct kd_scene scene = plunging_scene(0.3);

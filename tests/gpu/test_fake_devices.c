@@ -1,0 +1,231 @@
+/* Pictures, lists and particles on devices that differ from the one at hand: with low limits, with memory that is not coherent,
+ * and lost in the middle. What they answer is to the byte what the device answers by itself. */
+#include "fake_device.h"
+
+#include "render/particle_list.h"
+#include "render/rays.h"
+#include "render/render.h"
+
+#include <math.h>
+
+enum { WIDTH = 150, HEIGHT = 120, RAYS = 700, ORDERS = 3, PARTICLES = 500 };
+
+/* One of each kind of answer. */
+struct answers {
+    struct kd_frame frames[3];
+    struct kd_ray_crossing crossings[RAYS * ORDERS];
+    struct kd_ray_end ends[RAYS];
+};
+
+static enum kd_status open(struct kd_renderer **out, struct kd_error *error)
+{
+    const struct kd_renderer_params params = { .device = getenv("KERRD_TEST_DEVICE"), .cache_dir = "", .validate = true };
+    return kd_renderer_create(&params, out, error);
+}
+
+/* 0: a map of radii, bands and exposure; 1: a sky, a camera nearby; 2: particles, hot spots and the measured light. */
+static struct kd_scene scene_of(int k)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.image.bit_depth = k == 1 ? 16 : 8;
+    if (k == 1) {
+        scene.camera.r = 20;
+        scene.sky.model = KD_SKY_GRID;
+    }
+    if (k == 2) {
+        scene.disk.model = KD_DISK_PARTICLES;
+        scene.disk.particles = 20000;
+        scene.spot1.brightness = 3;
+    }
+    return scene;
+}
+
+static enum kd_status draw(struct kd_renderer *renderer, int k, struct kd_frame *out, struct kd_error *error)
+{
+    struct kd_scene scene = scene_of(k);
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &capacity);
+    enum kd_status status = kd_scene_validate(&scene, error);
+    if (!status)
+        status = kd_plan_make(&scene, &capacity, &plan, error);
+    return status ? status : kd_render(renderer, &scene, &plan, NULL, NULL, out, error);
+}
+
+static void ask(struct kd_renderer *renderer, struct answers *out)
+{
+    static double rays[2 * RAYS];
+    const struct kd_rays_params params = { .spin = 0.9, .r = INFINITY, .inclination_deg = 60, .orders = ORDERS,
+                                           .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F32 };
+    for (int i = 0; i < RAYS; i++) {
+        rays[2 * i] = -8 + 16.0 * i / RAYS;
+        rays[2 * i + 1] = -8 + fmod(7.3 * i, 16);
+    }
+    for (int k = 0; k < 3; k++)
+        OK(draw(renderer, k, &out->frames[k], &error));
+    OK(kd_rays_trace(renderer, &params, rays, RAYS, out->crossings, out->ends, NULL, NULL, &error));
+}
+
+static void same(const struct answers *a, const struct answers *b)
+{
+    for (int k = 0; k < 3; k++) {
+        const struct kd_frame *x = &a->frames[k], *y = &b->frames[k];
+        assert_true(x->width == y->width && x->height == y->height && x->exposure == y->exposure);
+        assert_memory_equal(x->pixels, y->pixels, (size_t)x->width * x->height * (x->bit_depth == 16 ? 6 : 3));
+        assert_true(x->light.measured == y->light.measured);
+        if (x->light.measured)
+            assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) < 1e-6); /* summed in another order */
+    }
+    assert_memory_equal(a->crossings, b->crossings, sizeof a->crossings);
+    assert_memory_equal(a->ends, b->ends, sizeof a->ends);
+}
+
+static void forget(struct answers *a)
+{
+    for (int k = 0; k < 3; k++)
+        kd_frame_finish(&a->frames[k]);
+}
+
+static struct answers real;
+
+static void answer_as(const struct fake_device *device)
+{
+    static struct answers answers;
+    struct kd_renderer *renderer = NULL;
+    fake_device_on(device);
+    OK(open(&renderer, &error));
+    ask(renderer, &answers);
+    assert_int_equal(kd_renderer_validation_messages(renderer), 0);
+    kd_renderer_destroy(renderer);
+    fake_device_off();
+    same(&real, &answers);
+    forget(&answers);
+}
+
+/* Fewer groups than a picture has blocks of pixels, also where everything fits one binding. */
+static void test_groups(void **state)
+{
+    (void)state;
+    answer_as(&(struct fake_device) { .groups = 40 }); /* 10240 pixels of post.comp; 18000 there are */
+}
+
+/* Buffers smaller than a binding. */
+static void test_allocation(void **state)
+{
+    (void)state;
+    answer_as(&(struct fake_device) { .allocation = 150 << 10, .heap = 64 << 20 });
+}
+
+static void test_binding(void **state)
+{
+    (void)state;
+    answer_as(&(struct fake_device) { .binding = 700000 });
+}
+
+static void test_incoherent(void **state)
+{
+    (void)state;
+    answer_as(&(struct fake_device) { .incoherent = true });
+}
+
+/* All that a renderer does when its n-th submission loses the device: an error that says so, whatever it was for, and no crash. */
+static void test_lost(void **state)
+{
+    (void)state;
+    for (int n = 1; n <= 9; n += 2) {
+        struct kd_renderer *renderer = NULL;
+        struct kd_frame frame = { 0 };
+        fake_device_on(&(struct fake_device) { .lost_at = n });
+        OK(open(&renderer, &error));
+        struct kd_error why = { 0 };
+        enum kd_status status = KD_OK;
+        for (int k = 0; k < 3 && !status; k++) {
+            kd_frame_finish(&frame);
+            status = draw(renderer, k, &frame, &why);
+        }
+        assert_int_equal(status, KD_EDEVICE);
+        assert_non_null(strstr(why.message, "VK_ERROR_DEVICE_LOST"));
+        FAILS(KD_EDEVICE, "lost", draw(renderer, 1, &frame, &error)); /* and stays so */
+        kd_renderer_destroy(renderer);
+        fake_device_off();
+    }
+}
+
+/* A heap that the picture does not fit is said before anything is drawn. */
+static void test_heap(void **state)
+{
+    (void)state;
+    struct kd_renderer *renderer = NULL;
+    struct kd_frame frame = { 0 };
+    fake_device_on(&(struct fake_device) { .heap = 400 << 10 });
+    OK(open(&renderer, &error));
+    FAILS(KD_ETOOBIG, "GiB", draw(renderer, 0, &frame, &error));
+    kd_renderer_destroy(renderer);
+    fake_device_off();
+}
+
+/* The limits of most GPUs: 65 535 workgroups, bindings of 4 GiB. */
+static void test_large_pictures(void **state)
+{
+    (void)state;
+    struct kd_capacity capacity = { 0 };
+    struct kd_renderer *renderer = NULL;
+    OK(open(&renderer, &error));
+    kd_renderer_capacity(renderer, &capacity);
+    capacity.max_binding_bytes = UINT32_MAX;
+    capacity.max_allocation_bytes = UINT32_MAX;
+    capacity.memory_bytes = 80ull << 30;
+    capacity.max_groups_x = capacity.max_groups_y = 65535;
+    static const struct { int width, height, samples; } sizes[] = {
+        { 4096, 4096, 1 }, { 16384, 12288, 1 }, { 32768, 32768, 1 }, { 4096, 4096, 8 }, { 1, 32768, 8 }, { 32768, 1, 8 },
+    };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int k = 0; k < 3; k++) {
+            struct kd_scene scene = scene_of(k);
+            struct kd_plan plan;
+            scene.image.width = sizes[i].width;
+            scene.image.height = sizes[i].height;
+            scene.image.samples = sizes[i].samples;
+            scene.image.critical_factor = 8;
+            struct kd_error error = { 0 };
+            enum kd_status status = kd_plan_make(&scene, &capacity, &plan, &error);
+            if (status == KD_ETOOBIG && sizes[i].width * sizes[i].height > 1 << 28)
+                continue;
+            assert_int_equal(status, KD_OK);
+            uint64_t pixels = (uint64_t)plan.width * plan.band_rows, at_curve = plan.critical_part * plan.critical;
+            assert_true((pixels + 3) / 4 <= 65535ull * 64);                              /* post */
+            assert_true((uint64_t)plan.band_rows * plan.side <= 65535);                  /* trace: its rows */
+            assert_true((uint64_t)plan.width * plan.side <= 65535ull * 64);
+            assert_true((at_curve + 63) / 64 <= 65535);                                  /* trace at the critical curve */
+            assert_true(4ull * plan.planes * pixels * plan.side * plan.side + 16 <= UINT32_MAX);
+            assert_true(kd_plan_pixel_bytes(&plan) * pixels <= UINT32_MAX);
+            assert_true((uint64_t)plan.bands * plan.band_rows >= plan.height);
+        }
+    kd_renderer_destroy(renderer);
+}
+
+int main(void)
+{
+    int skip = skip_without_device();
+    if (skip)
+        return skip;
+    struct kd_renderer *renderer = NULL;
+    struct kd_error error = { 0 };
+    if (open(&renderer, &error)) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
+    ask(renderer, &real);
+    kd_renderer_destroy(renderer);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_large_pictures), cmocka_unit_test(test_groups), cmocka_unit_test(test_allocation),
+        cmocka_unit_test(test_binding),        cmocka_unit_test(test_incoherent), cmocka_unit_test(test_heap),
+        cmocka_unit_test(test_lost),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    forget(&real);
+    return failed;
+}
