@@ -91,9 +91,9 @@ float drifted(kd_motion m, kd_state y, float time)
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
-/* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: sixteen times what is left is a bound even
+/* Halving the steps of a method of order p loses 2^p - 1 times what is left, 15 or 63: thirty times what is left is a bound even
  * where the steps are too coarse for that law. And what a half turn of such steps loses where no crossing says so. */
-const float LEFT = METHOD == 4 ? 1.0 : 0.25;
+const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
 void main()
@@ -131,6 +131,7 @@ void main()
     KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
+    float lost_before = 0.0, spread = 1.0; /* at the last crossing: what the steps had lost of w, and how far two rays had parted */
     bool alive = polar.crosses;
     uint at = 3 * ORDERS + 4, o = at * i;
     for (uint n = 0; n < 3 * ORDERS; n++)
@@ -145,6 +146,7 @@ void main()
         }
         kd_rates r = rates(m, p, polar.b, way);
         vec3 sum = 7.0 * vec3(r.psi, r.chi, r.delay);
+        float apart = 0.0;
         uint j = 1;
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
@@ -158,18 +160,22 @@ void main()
             if ((j & 1u) == 0u) {
                 half_ = kd_radial_step(m, half_, 2.0 * h);
                 half_.w = clamp(half_.w, -2.0, 2.0);
+                apart = max(apart, abs(p.y.x - half_.w));
             }
         }
         kd_state y = radial(p);
         float w = y.w;
         alive = j > STEPS && w > 0.0;
         tau += h * float(min(j, STEPS));
-        /* What the steps lose and what rounding does, as an error of w. Rounding: some ten operations of a unit each, which the
-         * variation amplifies, as much in the time of the crossing, and the drift of the first integral. */
-        float lost = alive ? LEFT * abs(w - half_.w) : error * w;
-        float off = lost + drifted(m, y, h * float(STEPS)) + cam.epsilon * (4.0 * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
+        float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
+        /* What the steps lose and what rounding does, as an error of w. Steps: what separates the two integrations, where that is
+         * small; no less than what the last crossing was off by, as far as the variation has grown since, for two wrong paths
+         * may meet. Rounding: some ten operations of a unit each, which the variation amplifies, as much in the time of the crossing,
+         * and the drift of the first integral. */
+        float parted = abs(p.y.z) + left * abs(p.dy.z);
+        float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
+        float off = lost + drifted(m, y, h * float(STEPS)) + cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
         /* So close to the horizon or to infinity that the crossing may exist or not? Only what certainly does is told. */
-        float ahead = alive ? 0.0 : h * float(STEPS - j) * abs(y.dw);
         if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
             error = max(error, 1.0);
             alive = false;
@@ -185,6 +191,8 @@ void main()
             ends[o + 3 * n + 1] = -turned;
             ends[o + 3 * n + 2] = delay + delay_edge(m, y, way) - started;
             error = max(error, off / w);
+            lost_before = lost;
+            spread = abs(p.y.z) + polar.half_ * abs(p.dy.z) + 1e-30;
             above = -above;
             last = kd_path_crossing(m, y, turned - chi - fall, chi + fall, above);
             KD_TRACE_STEP(KD_TRACE_CROSSING, 0.0, last.y, last.v, last.chi);

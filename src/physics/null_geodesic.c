@@ -208,13 +208,14 @@ struct slope {
 
 /* How far the answers move when alpha and beta change by the fractions `step` and `other`, in units of
  * `step`; INFINITY for what is there no more. */
-static void add_slopes(const struct kd_null_ray *ray, const struct kd_null_path *path, double step,
+static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step,
                        double other, struct slope *slopes, double *sky)
 {
     struct kd_null_ray near = *ray;
     near.alpha *= 1 + step, near.beta *= 1 + other;
     struct kd_null_path there = follow(&near);
     step = fabs(step);
+    path->doubtful |= there.crossings != path->crossings;
     for (int n = 0; n < path->crossings; n++) {
         const struct kd_null_crossing *x = &path->crossing[n], *y = &there.crossing[n];
         bool lost = n >= there.crossings;

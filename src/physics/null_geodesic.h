@@ -54,11 +54,12 @@ struct kd_null_crossing {
 };
 
 /* sky_u, sky_phi: cos(theta) and azimuth, as phi above, of the direction of escape; NaN if captured. sky_error absolute,
- * of either. `turned`: the traced ray meets a radial turning point; one that sets out outwards and is captured does. */
+ * of either. `turned`: the traced ray meets a radial turning point; one that sets out outwards and is captured does. `doubtful`: when
+ * the labels move by 1e-13 to 1e-11 there is a crossing more or less, at the horizon or far out; not known to kd_null_trace_fast. */
 struct kd_null_path {
     enum kd_null_status status;
     enum kd_null_fate fate;
-    bool turned;
+    bool turned, doubtful;
     int crossings;
     struct kd_null_crossing crossing[KD_NULL_ORDERS];
     double sky_u, sky_phi, sky_error;

@@ -46,9 +46,9 @@ struct kd_ray_end {
     uint32_t n_crossings;    /* how many of the wanted orders exist outside the horizon */
     double theta, phi;       /* direction of escape, if it escapes: polar angle and azimuth, source minus observer */
     double error;            /* estimated relative error of the worst crossing radius (of the direction, in radians, if
-                              * there is no crossing); bounds the true one for at least 99 % of rays; NaN for neither. 1 or more from the
-                              * Mino engines: there may be one crossing more, next to the horizon or very far out; 1 from
-                              * the Kerr-Schild engines: the closed form has another fate or number of crossings */
+                              * there is no crossing); bounds the true one for 999 of 1000 rays at least; NaN for neither. 1 or
+                              * more: there may be another number of crossings, one next to the horizon or very far out (Mino engines,
+                              * closed form), or there is another number or fate than the closed form's (Kerr-Schild engines) */
 };
 
 /* Trace n rays. alpha_beta: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.

@@ -75,8 +75,10 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
         if (!errors)
             continue;
         crossings[k].g = redshift(p, alpha_beta, c->r, c->sense > 0);
-        end->error = fmax(end->error, c->error_r); /* fmax passes over NaN */
+        end->error = fmax(end->error, fmin(c->error_r, 1)); /* fmax passes over NaN; infinite: it may not be there */
     }
+    if (path.doubtful)
+        end->error = 1;
 }
 
 struct share {

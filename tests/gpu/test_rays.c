@@ -102,7 +102,7 @@ static void check(enum kd_engine engine, enum kd_precision precision, double bou
         assert_true(t.phi < bound_phi);
         assert_true(t.delay < bound_delay);
         assert_true(t.sky < bound_sky);
-        assert_true(t.bounded >= 0.99 * t.rays);
+        assert_true(t.bounded >= 0.999 * t.rays);
     }
 }
 
@@ -151,7 +151,7 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
 }
 
 /* The estimate of the error against the error itself, by the closed form, where the steps are coarse and their law does not
- * hold yet: a bound for 99 of 100 rays, and no more than a hundred times too large for half of them. */
+ * hold yet: a bound for 999 of 1000 rays, and no more than a hundred times too large for half of them. */
 static void check_estimate(enum kd_engine engine, uint32_t steps)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -181,7 +181,7 @@ static void check_estimate(enum kd_engine engine, uint32_t steps)
     print_message("%s, %u steps: %d of %d bounded, estimate over error %.2g for 1 %%, %.2g for half, %.2g for 99 %% of the rays\n",
                   kd_engine_name(engine), steps, bounded, rays, ratios[rays / 100], ratios[rays / 2], ratios[rays - rays / 100]);
     assert_true(rays > 4000);
-    assert_true(bounded >= 0.99 * rays);
+    assert_true(bounded >= 0.999 * rays);
     assert_true(ratios[rays / 2] < 100);
 }
 
@@ -269,7 +269,7 @@ static void test_starts(void **state)
     }
 }
 
-/* What the Kerr-Schild engines say of their errors, against the oracle: a bound for 99 of 100 rays, 1 where fate or crossings are others. Their
+/* What the Kerr-Schild engines say of their errors, against the oracle: a bound for 999 of 1000 rays, 1 where fate or crossings are others. Their
  * azimuths count turns as the closed form's do. */
 static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision, int h)
 {
@@ -304,11 +304,11 @@ static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision
         }
         assert_int_equal(isfinite(ends[k].error) != 0, found > 0 || p->fate == KS_ESCAPED);
         rays += found > 0;
-        bounded += found > 0 && worst <= ends[k].error + 1e-10 * (1 + gain);
+        bounded += found > 0 && worst <= ends[k].error + 1e-10 * (1 + gain) * (1 + worst);
     }
     print_message("%s %s a %g i %g: %d of %d bounded, %d others, %d of %d azimuths a turn off\n", kd_engine_name(engine),
                   kd_precision_name(precision), holes[h].a, holes[h].inclination, bounded, rays, others, turns, compared);
-    assert_true(rays > 400 && bounded >= 0.99 * rays && others < rays / 10);
+    assert_true(rays > 400 && bounded >= 0.999 * rays && others < rays / 10);
     assert_true(compared > 400 && !turns);
 }
 
