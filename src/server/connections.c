@@ -19,11 +19,12 @@
 #define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
 #define LINGER_BYTES ((size_t)16 << 20)
 #define LINGERING 64 /* at once */
+#define SILENT 32    /* connections that may wait without a word when all others are in use */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
     int socket;
-    bool linger;
+    bool linger, handed_on, health, cut; /* cut: shut down for another */
     size_t discarded;
     enum kd_stage stage;
     double deadline; /* on kd_clock_ms; 0: none */
@@ -32,7 +33,8 @@ struct kd_connection {
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit;
+    unsigned count, limit; /* the health routes' do not count */
+    unsigned n_handed_on, n_health;
     struct kd_connection *lingering; /* no longer connections; singly linked */
     unsigned n_lingering;
     double header_ms, body_ms;
@@ -69,6 +71,27 @@ void kd_connections_destroy(struct kd_connections *all)
     free(all);
 }
 
+static struct kd_connection *find(const struct kd_connections *all, int socket)
+{
+    struct kd_connection *one = all->first;
+    while (one && one->socket != socket)
+        one = one->next;
+    return one;
+}
+
+static void unlink_one(struct kd_connections *all, struct kd_connection *one)
+{
+    if (one->previous)
+        one->previous->next = one->next;
+    else
+        all->first = one->next;
+    if (one->next)
+        one->next->previous = one->previous;
+    all->count -= !one->health;
+    all->n_health -= one->health;
+    all->n_handed_on -= one->handed_on && !one->health;
+}
+
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket)
 {
     struct kd_connection *one = calloc(1, sizeof *one);
@@ -76,6 +99,11 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket)
         return NULL;
     one->socket = socket;
     pthread_mutex_lock(&all->lock);
+    struct kd_connection *stale = find(all, socket); /* whose daemon closed it without a word: its number would not be free else */
+    if (stale) {
+        unlink_one(all, stale);
+        free(stale);
+    }
     one->next = all->first;
     if (one->next)
         one->next->previous = one;
@@ -85,6 +113,52 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket)
     one->deadline = kd_clock_ms() + (crowded && all->header_ms > CROWDED_MS ? CROWDED_MS : all->header_ms);
     pthread_mutex_unlock(&all->lock);
     return one;
+}
+
+/* Whoever asks for health in earnest has sent it all at once, and has been answered long ago. */
+static void cut_oldest_health(struct kd_connections *all)
+{
+    struct kd_connection *oldest = NULL;
+    unsigned alive = 0;
+    for (struct kd_connection *one = all->first; one; one = one->next)
+        if (one->health && !one->cut)
+            oldest = one, alive++;
+    if (alive <= KD_HEALTH_CONNECTIONS)
+        return;
+    oldest->cut = true;
+    oldest->deadline = 0;
+    shutdown(oldest->socket, SHUT_RDWR);
+}
+
+bool kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health)
+{
+    pthread_mutex_lock(&all->lock);
+    bool yes = health || all->n_handed_on < kd_connections_most(all->limit);
+    one->handed_on = yes;
+    if (health) {
+        one->health = true;
+        one->deadline = kd_clock_ms() + (all->header_ms > CROWDED_MS ? CROWDED_MS : all->header_ms);
+        all->count--;
+        all->n_health++;
+        cut_oldest_health(all);
+    } else if (yes) {
+        all->n_handed_on++;
+    }
+    pthread_mutex_unlock(&all->lock);
+    return yes;
+}
+
+struct kd_connection *kd_connections_find(struct kd_connections *all, int socket)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_connection *one = find(all, socket);
+    pthread_mutex_unlock(&all->lock);
+    return one;
+}
+
+bool kd_connection_is_health(const struct kd_connection *one)
+{
+    return one && one->health;
 }
 
 /* A descriptor of our own keeps the socket when the library closes its one. */
@@ -107,13 +181,7 @@ void kd_connections_remove(struct kd_connections *all, struct kd_connection *one
     if (!one)
         return;
     pthread_mutex_lock(&all->lock);
-    if (one->previous)
-        one->previous->next = one->next;
-    else
-        all->first = one->next;
-    if (one->next)
-        one->next->previous = one->previous;
-    all->count--;
+    unlink_one(all, one);
     bool kept = one->linger && keep(all, one);
     pthread_mutex_unlock(&all->lock);
     if (!kept)
@@ -162,6 +230,20 @@ bool kd_connections_crowded(struct kd_connections *all)
     bool crowded = all->count > all->limit;
     pthread_mutex_unlock(&all->lock);
     return crowded;
+}
+
+/* The daemon takes some more than are served: those are told why they are not. */
+unsigned kd_connections_most(unsigned limit)
+{
+    return limit + limit / 4 + 16;
+}
+
+bool kd_connections_full(struct kd_connections *all)
+{
+    pthread_mutex_lock(&all->lock);
+    bool full = all->count > kd_connections_most(all->limit) + SILENT;
+    pthread_mutex_unlock(&all->lock);
+    return full;
 }
 
 /* Nothing of an answer is on the wire in these stages, so a whole one may be put there from outside. */

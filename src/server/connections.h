@@ -8,6 +8,8 @@
 
 #include <stdbool.h>
 
+#define KD_HEALTH_CONNECTIONS 64u /* at once, on the health routes' daemon; older ones give way */
+
 struct kd_connections;
 struct kd_connection;
 
@@ -23,8 +25,14 @@ enum kd_stage {
 struct kd_connections *kd_connections_create(unsigned limit, unsigned header_ms, unsigned body_ms);
 void kd_connections_destroy(struct kd_connections *all);
 
-/* NULL when out of memory. */
+/* One that has been accepted. NULL when out of memory. */
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket);
+/* It goes to a daemon of libmicrohttpd. health: to that of the health routes; it counts no longer, and where too many are open there
+ * the oldest is shut down for it. False: it must be refused, as many as can be told why are there already. */
+bool kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health);
+/* The one of an open socket, for the daemon it was handed to. */
+struct kd_connection *kd_connections_find(struct kd_connections *all, int socket);
+bool kd_connection_is_health(const struct kd_connection *one);
 void kd_connections_remove(struct kd_connections *all, struct kd_connection *one);
 /* Its client is still sending what will not be read. Closed at once, the socket would answer that with a
  * reset, and a reset makes the client lose the refusal it has not read yet; so it is emptied for a while
@@ -38,6 +46,10 @@ void kd_connections_stage(struct kd_connections *all, struct kd_connection *one,
 
 /* Whether more are open than may be served. */
 bool kd_connections_crowded(struct kd_connections *all);
+/* Whether more are open than can be told so: those that have not said anything yet must go. */
+bool kd_connections_full(struct kd_connections *all);
+/* The most that are handed to the daemon of what is not health, at a limit. */
+unsigned kd_connections_most(unsigned limit);
 
 /* Shut down what is overdue, with a 408 where a request had begun; empty what lingers. One thread, often. */
 void kd_connections_sweep(struct kd_connections *all);

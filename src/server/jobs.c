@@ -10,6 +10,8 @@
 #include <string.h>
 #include <time.h>
 
+#define COUNTS_MS 20. /* that who only wants to know may wait for the lock */
+
 double kd_job_now_s(void)
 {
     struct timespec t;
@@ -359,9 +361,10 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     pthread_mutex_unlock(&all->lock);
 }
 
-void kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
+bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
 {
-    pthread_mutex_lock(&all->lock);
+    if (!kd_clock_lock(&all->lock, COUNTS_MS))
+        return false;
     *out = (struct kd_jobs_counts) { .frames = all->frames, .bytes = all->bytes };
     for (const struct kd_job *job = all->first; job; job = job->link) {
         out->waiting += kd_job_is_active(job);
@@ -371,4 +374,5 @@ void kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
     out->running = out->waiting > 0; /* the oldest */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
+    return true;
 }

@@ -70,7 +70,8 @@ struct kd_jobs_counts {
     uint64_t frames; /* finished by this server */
     uint64_t bytes;  /* of the frames of all jobs */
 };
-void kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
+/* False, and nothing is known, where that takes more than a moment. */
+bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* As kd_job_store_get. */
 int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);

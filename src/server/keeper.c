@@ -25,12 +25,10 @@ static void enter(struct kd_server *server, enum kd_phase phase, double *since)
     *since = kd_clock_ms();
 }
 
-/* libmicrohttpd leaves the listening socket to us once it has let go of it. */
 static void stop_listening(struct kd_server *server)
 {
-    MHD_socket fd = MHD_quiesce_daemon(server->daemon);
-    if (fd != MHD_INVALID_SOCKET)
-        close(fd);
+    kd_front_destroy(server->front);
+    server->front = NULL;
 }
 
 static bool cut_short(struct kd_server *server)
@@ -84,8 +82,10 @@ void *kd_keeper_main(void *user)
         kd_sessions_sweep(server->sessions);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
+    stop_listening(server);
     MHD_stop_daemon(server->daemon); /* nothing is suspended: the queues have finished, and take no more */
-    server->daemon = NULL;
+    MHD_stop_daemon(server->health_daemon);
+    server->daemon = server->health_daemon = NULL;
     atomic_store(&server->phase, KD_STOPPED);
     kd_log(KD_LOG_INFO, "stopped");
 

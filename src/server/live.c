@@ -227,11 +227,16 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     return result;
 }
 
-/* An EventSource that lost its connection says what it had. */
-static uint64_t last_event(struct kd_request *request)
+/* An EventSource that lost its connection says what it had. What names no frame that there has been, counts as none. */
+static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
-    return id ? strtoull(id, NULL, 10) : 0;
+    struct kd_session_state state;
+    uint64_t number = 0;
+    if (!id || !kd_target_number(id, UINT64_MAX, &number))
+        return 0;
+    kd_session_state(session, &state);
+    return number <= state.frame ? number : 0;
 }
 
 static enum MHD_Result open_stream(struct kd_request *request, int form, const char *type)
@@ -249,7 +254,7 @@ static enum MHD_Result open_stream(struct kd_request *request, int form, const c
     }
     s->form = form;
     s->viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
-                                     .seen = form == EVENTS ? last_event(request) : 0,
+                                     .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
     if (form == MULTIPART)

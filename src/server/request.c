@@ -31,7 +31,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
         const union MHD_ConnectionInfo *info =
             MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
-        *socket_context = info ? kd_connections_add(server->connections, info->connect_fd) : NULL;
+        *socket_context = info ? kd_connections_find(server->connections, info->connect_fd) : NULL;
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -52,6 +52,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->server = server;
     request->mhd = mhd;
     request->connection = connection_of(mhd);
+    request->close = kd_connection_is_health(request->connection); /* its next request may be anything, and is for the other daemon */
     request->raw = strdup(uri);
     request->start_ms = kd_clock_ms();
     atomic_fetch_add(&server->requests, 1);

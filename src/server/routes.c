@@ -119,8 +119,42 @@ bool kd_route_find(struct kd_request *request, struct kd_problem *problem)
     return false;
 }
 
+static const char *const health[] = { "/healthz", "/readyz", "/metrics" };
+#define N_HEALTH (sizeof health / sizeof *health)
+
 bool kd_route_is_health(const char *raw)
 {
     size_t n = strcspn(raw, "?");
-    return (n == 8 && !memcmp(raw, "/healthz", 8)) || (n == 7 && !memcmp(raw, "/readyz", 7));
+    for (size_t i = 0; i < N_HEALTH; i++)
+        if (n == strlen(health[i]) && !memcmp(raw, health[i], n))
+            return true;
+    return false;
+}
+
+/* Whether the bytes begin with the text (1), do not (0), or end before that is clear (-1). */
+static int begins_with(const char *bytes, size_t n, const char *text)
+{
+    size_t size = strlen(text);
+    if (memcmp(bytes, text, n < size ? n : size))
+        return 0;
+    return n < size ? -1 : 1;
+}
+
+enum kd_begins kd_route_begins(const char *bytes, size_t n)
+{
+    static const char *const methods[] = { "GET ", "HEAD " };
+    bool unclear = false;
+    for (size_t m = 0; m < 2; m++) {
+        size_t size = strlen(methods[m]);
+        int method = begins_with(bytes, n, methods[m]);
+        unclear |= method < 0;
+        for (size_t i = 0; method > 0 && i < N_HEALTH; i++) {
+            size_t end = size + strlen(health[i]);
+            int path = begins_with(bytes + size, n - size, health[i]);
+            if (path > 0 && n > end && (bytes[end] == ' ' || bytes[end] == '?'))
+                return KD_BEGINS_HEALTH;
+            unclear |= path < 0 || (path > 0 && n == end);
+        }
+    }
+    return unclear ? KD_BEGINS_UNCLEAR : KD_BEGINS_OTHER;
 }

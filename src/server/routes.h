@@ -38,8 +38,11 @@ extern const size_t kd_n_routes;
 
 /* Sets request->route and ->rest, which point into the target's path; false with *problem filled (404, 405). */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
-/* Whether a raw target is one that is answered whatever else is the matter. */
+/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics. */
 bool kd_route_is_health(const char *raw);
+/* The same of the first n bytes of a connection, which may end too early to say it. */
+enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
+enum kd_begins kd_route_begins(const char *bytes, size_t n);
 
 /* handlers, by file */
 enum MHD_Result kd_handle_page(struct kd_request *request);   /* pages.c */

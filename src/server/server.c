@@ -64,22 +64,27 @@ static void log_from_library(void *cls, const char *format, va_list args)
     kd_log(KD_LOG_DEBUG, "libmicrohttpd: %s", line);
 }
 
-static enum kd_status start_daemon(struct kd_server *server, int fd, unsigned connections,
-                                   struct kd_error *error)
+static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connections)
 {
-    /* The library's own limit lies above ours: between the two a client is told why, and health is still
-     * answered. */
-    server->daemon = MHD_start_daemon(
-        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG, 0, NULL, NULL,
-        kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, log_from_library, NULL,
-        MHD_OPTION_LISTEN_SOCKET, fd, MHD_OPTION_CONNECTION_LIMIT, connections + connections / 4 + 16,
+    return MHD_start_daemon(
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG | MHD_USE_NO_LISTEN_SOCKET, 0, NULL, NULL,
+        kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, log_from_library, NULL, MHD_OPTION_CONNECTION_LIMIT, connections,
         MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL,
         MHD_OPTION_URI_LOG_CALLBACK, kd_request_open, server, MHD_OPTION_NOTIFY_COMPLETED, kd_request_close,
         server, MHD_OPTION_NOTIFY_CONNECTION, kd_request_connection, server, MHD_OPTION_END);
-    if (server->daemon)
-        return KD_OK;
-    close(fd);
-    return kd_error_set(error, KD_EIO, "the HTTP service could not be started");
+}
+
+/* The daemons' own limits lie above ours, so that they never close a connection without a word. */
+static enum kd_status start_http(struct kd_server *server, int listener, unsigned connections, struct kd_error *error)
+{
+    server->daemon = start_daemon(server, 2 * kd_connections_most(connections));
+    server->health_daemon = start_daemon(server, 8 * KD_HEALTH_CONNECTIONS);
+    if (!server->daemon || !server->health_daemon) {
+        close(listener);
+        return kd_error_set(error, KD_EIO, "the HTTP service could not be started");
+    }
+    const struct kd_front_params front = { listener, server->connections, server->health_daemon, server->daemon };
+    return kd_front_create(&front, &server->front, error);
 }
 
 static enum kd_status start_keeper(struct kd_server *server, struct kd_error *error)
@@ -142,7 +147,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         close(fd);
         return status;
     }
-    status = start_daemon(server, fd, connections, error);
+    status = start_http(server, fd, connections, error);
     return status ? status : start_keeper(server, error);
 }
 
@@ -196,8 +201,12 @@ void kd_server_destroy(struct kd_server *server)
         atomic_store(&server->abandon, true);
         kd_server_stop(server);
         pthread_join(server->keeper, NULL);
-    } else if (server->daemon) {
-        MHD_stop_daemon(server->daemon);
+    } else {
+        kd_front_destroy(server->front);
+        if (server->daemon)
+            MHD_stop_daemon(server->daemon);
+        if (server->health_daemon)
+            MHD_stop_daemon(server->health_daemon);
     }
     if (server->sessions)
         kd_sessions_close(server->sessions);

@@ -1,11 +1,13 @@
 /* What the parts of the HTTP service share. Private to src/server.
  *
- * Threads: libmicrohttpd's one thread runs every request handler; the render queue has its render thread and
+ * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health routes, another
+ * every other handler ("the HTTP thread"); the render queue has its render thread and
  * encoders, those who take turns (turns.h) their workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
 #ifndef KD_SERVER_SERVICE_H
 #define KD_SERVER_SERVICE_H
 
 #include "server/connections.h"
+#include "server/front.h"
 #include "server/jobs.h"
 #include "server/render_queue.h"
 #include "server/server.h"
@@ -41,7 +43,8 @@ enum kd_phase {
 };
 
 struct kd_server {
-    struct MHD_Daemon *daemon;
+    struct MHD_Daemon *daemon, *health_daemon; /* by what connections begin with: front.h */
+    struct kd_front *front;
     uint16_t port;
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
     unsigned drain_ms, longest_s;
@@ -62,7 +65,9 @@ struct kd_server {
     pthread_t keeper;
     bool keeper_runs;
     _Atomic bool abandon; /* destroy without stop: do not wait */
-    pthread_mutex_t lock; /* for `stopped` */
+    pthread_mutex_t lock; /* for what follows */
+    struct kd_sessions_counts sessions_counts; /* as last known */
+    struct kd_jobs_counts jobs_counts;
     pthread_cond_t changed;
     bool stopped;
 };

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define COUNTS_MS 20. /* that who only wants to know may wait for the lock */
+
 #define TARGET_MS 33.0 /* of a frame while the scene changes */
 
 enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error)
@@ -199,13 +201,15 @@ void kd_sessions_close(struct kd_sessions *all)
     pthread_mutex_unlock(&all->lock);
 }
 
-void kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out)
+bool kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out)
 {
-    pthread_mutex_lock(&all->lock);
+    if (!kd_clock_lock(&all->lock, COUNTS_MS))
+        return false;
     *out = (struct kd_sessions_counts) { .sessions = all->count, .frames = all->frames, .bytes = all->bytes };
     for (const struct kd_session *s = all->first; s; s = s->next)
         out->viewers += viewers_of(s);
     pthread_mutex_unlock(&all->lock);
+    return true;
 }
 
 void kd_sessions_destroy(struct kd_sessions *all)

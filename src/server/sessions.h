@@ -84,6 +84,7 @@ struct kd_sessions_counts {
     unsigned sessions, viewers;
     uint64_t frames, bytes; /* published so far, of all; of those, once each */
 };
-void kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out);
+/* False, and nothing is known, where that takes more than a moment. */
+bool kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out);
 
 #endif

@@ -125,15 +125,18 @@ enum kd_status kd_target_only(const struct kd_target *target, const char *const 
     return kd_target_distinct(target, error);
 }
 
-bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out)
+bool kd_target_number(const char *text, uint64_t most, uint64_t *out)
 {
-    const char *text = kd_target_value(target, name);
-    *out = otherwise;
-    if (!text)
-        return true;
     size_t n = strspn(text, "0123456789");
     if (!n || text[n] || n > 18)
         return false;
     *out = strtoull(text, NULL, 10);
     return *out <= most;
+}
+
+bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out)
+{
+    const char *text = kd_target_value(target, name);
+    *out = otherwise;
+    return !text || kd_target_number(text, most, out);
 }

@@ -31,7 +31,9 @@ enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_erro
 enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error);
 /* A parameter of the query, NULL: it is not given. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
-/* The same as a whole number, or what holds without it; false: it is not one, or above most. */
+/* Decimal digits alone; false: not so, or above most. */
+bool kd_target_number(const char *text, uint64_t most, uint64_t *out);
+/* A parameter as such a number, or what holds without it; false: it is not one, or above most. */
 bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out);
 
 #endif

@@ -14,7 +14,7 @@
 
 struct kd_renderer {
     char lens_key[65];
-    bool measured, bright;
+    bool measured, slow, bright;
 };
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -25,6 +25,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     *out = calloc(1, sizeof **out);
     if (*out)
         (*out)->measured = params->device && !strcmp(params->device, "measured");
+    if (*out)
+        (*out)->slow = params->device && !strcmp(params->device, "slow");
     return *out ? KD_OK : KD_ENOMEM;
 }
 
@@ -52,9 +54,11 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     return kd_buffer_printf(out, "{\"name\":\"fake\"}\n");
 }
 
-/* A device called "measured" has a table. */
+/* A device called "measured" has a table, one called "slow" is in no hurry to say that it has none. */
 enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out, struct kd_error *error)
 {
+    if (renderer->slow)
+        nanosleep(&(struct timespec) { .tv_sec = 5 }, NULL);
     return renderer->measured ? kd_buffer_printf(out, "{\"format\":1}\n")
                               : kd_error_set(error, KD_EIO, "there is no table: `kerrd bench accuracy` makes one");
 }

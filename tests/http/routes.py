@@ -2,6 +2,7 @@
 import gzip
 import json
 import re
+import time
 import unittest
 
 import daemon
@@ -177,10 +178,47 @@ class Routes(daemon.Case):
 
     def test_keep_alive(self):
         with self.daemon.connect() as s:
-            for path in ('/healthz', '/v1/device', '/nothing', '/v1/render?' + daemon.SMALL, '/healthz'):
+            for path in ('/v1/presets', '/v1/device', '/nothing', '/v1/render?' + daemon.SMALL, '/healthz'):
                 s.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost:1\r\n\r\n'.encode())
                 answer = daemon.read_answer(s)
                 self.assertEqual(answer.status, 404 if path == '/nothing' else 200)
+
+
+    def test_what_begins_with_health_ends_with_it(self):
+        for path in ('/healthz', '/readyz?x', '/metrics'):
+            with self.daemon.connect() as s:
+                s.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\nGET /v1/device HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+                answer = daemon.read_answer(s)
+                self.assertEqual((answer.status, answer.header('Connection')), (200, 'close'))
+                self.assertIsNone(daemon.read_answer(s))
+
+
+class Held(daemon.Case):
+    """The thread that answers everything else is at a standstill, and the connections are used up."""
+    options = ('--device', 'slow', '--connections', 8, '--header-ms', 30000)
+
+    def test_health_is_answered_nevertheless(self):
+        with self.daemon.connect() as held:
+            held.sendall(b'GET /v1/accuracy HTTP/1.1\r\nHost: localhost\r\n\r\n')
+            self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_requests'] == 2))
+            time.sleep(0.1)
+            crowd = [self.daemon.connect() for _ in range(30)]
+            for s in crowd[:20]:
+                s.sendall(b'GET /v1/device HTTP/1.1\r\nHost: localhost\r\n\r\n')
+            crowd += [self.daemon.connect() for _ in range(200)]
+            for s in crowd[-100:]:  # and those that begin to ask for health and never end
+                s.sendall(b'GET /healthz HTTP/1.1\r\n')
+            for path in ('/healthz', '/readyz', '/metrics'):
+                self.assertEqual(self.daemon.get(path).status, 200)
+            held.settimeout(0)
+            self.assertRaises(BlockingIOError, held.recv, 1)  # it is held still
+            with self.daemon.connect() as s:  # byte by byte: what it is comes out late
+                for byte in b'HEAD /readyz?a HTTP/1.1\r\nHost: localhost\r\n\r\n':
+                    s.send(bytes([byte]))
+                s.settimeout(2)
+                self.assertTrue(s.recv(100).startswith(b'HTTP/1.1 200 '))
+            for s in crowd:
+                s.close()
 
 
 class Measured(daemon.Case):

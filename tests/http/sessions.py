@@ -347,7 +347,7 @@ class Sessions(daemon.Owned):
     def test_events_go_on_where_they_broke_off(self):
         session = self.open()
         self.frame(session)
-        for sent, first in ((None, 1), ('1', 2), ('junk', 2)):
+        for sent, first in ((None, 1), ('1', 2), ('junk', 2), ('-1', 2), ('18446744073709551615', 2), ('999999', 2), ('2x', 2)):
             head = f'GET {self.at(session, "/events")} HTTP/1.1\r\nHost: localhost\r\n' + (f'Last-Event-ID: {sent}\r\n' if sent else '')
             with self.daemon.connect() as s:
                 s.sendall((head + '\r\n').encode())
