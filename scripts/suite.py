@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""What scripts/test asks about a build's tests; it speaks of nothing else.
+
+    suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would not find
+    suite.py report BUILD [--no-skip]     the slowest of the last run, and what was skipped and why; with --no-skip a skip is exit 1
+
+Meson itself runs no test at all for a name that it does not know, and calls that a success.
+"""
+import difflib
+import json
+import pathlib
+import subprocess
+import sys
+
+# Options of `meson test` that are followed by a value (1.0 to 1.7).
+VALUED = {'-C', '-t', '--timeout-multiplier', '--maxfail', '--repeat', '--gdb-path', '--wrapper', '--wrap', '--logbase', '-j',
+          '--num-processes', '--setup', '--test-args', '--max-lines'}
+
+
+def asked(arguments):
+    """Names and suites among the arguments."""
+    names, suites = [], []
+    rest = iter(arguments)
+    for argument in rest:
+        option, equals, value = argument.partition('=')
+        if option in ('--suite', '--no-suite'):
+            suites.append(value if equals else next(rest, ''))
+        elif argument in VALUED:
+            next(rest, None)
+        elif not argument.startswith('-'):
+            names.append(argument)
+    return names, suites
+
+
+def unknown(kind, word, known):
+    near = difflib.get_close_matches(word, known, 3, 0.5) + [name for name in sorted(known) if word and word in name]
+    near = list(dict.fromkeys(near))[:5]
+    hint = f'; near it: {", ".join(near)}' if near else '; `scripts/test --list` names them all'
+    return f'scripts/test: there is no {kind} {word!r}{hint}'
+
+
+def check(build, arguments):
+    made = subprocess.run(['meson', 'introspect', '--tests', build], check=True, capture_output=True, text=True).stdout
+    tests = json.loads(made)
+    known = {'test': {test['name'] for test in tests}, 'suite': {suite.split(':')[-1] for test in tests for suite in test['suite']}}
+    names, suites = asked(arguments)
+    wanted = [('test', name.split(':')[-1]) for name in names] + [('suite', name.split(':')[-1]) for name in suites]
+    missing = [unknown(kind, word, known[kind]) for kind, word in wanted if word not in known[kind]]
+    print(*missing, sep='\n', end='\n' if missing else '', file=sys.stderr)
+    return 2 if missing else 0
+
+
+def report(build, *options):
+    log = pathlib.Path(build, 'meson-logs/testlog.json')
+    tests = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
+    slowest = sorted(tests, key=lambda test: -test['duration'])[:8]
+    if len(tests) > len(slowest):
+        print('slowest:', ', '.join(f'{test["name"]} {test["duration"]:.0f} s' for test in slowest))
+    skipped = [test for test in tests if test['result'] == 'SKIP']
+    for test in skipped:
+        reason = (test.get('stdout', '') + test.get('stderr', '')).strip().splitlines()
+        print('skipped:', test['name'].split(' / ')[-1], '-', reason[-1] if reason else 'no reason given')
+    if skipped and '--no-skip' in options:
+        print(f'scripts/test: {len(skipped)} skipped, where none may be', file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit({'known': lambda build, *arguments: check(build, arguments), 'report': report}[sys.argv[1]](*sys.argv[2:]))
