@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Nothing is made anew that has not changed, also where a folder on the way has a space in its name.
+
+spaces.py SHADERS: its folder is built alone, under such a name; it is all that has dependencies found while building.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+with tempfile.TemporaryDirectory(prefix='kerrd with a space ') as folder:
+    root = pathlib.Path(folder)
+    shutil.copytree(sys.argv[1], root / 'shaders')
+    (root / 'main.c').write_text('int main(void) { return 0; }\n')
+    (root / 'meson.build').write_text("project('spaces', 'c')\nsubdir('shaders')\nexecutable('main', 'main.c', dependencies: shaders_dep)\n")
+    environment = {name: value for name, value in os.environ.items() if name not in ('CC', 'CFLAGS', 'MESON_TESTTHREADS')}
+
+    def run(*command):
+        done = subprocess.run(command, cwd=root, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode:
+            sys.exit(done.stdout)
+        return done.stdout
+
+    run('meson', 'setup', 'build')
+    run('ninja', '-C', 'build')
+    again = run('ninja', '-n', '-d', 'explain', '-C', 'build')
+    if 'no work to do' not in again:
+        sys.exit('made anew though nothing has changed:\n' + again)
+    changed = root / 'shaders/include/math.glsl'
+    changed.write_text(changed.read_text() + '\n')
+    again = run('ninja', '-n', '-C', 'build')
+    if 'rays_f64' not in again or 'no work to do' in again:
+        sys.exit('not made anew though an include has changed:\n' + again)
