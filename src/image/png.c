@@ -21,7 +21,7 @@ struct job {
     char message[160];
     struct kd_buffer *sink; /* encoding */
     const uint8_t *source;  /* decoding */
-    size_t left, size;
+    size_t left, size, texts; /* texts: chunks of text in the file */
     struct kd_png *picture;
 };
 
@@ -181,12 +181,16 @@ static void source_read(png_structp png, png_bytep data, size_t size)
     job->left -= size;
 }
 
-/* Text, as one block: the array, then its strings. Latin-1 chunks become UTF-8. */
+/* Text, as one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng passes over a chunk that is too long, unfolds
+ * to too much, is damaged or comes after too many others, and goes on with a mere warning; which of them it does so with is another
+ * matter in 1.6.39 than in 1.6.48. One of them may have been the scene, so a text that is missing is an error. */
 static enum kd_status take_text(struct job *job)
 {
     png_textp text = NULL;
     int n = 0;
     png_get_text(job->png, job->info, &text, &n);
+    if ((size_t)n != job->texts)
+        return KD_EINVAL;
     size_t total = 0;
     for (int i = 0; i < n; i++) {
         bool utf8 = text[i].compression >= PNG_ITXT_COMPRESSION_NONE;
@@ -260,7 +264,7 @@ static bool decode(struct job *job)
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
     png_set_chunk_malloc_max(job->png, MAX_TEXT + 128); /* with its key */
-    png_set_chunk_cache_max(job->png, MAX_CHUNKS);
+    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1); /* libpng takes two fewer */
     png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text is damage too */
     png_read_info(job->png, job->info);
     job->picture->width = png_get_image_width(job->png, job->info);
@@ -277,7 +281,7 @@ static uint32_t big_endian(const uint8_t *p)
 
 /* Before libpng sees it: for the sake of a sentence that names what is wrong, and because libpng 1.6
  * allocates what a text chunk's length field says, up to 2 GiB, before it looks whether that much follows. */
-static enum kd_status check_header(const uint8_t *data, size_t size, struct kd_error *error)
+static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
     if (size < sizeof signature || memcmp(data, signature, sizeof signature))
@@ -296,6 +300,7 @@ static enum kd_status check_header(const uint8_t *data, size_t size, struct kd_e
                                 "damaged PNG file: the chunk at byte %zu ends past the file", at);
         if (memcmp(data + at + 4, "IEND", 4) == 0)
             break;
+        *texts += memcmp(data + at + 4, "tEXt", 4) == 0 || memcmp(data + at + 4, "zTXt", 4) == 0 || memcmp(data + at + 4, "iTXt", 4) == 0;
         at += 12 + (size_t)big_endian(data + at);
     }
     return KD_OK;
@@ -304,10 +309,10 @@ static enum kd_status check_header(const uint8_t *data, size_t size, struct kd_e
 enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error)
 {
     *out = (struct kd_png) { 0 };
-    enum kd_status status = check_header(data, size, error);
+    struct job job = { .source = data, .left = size, .size = size, .picture = out };
+    enum kd_status status = check_header(data, size, &job.texts, error);
     if (status)
         return status;
-    struct job job = { .source = data, .left = size, .size = size, .picture = out };
     job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
                                        job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
@@ -318,7 +323,8 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
     else if (!done)
         status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %s", job.message);
     else if ((status = take_text(&job)) == KD_EINVAL)
-        kd_error_set(error, status, "the text of the PNG file is over %u bytes or not UTF-8", MAX_TEXT);
+        kd_error_set(error, status, "the text of the PNG file is damaged, not UTF-8, over %u bytes or in over %d pieces", MAX_TEXT,
+                     MAX_CHUNKS - 1);
     else if (status)
         kd_error_set(error, status, "out of memory for the text of a PNG file");
     png_destroy_read_struct(&job.png, &job.info, NULL);

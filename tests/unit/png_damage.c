@@ -192,8 +192,40 @@ static void text_is_limited(void **state)
     memset(body, 'x', HUGE_TEXT);
     memcpy(bomb, "key\0", 5);
     assert_int_equal(compress(bomb + 5, &packed, (const Bytef *)body, HUGE_TEXT), Z_OK);
-    (void)with_chunk("zTXt", bomb, 5 + (uint32_t)packed); /* refused or dropped, but not unfolded */
+    assert_int_equal(with_chunk("zTXt", bomb, 5 + (uint32_t)packed), KD_EINVAL); /* and not unfolded */
     free(body);
+}
+
+/* What libpng would pass over with a warning might be the scene: such a file is refused, not read without it. */
+static void no_text_is_lost_in_silence(void **state)
+{
+    (void)state;
+    static const struct { const char *type, *body; uint32_t length; } chunks[] = {
+        { "zTXt", "key\0\0not a stream of zlib", 23 }, { "zTXt", "key\0\7unknown method", 19 },
+        { "iTXt", "key\0\2\0\0\0flag", 12 },           { "iTXt", "key\0\1\0\0\0stream", 14 }, { "iTXt", "key", 3 },
+    };
+    for (size_t i = 0; i < sizeof chunks / sizeof *chunks; i++)
+        if (with_chunk(chunks[i].type, chunks[i].body, chunks[i].length) != KD_EINVAL)
+            fail_msg("chunk %zu, a %s, is passed over", i, chunks[i].type);
+    struct kd_buffer file = { 0 }, out = { 0 };
+    static const uint8_t text[] = "\0\0\0\5tEXtkey\0x\0\0\0\0";
+    struct kd_png png;
+    sample(&file, 8); /* holds two */
+    size_t before = (size_t)((uint8_t *)memmem(file.data, file.size, "IDAT", 4) - file.data) - 4;
+    kd_buffer_append(&out, file.data, before);
+    for (int n = 3; n <= 110; n++) {
+        kd_buffer_append(&out, text, sizeof text - 1);
+        struct kd_buffer whole = { 0 };
+        kd_buffer_append(&whole, out.data, out.size);
+        kd_buffer_append(&whole, file.data + before, file.size - before);
+        seal(whole.data, whole.size);
+        enum kd_status status = kd_png_decode(whole.data, whole.size, &png, NULL);
+        assert_true(status ? n > 99 && status == KD_EINVAL : png.n_text == (size_t)n);
+        kd_png_finish(&png);
+        kd_buffer_finish(&whole);
+    }
+    kd_buffer_finish(&file);
+    kd_buffer_finish(&out);
 }
 
 static void latin1_becomes_utf8(void **state)
@@ -228,6 +260,7 @@ int main(void)
         cmocka_unit_test(sealed_damage_does_not_crash),
         cmocka_unit_test(impossible_sides_are_refused),
         cmocka_unit_test(text_is_limited),
+        cmocka_unit_test(no_text_is_lost_in_silence),
         cmocka_unit_test(latin1_becomes_utf8),
         cmocka_unit_test(other_files_are_not_png),
     };

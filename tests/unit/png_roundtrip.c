@@ -186,6 +186,40 @@ static void bad_parameters_are_refused(void **state)
 #undef WITH
 }
 
+/* As much text as may be written is read back: in one piece, of either kind of chunk, and in as many as there may be. */
+static void all_text_comes_back(void **state)
+{
+    (void)state;
+    enum { MOST = (1u << 20) - 3, PIECES = 99 };
+    static const uint8_t pixel[3];
+    char *value = malloc(MOST + 1), keys[PIECES][8];
+    struct kd_png_text texts[PIECES];
+    assert_non_null(value);
+    memset(value, 'x', MOST);
+    value[MOST] = 0;
+    for (int i = 0; i < PIECES; i++) {
+        snprintf(keys[i], sizeof keys[i], "key %d", i);
+        texts[i] = (struct kd_png_text) { keys[i], keys[i] };
+    }
+    for (int kind = 0; kind < 3; kind++) {
+        struct kd_buffer file = { 0 };
+        struct kd_png png;
+        const struct kd_png_text one = { "key", value };
+        if (kind == 1)
+            memcpy(value, "\xc3\xa4", 2); /* not ASCII: an iTXt chunk */
+        struct kd_png_params params = { .width = 1, .height = 1, .bit_depth = 8, .pixels = pixel,
+                                        .text = kind < 2 ? &one : texts, .n_text = kind < 2 ? 1 : PIECES };
+        assert_int_equal(kd_png_encode(&params, &file, NULL), KD_OK);
+        assert_int_equal(kd_png_decode(file.data, file.size, &png, NULL), KD_OK);
+        assert_int_equal(png.n_text, params.n_text);
+        for (size_t i = 0; i < params.n_text; i++)
+            assert_string_equal(kd_png_text_find(&png, params.text[i].key), params.text[i].value);
+        kd_png_finish(&png);
+        kd_buffer_finish(&file);
+    }
+    free(value);
+}
+
 /* A file of some other colour type. libpng's errors end this test. */
 static void write_other(struct kd_buffer *file, int type, int depth, int interlace, bool transparent)
 {
@@ -301,6 +335,7 @@ static void time_of_a_live_frame(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_text_comes_back),
         cmocka_unit_test(pixels_survive),
         cmocka_unit_test(text_survives),
         cmocka_unit_test(sixteen_bits_are_big_endian),
