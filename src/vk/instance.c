@@ -5,6 +5,24 @@
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 
+#ifndef VK_EXT_layer_settings /* headers of before 1.3.272, like Debian 12's */
+#define VK_EXT_LAYER_SETTINGS_EXTENSION_NAME "VK_EXT_layer_settings"
+#define VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT ((VkStructureType)1000496000)
+#define VK_LAYER_SETTING_TYPE_BOOL32_EXT 0
+typedef struct {
+    const char *pLayerName, *pSettingName;
+    int type;
+    uint32_t valueCount;
+    const void *pValues;
+} VkLayerSettingEXT;
+typedef struct {
+    VkStructureType sType;
+    const void *pNext;
+    uint32_t settingCount;
+    const VkLayerSettingEXT *pSettings;
+} VkLayerSettingsCreateInfoEXT;
+#endif
+
 static bool has_layer(const struct kd_vk_functions *fn, const char *name)
 {
     uint32_t n = 0;
@@ -68,7 +86,7 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
     if (status)
         return status;
 
-    const char *extensions[3];
+    const char *extensions[4];
     uint32_t n = 0;
     bool debug_utils = has_extension(fn, NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
                        (validate && has_extension(fn, VALIDATION_LAYER, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
@@ -79,6 +97,9 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
         extensions[n++] = VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME;
     if (validate)
         extensions[n++] = VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME;
+    bool settings = validate && has_extension(fn, VALIDATION_LAYER, VK_EXT_LAYER_SETTINGS_EXTENSION_NAME);
+    if (settings)
+        extensions[n++] = VK_EXT_LAYER_SETTINGS_EXTENSION_NAME;
 
     const char *layer = VALIDATION_LAYER;
     const VkApplicationInfo application = { .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
@@ -91,9 +112,18 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
                                                .pNext = debug_utils ? &messenger : NULL,
                                                .enabledValidationFeatureCount = 1,
                                                .pEnabledValidationFeatures = &enable };
+    /* Newer layers (Debian 13's 1.4, for one) leave what shaders read and write out of synchronisation validation unless they are told
+     * otherwise. All our hazards are between a shader and something else. */
+    const VkBool32 yes = VK_TRUE;
+    const VkLayerSettingEXT heuristic = { VALIDATION_LAYER, "syncval_shader_accesses_heuristic", VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1,
+                                          &yes };
+    const VkLayerSettingsCreateInfoEXT more = { .sType = VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT,
+                                                .pNext = &features,
+                                                .settingCount = 1,
+                                                .pSettings = &heuristic };
     const VkInstanceCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-        .pNext = validate ? &features : NULL,
+        .pNext = settings ? (const void *)&more : validate ? &features : NULL,
         .flags = portability ? VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR : 0,
         .pApplicationInfo = &application,
         .enabledLayerCount = validate,
