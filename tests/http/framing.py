@@ -14,6 +14,13 @@ def get(*headers, version=b'1.1', path=b'/healthz'):
 class Guard(daemon.Case):
     options = ('--host', 'holes.example', '--header-ms', 1000, '--body-ms', 1000)
 
+    def assertRefused(self, answer, status, word):
+        """By us or, where libmicrohttpd 1.0 sees to it before it asks us, by the library's own page with 400."""
+        self.assertIsNotNone(answer, 'no answer')
+        if answer.status == 400 and answer.body.startswith(b'<html><head><title>'):
+            return
+        self.assertProblem(answer, status, word)
+
     def test_hosts(self):
         for host in (b'localhost', b'LOCALHOST:80', b'127.0.0.1', b'127.0.0.1:65535', b'[::1]', b'[::1]:8080',
                      b'holes.example', b'Holes.Example:443'):
@@ -27,7 +34,7 @@ class Guard(daemon.Case):
                     self.assertProblem(answer, 421, 'misdirected')
         self.assertProblem(self.daemon.raw(get(b'Host: localhost', b'Host: localhost')), 421, 'misdirected')
         self.assertProblem(self.daemon.raw(get(b'Host: localhost', b'Host: evil')), 421, 'misdirected')
-        self.assertProblem(self.daemon.raw(get()), 421, 'misdirected')
+        self.assertRefused(self.daemon.raw(get()), 421, 'misdirected')
 
     def test_bodies_of_uncertain_length(self):
         for framing, rest in (
@@ -40,7 +47,7 @@ class Guard(daemon.Case):
                 (b'Transfer-Encoding: identity\r\n', b'{}'), (b'Transfer-Encoding: \x0bchunked\r\n', b'{}')):
             with self.subTest(framing), self.daemon.connect() as s:
                 s.sendall(POST + framing + b'\r\n' + rest + get(b'Host: localhost'))
-                self.assertProblem(daemon.read_answer(s), 400, 'bad-request')
+                self.assertRefused(daemon.read_answer(s), 400, 'bad-request')
                 self.assertIsNone(daemon.read_answer(s), 'the connection must end')
 
     def test_lengths_that_are_no_numbers(self):
