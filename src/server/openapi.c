@@ -1,11 +1,11 @@
 /* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
  * table. */
+#include "server/openapi.h"
 #include "server/openapi_jobs.h"
 #include "server/openapi_orbits.h"
 #include "server/openapi_physics.h"
 #include "server/openapi_rays.h"
 #include "server/openapi_sessions.h"
-#include "server/reply.h"
 #include "server/request.h"
 
 #include <cjson/cJSON.h>
@@ -247,14 +247,14 @@ static enum kd_status document(const cJSON *schema, const struct kd_buffer *sche
     return kd_json_finish_line(&json);
 }
 
-enum MHD_Result kd_handle_openapi(struct kd_request *request)
+enum kd_status kd_openapi_json(struct kd_buffer *out)
 {
-    struct kd_buffer json = { 0 }, text = { 0 };
+    struct kd_buffer text = { 0 };
     enum kd_status status = kd_scene_schema(&text);
     cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
     if (!status)
-        status = schema ? document(schema, &text, &json) : KD_ENOMEM;
+        status = schema ? document(schema, &text, out) : KD_ENOMEM;
     cJSON_Delete(schema);
     kd_buffer_finish(&text);
-    return kd_reply_json(request, status, &json, request->route->answer);
+    return status;
 }

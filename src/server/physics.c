@@ -1,4 +1,4 @@
-/* GET /v1/physics and /v1/physics/NAME: quantities by name (quantity/quantity.h). What takes a moment is computed here, all
+/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). What takes a moment is computed here, all
  * else by the workers, in turns. */
 #include "server/clock.h"
 #include "server/negotiate.h"
@@ -33,12 +33,6 @@ static void destroy(struct kd_task *task)
     kd_quantity_run_finish(&job->run);
     kd_buffer_finish(&job->text);
     free(job);
-}
-
-enum MHD_Result kd_handle_quantities(struct kd_request *request)
-{
-    struct kd_buffer json = { 0 };
-    return kd_reply_json(request, kd_quantity_list_json(&json), &json, request->route->answer);
 }
 
 static const char *offered(const struct kd_quantity *quantity)

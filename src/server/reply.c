@@ -49,6 +49,27 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     return response;
 }
 
+struct MHD_Response *kd_reply_asset(struct kd_request *request, const struct kd_asset *asset, bool *same)
+{
+    struct kd_buffer encodings = kd_reply_header_list(request, "Accept-Encoding");
+    struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
+    bool gzip = asset->gzip.data && kd_accepts_coding((const char *)encodings.data, "gzip");
+    const struct kd_asset_form *form = gzip ? &asset->gzip : &asset->plain;
+    *same = kd_etag_listed((const char *)known.data, form->etag);
+    kd_buffer_finish(&encodings);
+    kd_buffer_finish(&known);
+
+    struct MHD_Response *response = kd_reply_static(form->data, form->size, asset->type);
+    if (!response)
+        return NULL;
+    if (gzip)
+        MHD_add_response_header(response, "Content-Encoding", "gzip");
+    MHD_add_response_header(response, "ETag", form->etag);
+    MHD_add_response_header(response, "Vary", "Accept-Encoding");
+    MHD_add_response_header(response, "Cache-Control", "no-cache");
+    return response;
+}
+
 static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
 {
     (void)cls, (void)position, (void)to, (void)size;

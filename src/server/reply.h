@@ -4,6 +4,7 @@
 #ifndef KD_SERVER_REPLY_H
 #define KD_SERVER_REPLY_H
 
+#include "server/assets.h"
 #include "server/problem.h"
 #include "server/request.h"
 
@@ -14,6 +15,9 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
 /* One with bytes that outlive it. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
+/* One of a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has it, and 304 sends the
+ * header alone. */
+struct MHD_Response *kd_reply_asset(struct kd_request *request, const struct kd_asset *asset, bool *same);
 /* One for HEAD and 304, where the length of what a GET would give is not known. Closes the
  * connection. */
 struct MHD_Response *kd_reply_empty(const char *type);

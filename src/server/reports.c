@@ -1,5 +1,5 @@
-/* What the server says of itself: health, device, presets, schema. */
-#include "base/json.h"
+/* What the server says of itself: health, device, and the documents that are kept. */
+#include "server/kept.h"
 #include "server/reply.h"
 #include "server/request.h"
 
@@ -33,42 +33,16 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
     return kd_reply_json(request, status, &json, request->route->answer);
 }
 
-static enum kd_status presets_json(struct kd_buffer *out)
+enum MHD_Result kd_handle_kept(struct kd_request *request)
 {
-    struct kd_json json = kd_json_begin(out);
-    kd_json_object(&json, NULL);
-    kd_json_array(&json, "presets");
-    for (size_t i = 0; i < kd_scene_preset_count(); i++) {
-        kd_json_object(&json, NULL);
-        kd_json_string(&json, "name", kd_scene_preset_name(i));
-        kd_json_string(&json, "title", kd_scene_preset_title(i));
-        kd_json_end(&json);
-    }
-    kd_json_end(&json);
-    kd_json_end(&json);
-    return kd_json_finish_line(&json);
-}
-
-enum MHD_Result kd_handle_presets(struct kd_request *request)
-{
-    struct kd_buffer json = { 0 };
-    return kd_reply_json(request, presets_json(&json), &json, request->route->answer);
-}
-
-enum MHD_Result kd_handle_preset(struct kd_request *request)
-{
+    const struct kd_asset *document = kd_kept_find(request->server->kept, request->target.path);
     struct kd_scene scene;
-    struct kd_error error;
-    struct kd_buffer json = { 0 };
-
-    if (kd_scene_preset(&scene, request->rest, &error))
-        return kd_reply_problem(
-            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
-    return kd_reply_json(request, kd_scene_to_json(&scene, &json), &json, request->route->answer);
-}
-
-enum MHD_Result kd_handle_schema(struct kd_request *request)
-{
-    struct kd_buffer json = { 0 };
-    return kd_reply_json(request, kd_scene_schema(&json), &json, request->route->answer);
+    struct kd_error error = { 0 };
+    bool same;
+    if (document) {
+        struct MHD_Response *response = kd_reply_asset(request, document, &same);
+        return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
+    }
+    kd_scene_preset(&scene, request->rest, &error); /* it says which there are */
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
 }

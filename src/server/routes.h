@@ -50,10 +50,7 @@ enum MHD_Result kd_handle_health(struct kd_request *request); /* reports.c */
 enum MHD_Result kd_handle_ready(struct kd_request *request);
 enum MHD_Result kd_handle_metrics(struct kd_request *request); /* metrics.c */
 enum MHD_Result kd_handle_device(struct kd_request *request);
-enum MHD_Result kd_handle_presets(struct kd_request *request);
-enum MHD_Result kd_handle_preset(struct kd_request *request);
-enum MHD_Result kd_handle_schema(struct kd_request *request);
-enum MHD_Result kd_handle_openapi(struct kd_request *request); /* openapi.c */
+enum MHD_Result kd_handle_kept(struct kd_request *request); /* what kept.h has */
 enum MHD_Result kd_handle_plan(struct kd_request *request);    /* renders.c */
 enum MHD_Result kd_handle_render(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* rays.c */
@@ -71,7 +68,6 @@ enum MHD_Result kd_handle_job(struct kd_request *request);
 enum MHD_Result kd_handle_job_events(struct kd_request *request);
 enum MHD_Result kd_handle_job_result(struct kd_request *request); /* job_result.c */
 enum MHD_Result kd_handle_job_preview(struct kd_request *request); /* job_result.c */
-enum MHD_Result kd_handle_quantities(struct kd_request *request); /* physics.c */
-enum MHD_Result kd_handle_quantity(struct kd_request *request);
+enum MHD_Result kd_handle_quantity(struct kd_request *request); /* physics.c */
 
 #endif

@@ -111,6 +111,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     if (server->stop_fd < 0 || !server->connections)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
     enum kd_status status = collect_hosts(server, address, params->hosts, error);
+    if (!status)
+        status = kd_kept_create(&server->kept, error);
     /* The socket first: opening a device takes long, and "address in use" is the commonest failure. */
     if (!status)
         status = kd_listen_open(address, &server->port, &fd, error);
@@ -218,6 +220,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);
     kd_connections_destroy(server->connections);
+    kd_kept_destroy(server->kept);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);
     free(server->hosts);

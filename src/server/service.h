@@ -9,6 +9,7 @@
 #include "server/connections.h"
 #include "server/front.h"
 #include "server/jobs.h"
+#include "server/kept.h"
 #include "server/render_queue.h"
 #include "server/server.h"
 #include "server/turns.h"
@@ -54,6 +55,7 @@ struct kd_server {
     struct kd_turns *turns; /* orbits, long quantities, jobs being checked */
     struct kd_sessions *sessions;
     struct kd_jobs *jobs;
+    struct kd_kept *kept;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 
     _Atomic int phase;

@@ -57,6 +57,13 @@ class Routes(daemon.Case):
         self.assertNotEqual(packed.header('ETag'), plain.header('ETag'))
         for tag, status in ((plain.header('ETag'), 304), (packed.header('ETag'), 200), ('"x"', 200)):
             self.assertEqual(self.daemon.get('/web/app.js', If_None_Match=tag).status, status)
+        for target in ('/openapi.json', '/v1/schema', '/v1/presets', '/v1/presets/gargantua', '/v1/physics'):
+            plain, packed = self.daemon.get(target), self.daemon.get(target, Accept_Encoding='gzip')
+            self.assertEqual((plain.header('Content-Encoding'), packed.header('Content-Encoding')), (None, 'gzip'), target)
+            self.assertEqual(gzip.decompress(packed.body), plain.body)
+            again = self.daemon.get(target, If_None_Match=plain.header('ETag'))
+            self.assertEqual((again.status, again.body, again.header('ETag')), (304, b'', plain.header('ETag')), target)
+            self.assertEqual(self.daemon.get(target, Accept_Encoding='gzip', If_None_Match=packed.header('ETag')).status, 304)
         for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/', '/web/vendor/uplot/app.js', '/web/uPlot.esm.js',
                      '/web/vendor/uplot/../../app.js', '/web/vendor/uplot/'):
             self.assertProblem(self.daemon.get(name), 404, 'not-found')
