@@ -33,8 +33,8 @@ static enum kd_status plan_scene(const struct arguments *arguments, struct kd_bu
     if (status)
         return status;
     kd_renderer_capacity(renderer, &capacity);
-    kd_renderer_destroy(renderer);
     status = kd_plan_make(&scene, &capacity, &plan, error);
+    kd_renderer_destroy(renderer); /* which owns the accuracy table of the capacity */
     if (!status && (kd_plan_to_json(&plan, out) || kd_buffer_printf(out, "\n")))
         status = kd_error_set(error, KD_ENOMEM, "out of memory for the plan");
     return status;

@@ -24,7 +24,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
                                   struct kd_error *error);
 void kd_renderer_destroy(struct kd_renderer *renderer);
 
-/* A copy of the present capacity, for kd_plan_make. Any thread. */
+/* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
 /* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);

@@ -125,6 +125,13 @@ class Accuracy(unittest.TestCase):
         self.assertEqual(status, 404)
         self.assertIn("damaged", problem["detail"])
 
+    def test_planned_by(self):
+        """A plan looks a tolerance up in the table that the device keeps, which a renderer owns: memory that is given back is filled."""
+        done = run("plan", "--set", "accuracy.tolerance=1e-5", "--set", "camera.r=30",
+                   env={**os.environ, "XDG_CACHE_HOME": self.cache, "MALLOC_PERTURB_": "165"}, seconds=60)
+        self.assertEqual((done.returncode, done.stderr), (0, b""), done)
+        self.assertGreater(json.loads(done.stdout)["rays"], 0)
+
     def test_markdown(self):
         self.assertEqual(self.markdown.count("\n| mino-rkn6 | f32 | 16 |"), len(SETS))
         self.assertIn(self.table["device"], self.markdown)
