@@ -201,7 +201,10 @@ static void result(struct text *t, const struct kd_orbit_run *run)
     if (!closed) {
         member(t, "steps", (double)run->steps);
         member(t, "mino_step", run->h);
+    }
+    if (!closed || !isnan(run->error_estimate))
         member(t, "error_estimate", run->error_estimate);
+    if (!closed) {
         drift(t, run);
         if (run->closed && !run->orbit.circular) {
             member(t, "periastra", (double)run->periastra);

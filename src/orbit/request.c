@@ -2,9 +2,11 @@
 
 #include "orbit/cases.h"
 #include "orbit/fields.h"
+#include "physics/angle.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -289,10 +291,32 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     return KD_OK;
 }
 
-static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,
-                            struct kd_orbit_state *start, struct kd_error *error)
+/* What rounding of the constants leaves open of a whirl: 4 units of the last place, times kd_orbit_whirl. */
+static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit, const struct kd_orbit_state *start)
 {
-    double inclination = s->inclination_deg, x = inclination == 90 ? 0 : cos(inclination * M_PI / 180), r = s->r;
+    bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE; /* p and e say exactly where the turning points are */
+    return given ? 4 * DBL_EPSILON * kd_orbit_whirl(orbit, start, NULL) : 0;
+}
+
+static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd_orbit *orbit, const struct kd_orbit_state *start,
+                                  double *rounding, struct kd_error *error)
+{
+    double r;
+    *rounding = rounding_of(s, orbit, start);
+    if (*rounding <= KD_ORBIT_ROUNDING_MAX)
+        return KD_OK;
+    kd_orbit_whirl(orbit, start, &r);
+    return kd_error_field(error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
+                          "energy %.9g and angular_momentum %.9g lead to the unstable circle at r = %.9g, so closely that double "
+                          "precision does not tell how long the body whirls there, and whether it falls or returns: allowed are "
+                          "values that differ from these by some parts in 1e12",
+                          orbit->energy, orbit->momentum, r);
+}
+
+static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,
+                            struct kd_orbit_state *start, double *rounding, struct kd_error *error)
+{
+    double x = kd_cos_deg(s->inclination_deg), r = s->r;
     enum kd_status status;
     switch (s->form) {
     case KD_ORBIT_SHAPE: status = kd_orbit_from_shape(s->spin, s->p, s->e, x, orbit, error); break;
@@ -302,18 +326,17 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
         status = kd_orbit_from_constants(s->spin, s->energy, s->momentum, s->carter, r, orbit, error);
         break;
     default:
-        return kd_orbit_from_state(s->spin, s->place_r, s->theta_deg == 90 ? M_PI_2 : s->theta_deg * M_PI / 180, s->frame, s->v,
-                                   orbit, start, error);
+        status = kd_orbit_from_state(s->spin, s->place_r, s->theta_deg, s->frame, s->v, orbit, start, error);
     }
-    if (!status)
+    if (!status && s->form != KD_ORBIT_STATE)
         *start = kd_orbit_start(orbit, s->form == KD_ORBIT_SHAPE ? NAN : r, s->outward);
     if (!status && s->form == KD_ORBIT_CONSTANTS && s->outward && orbit->fate == KD_ORBIT_PLUNGE && !orbit->turns_out)
         orbit->fate = KD_ORBIT_ESCAPE;
-    return status;
+    return status ? status : check_whirl(s, orbit, start, rounding, error);
 }
 
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
-                                      struct kd_orbit_state *start, struct kd_error *error)
+                                      struct kd_orbit_state *start, double *rounding, struct kd_error *error)
 {
     struct kd_orbit_spec spec = request->specs[index];
     struct kd_error why = { 0 };
@@ -323,7 +346,7 @@ enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, si
         spec = kd_orbit_case_spec(spec.named, spec.spin);
     if (isnan(spec.spin))
         spec.spin = 0;
-    enum kd_status status = solve(&spec, &request->params, orbit, start, &why);
+    enum kd_status status = solve(&spec, &request->params, orbit, start, rounding, &why);
     if (!status)
         return KD_OK;
     char pointer[sizeof why.pointer + 40];

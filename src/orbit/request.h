@@ -25,6 +25,7 @@
 #define KD_ORBITS_MAX 10000u
 #define KD_ORBIT_BODY_MAX ((size_t)4 << 20) /* bytes of a document */
 #define KD_ORBIT_SAMPLES_MAX 200000u        /* of one orbit; of all together where there are many */
+#define KD_ORBIT_ROUNDING_MAX 1e-3
 #define KD_ORBIT_STEPS_MAX 1000000000.      /* of one orbit: five minutes */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
@@ -78,8 +79,9 @@ enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
 /* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". The azimuth of the
- * start is not in it. */
+ * start is not in it. *rounding: the error, relative to the whole way, that rounding of its constants leaves where they lead to a
+ * whirl, at an unstable circle that they all but belong to; what would have more than KD_ORBIT_ROUNDING_MAX is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
-                                      struct kd_orbit_state *start, struct kd_error *error);
+                                      struct kd_orbit_state *start, double *rounding, struct kd_error *error);
 
 #endif

@@ -19,7 +19,7 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
 {
     *run =
         (struct kd_orbit_run) { .params = &request->params, .error_estimate = NAN, .mino_end = NAN, .aim = NAN, .first_phi = NAN };
-    enum kd_status status = kd_orbit_request_solve(request, index, &run->orbit, &run->start, error);
+    enum kd_status status = kd_orbit_request_solve(request, index, &run->orbit, &run->start, &run->rounding, error);
     if (status)
         return status;
     run->phi = request->specs[index].form == KD_ORBIT_STATE ? request->specs[index].phi_deg * M_PI / 180 : 0;
@@ -58,27 +58,31 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* What is not bound ends at the horizon or far away, or when its time is over: found by following it once. */
-static void find_end(struct kd_orbit_run *run)
+/* What is not bound ends at the horizon or far away, or when its time is over: found by following it once, in steps of h. */
+static void find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
-    double horizon = 1 / kd_kerr_horizon(o->a), h = 2 * M_PI / kd_orbit_pace(o) / 128, far = 1 / run->params->r_max;
+    double horizon = 1 / kd_kerr_horizon(o->a), far = 1 / run->params->r_max;
     double time = run->params->time, turns = isnan(run->params->periods) ? 1000 : run->params->periods;
+    double longest = turns * 2 * M_PI / kd_orbit_pace(o);
     if (run->start.w <= far)
         far = run->start.w_rate > 0 ? run->start.w : 0.5 * run->start.w;
+    run->end = KD_END_DURATION;
+    run->aim = NAN;
     kd_orbit_path_init(&path, o, &run->start, kd_orbit_run_method(run));
-    for (double steps = turns * 128; steps > 0; steps--) {
+    for (bool over = false; !over && path.mino.value < longest;) {
         before = path;
         kd_orbit_path_step(&path, h);
-        double w = path.place[KD_PATH_W].value;
+        double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        bool leaves = o->fate == KD_ORBIT_ESCAPE && w <= far && path.rate[KD_PATH_W].value < 0;
+        bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0; /* within the step, from infinity if E = 1 */
+        bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
             run->end = falls ? KD_END_HORIZON : KD_END_FAR;
             run->aim = falls ? horizon : far;
             path = kd_orbit_path_to_radius(&before, h, run->aim);
-            steps = 1;
+            over = true;
         }
         double t = kd_orbit_path_place(&path).t;
         if (!isnan(time) && !(t < time)) {
@@ -104,7 +108,7 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
                               "periods belong to a bound orbit, and this one is to %s: leave the duration out to "
                               "follow it to its end, or give a time",
                               kd_orbit_fate_name(run->orbit.fate));
-    find_end(run);
+    find_end(run, 2 * M_PI / kd_orbit_pace(&run->orbit) / 128);
     return KD_OK;
 }
 
@@ -122,7 +126,7 @@ static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 }
 
 /* run->h is what the step should be at most. */
-static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
+static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
 {
     double pieces = run->samples ? run->samples - 1 : 1, each = fmax(ceil(run->mino_end / run->h / pieces * (1 - 1e-12)), 1);
     if (run->params->way == KD_WAY_CLOSED)
@@ -132,11 +136,38 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
                               KD_ORBIT_STEPS_MAX);
     run->steps = (uint64_t)(each * pieces);
     run->h = run->mino_end / (double)run->steps;
+    return KD_OK;
+}
+
+/* A whirl magnifies what the step does: the end is where it is found in the steps that the run will take. */
+static enum kd_status find_end_again(struct kd_orbit_run *run, struct kd_error *error)
+{
+    for (int i = 0; i < 6; i++) {
+        double before = run->mino_end;
+        enum kd_orbit_end end = run->end;
+        find_end(run, run->h);
+        bool same = run->end == end && fabs(run->mino_end - before) < 0.25 * run->h;
+        enum kd_status status = cut(run, error);
+        if (status || same)
+            return status;
+    }
+    if (run->params->steps)
+        return kd_error_field(error, "/steps", "steps is %u, too few to find the end of this path", run->params->steps);
+    return kd_error_field(error, "/orbit", "this path cannot be followed to its end in double precision");
+}
+
+static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
+{
+    enum kd_status status = cut(run, error);
+    if (!status && !run->closed && !isnan(run->aim))
+        status = find_end_again(run, error);
+    if (run->rounding > 1e-12) /* less is nothing to speak of */
+        run->error_estimate = fmax(run->error_estimate, run->rounding);
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
-    return KD_OK;
+    return status;
 }
 
 enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error)

@@ -21,6 +21,7 @@ struct kd_orbit_run {
     struct kd_orbit_state start;
     double phi;       /* at the start */
     double mass_msun; /* NAN: none */
+    double rounding;  /* as kd_orbit_request_solve */
     bool closed;      /* has a closed form: fate BOUND. Else `bound`, `frequencies` and period are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
@@ -31,8 +32,8 @@ struct kd_orbit_run {
     double aim; /* of what is not bound: 1/r or t of its last place; NAN if it ends when its time is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
-    double error_estimate; /* relative, of the place after a period (or the whole path): from half as many steps. NAN if
-                            * `steps` was given */
+    double error_estimate; /* relative, of the place after a period (or the whole path): from half as many steps, or `rounding`
+                            * if that is larger. NAN if neither is known: `steps` was given, or the closed form, and no whirl ahead */
     /* while it goes on */
     struct kd_orbit_path path;
     struct kd_orbit_drift worst; /* absolute values */

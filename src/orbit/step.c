@@ -26,8 +26,8 @@ struct trial {
 static struct trial begin(const struct kd_orbit_run *run)
 {
     struct trial t = { .last = INFINITY };
-    /* not quite to the end, where t is infinite if it is the horizon */
-    t.span = run->closed ? fmin(run->period, run->mino_end) : 0.999 * run->mino_end;
+    /* At the horizon t is infinite: not quite to the end. */
+    t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
     /* A fall is fast at its end, which little of the span shows, and a whirl magnifies what is not the step's. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
@@ -45,7 +45,7 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
  * magnifies it, leaves nothing to gain. */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {
-    double error = distance(&t->coarse, &t->fine) / 63, tolerance = run->params->tolerance;
+    double error = distance(&t->coarse, &t->fine) / 63, tolerance = fmax(run->params->tolerance, 0.1 * run->rounding);
     if (error <= tolerance) {
         double fewer = fmax(pow(error / tolerance, 1.0 / 6), 0.5);
         run->error_estimate = fmax(error / pow(fewer, 6), 1e-16);

@@ -1,5 +1,6 @@
 #include "physics/orbit.h"
 
+#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/orbit_internal.h"
 #include "physics/polynomial.h"
@@ -159,6 +160,24 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
     return s;
 }
 
+double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
+{
+    /* W falls for large w, or is a cubic that rises: there is one minimum at most. */
+    double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
+    int n = kd_polynomial_roots(slope, 3, 0, 1 / kd_kerr_horizon(o->a), turns);
+    for (int i = 0; i < n && !o->circular; i++) {
+        double w = turns[i], w3 = w * w * w, rest = fabs(o->momentum) + fabs(o->a * o->energy);
+        bool ahead = s->w <= w ? s->w_rate > 0 || o->turns_out : s->w_rate < 0 || o->turns_in;
+        if (!ahead || o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]) <= 0)
+            continue;
+        double size = fabs(o->w[0]) + 2 * w + fabs(o->w[2]) * w * w + 2 * w3 * (fabs(o->carter) + rest * rest) + fabs(o->w[4]) * w3 * w;
+        if (r)
+            *r = 1 / w;
+        return size / fabs(kd_orbit_radial(o, w));
+    }
+    return 0;
+}
+
 struct local {
     double energy, momentum; /* L / sin(theta) */
 };
@@ -176,7 +195,7 @@ static struct local from_frame(double a, double r, double u, enum kd_orbit_frame
     return (struct local) { gamma * lapse, (sqrt(delta) * m_phi - 2 * a * r * sqrt(s2) / sigma * gamma) / lapse };
 }
 
-static enum kd_status check_state(double a, double r, double theta, enum kd_orbit_frame frame, const double v[3],
+static enum kd_status check_state(double a, double r, double theta_deg, enum kd_orbit_frame frame, const double v[3],
                                   struct kd_error *error)
 {
     enum kd_status status = kd_orbit_check_spin(a, error);
@@ -185,24 +204,24 @@ static enum kd_status check_state(double a, double r, double theta, enum kd_orbi
         return status;
     if (!(r > kd_kerr_horizon(a)) || !isfinite(r))
         return kd_error_field(error, "/position/r", "r is %.17g, allowed is above the horizon at %.17g", r, kd_kerr_horizon(a));
-    if (!(theta >= 0 && theta <= M_PI))
-        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.17g, allowed is 0 to 180", theta * 180 / M_PI);
-    if (frame == KD_ORBIT_STATIC && !(r > kd_kerr_ergosphere(a, cos(theta))))
+    if (!(theta_deg >= 0 && theta_deg <= 180))
+        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.17g, allowed is 0 to 180", theta_deg);
+    if (frame == KD_ORBIT_STATIC && !(r > kd_kerr_ergosphere(a, kd_cos_deg(theta_deg))))
         return kd_error_field(error, "/velocity/frame",
                               "nothing is at rest at r = %.17g, inside the ergosphere, which ends at %.17g here: use \"zamo\"", r,
-                              kd_kerr_ergosphere(a, cos(theta)));
+                              kd_kerr_ergosphere(a, kd_cos_deg(theta_deg)));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.17g, allowed is below 1, that of light", speed);
     return KD_OK;
 }
 
-enum kd_status kd_orbit_from_state(double a, double r, double theta, enum kd_orbit_frame frame, const double v[3],
+enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_orbit_frame frame, const double v[3],
                                    struct kd_orbit *o, struct kd_orbit_state *start, struct kd_error *error)
 {
-    enum kd_status status = check_state(a, r, theta, frame, v, error);
+    enum kd_status status = check_state(a, r, theta_deg, frame, v, error);
     if (status)
         return status;
-    double s = theta == M_PI ? 0 : sin(theta), u = fabs(theta - M_PI_2) < DBL_EPSILON ? 0 : cos(theta);
+    double s = kd_sin_deg(theta_deg), u = kd_cos_deg(theta_deg);
     double sigma = r * r + a * a * u * u, delta = r * (r - 2) + a * a;
     double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     struct local local = from_frame(a, r, u, frame, gamma, gamma * v[2]);

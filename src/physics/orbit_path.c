@@ -330,6 +330,10 @@ struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, do
 
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w)
 {
+    struct kd_orbit_path end = moved(path, h);
+    bool beyond = (height(path, RADIUS, w) < 0) != (height(&end, RADIUS, w) < 0);
+    if (!beyond && (path->rate[KD_PATH_W].value < 0) != (end.rate[KD_PATH_W].value < 0))
+        h = kd_orbit_path_to_apsis(path, h).mino.value - path->mino.value; /* with E = 1 infinity is a turning point like others */
     return to_event(path, h, RADIUS, w);
 }
 

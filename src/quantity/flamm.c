@@ -1,5 +1,6 @@
 #include "quantity/define.h"
 
+#include "physics/angle.h"
 #include "physics/embedding.h"
 #include "physics/kerr.h"
 
@@ -39,8 +40,8 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         *m = (struct memory) { p->r, kd_embedding_height(p->spin, p->r) };
     o->horizon = kd_kerr_horizon(p->spin);
     o->radius = kd_embedding_radius(p->spin, p->r);
-    o->x = o->radius * cos(p->phi_deg * (M_PI / 180));
-    o->y = o->radius * sin(p->phi_deg * (M_PI / 180));
+    o->x = o->radius * kd_cos_deg(p->phi_deg);
+    o->y = o->radius * kd_sin_deg(p->phi_deg);
     o->z = m->z;
     o->proper_distance = kd_embedding_distance(p->spin, p->r);
     o->flamm = p->r >= 2 ? sqrt(8 * (p->r - 2)) : NAN;

@@ -1,5 +1,6 @@
 #include "quantity/define.h"
 
+#include "physics/angle.h"
 #include "physics/kerr.h"
 
 #define PARAMETERS(P)                                                                                                  \
@@ -26,7 +27,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
 {
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    double a = p->spin, r = p->r, u = cos(p->theta_deg * (M_PI / 180)), s = sin(p->theta_deg * (M_PI / 180));
+    double a = p->spin, r = p->r, u = kd_cos_deg(p->theta_deg), s = kd_sin_deg(p->theta_deg);
     (void)memory;
     if (kd_quantity_outside_horizon(a, r, error))
         return KD_EINVAL;

@@ -1,6 +1,7 @@
 #include "quantity/define.h"
 
 #include "physics/epicyclic.h"
+#include "physics/angle.h"
 #include "physics/kerr.h"
 
 #define PARAMETERS(P)                                                                                                  \
@@ -44,7 +45,7 @@ static void fill_hole(const struct parameters *p, struct outputs *o)
     o->horizon = kd_kerr_horizon(a);
     o->inner_horizon = kd_kerr_inner_horizon(a);
     o->horizon_omega = a / (2 * o->horizon);
-    o->ergosphere = kd_kerr_ergosphere(a, cos(p->theta_deg * (M_PI / 180)));
+    o->ergosphere = kd_kerr_ergosphere(a, kd_cos_deg(p->theta_deg));
     o->photon_prograde = kd_kerr_photon_orbit(a);
     o->photon_retrograde = kd_kerr_photon_orbit(-a);
     o->marginally_bound = kd_kerr_marginally_bound(a);

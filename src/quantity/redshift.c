@@ -1,5 +1,6 @@
 #include "quantity/define.h"
 
+#include "physics/angle.h"
 #include "physics/disk.h"
 #include "physics/kerr.h"
 #include "physics/ring_image.h"
@@ -46,8 +47,8 @@ struct memory {
 
 static double g_of(const struct parameters *p, double r, const struct kd_ring_point *at)
 {
-    double s = sin(p->inclination_deg * (M_PI / 180)), c2 = 1 - s * s, lambda = -at->alpha * s;
-    double eta = (at->alpha * at->alpha - p->spin * p->spin) * c2 + at->beta * at->beta;
+    double s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), lambda = -at->alpha * s;
+    double eta = (at->alpha * at->alpha - p->spin * p->spin) * c * c + at->beta * at->beta;
     return r >= kd_kerr_isco(p->spin) ? kd_disk_redshift(p->spin, r, lambda)
                                       : kd_disk_redshift_plunging(p->spin, r, lambda, eta, at->sense > 0);
 }
@@ -78,7 +79,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct kd_ring_point at;
     if (fresh && make_rings(p, m, error))
         return KD_EINVAL;
-    double phi = p->phi_deg * (M_PI / 180), side = p->inclination_deg > 90 ? -1 : 1, s = sin(p->inclination_deg * (M_PI / 180));
+    double phi = p->phi_deg * (M_PI / 180), side = p->inclination_deg > 90 ? -1 : 1, s = kd_sin_deg(p->inclination_deg);
     if (!kd_ring_find(&m->rings[0], phi, &at))
         return not_found(m, error);
     o->g = g_of(p, m->r, &at);

@@ -1,5 +1,6 @@
 #include "quantity/define.h"
 
+#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/ring_image.h"
 #include "physics/tetrad.h"
@@ -41,7 +42,7 @@ struct memory {
 
 static enum kd_status make_frame(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
-    double i = p->inclination_deg * (M_PI / 180), edge = kd_kerr_ergosphere(p->spin, cos(i));
+    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), edge = kd_kerr_ergosphere(p->spin, u);
     if (isinf(p->observer_r))
         return KD_OK;
     if (!(p->observer_r > kd_kerr_horizon(p->spin)))
@@ -50,7 +51,7 @@ static enum kd_status make_frame(const struct parameters *p, struct memory *m, s
     if (p->observer == 0 && !(p->observer_r > edge))
         return kd_quantity_outside(error, "observer_r", p->observer_r,
                                    "in the ergosphere, where nothing is at rest; allowed is outside %.15g M, or observer zamo", edge);
-    m->frame = (p->observer == 1 ? kd_tetrad_zamo : kd_tetrad_static)(p->spin, p->observer_r, cos(i), sin(i));
+    m->frame = (p->observer == 1 ? kd_tetrad_zamo : kd_tetrad_static)(p->spin, p->observer_r, u, s);
     return KD_OK;
 }
 

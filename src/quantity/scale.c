@@ -1,5 +1,6 @@
 #include "quantity/define.h"
 
+#include "physics/angle.h"
 #include "physics/constants.h"
 #include "physics/critical.h"
 #include "physics/kerr.h"
@@ -50,9 +51,12 @@ struct memory { double shadow; }; /* its mean radius in M */
 
 static double shadow_of(const struct parameters *p)
 {
-    double i = p->inclination_deg * (M_PI / 180);
     struct kd_critical curve = kd_critical_of(&(struct kd_critical_observer) {
-        .spin = p->spin, .radius = INFINITY, .cos_theta = cos(i), .sin_theta = p->inclination_deg == 180 ? 0 : sin(i) });
+        .spin = p->spin,
+        .radius = INFINITY,
+        .cos_theta = kd_cos_deg(p->inclination_deg),
+        .sin_theta = kd_sin_deg(p->inclination_deg),
+    });
     return curve.status ? NAN : kd_critical_measure(&curve).mean_radius;
 }
 

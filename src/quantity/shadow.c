@@ -1,5 +1,6 @@
 #include "quantity/define.h"
 
+#include "physics/angle.h"
 #include "physics/critical.h"
 #include "physics/kerr.h"
 
@@ -41,11 +42,10 @@ struct memory { struct kd_critical curve; };
 
 static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
-    const double i = p->inclination_deg * (M_PI / 180), horizon = kd_kerr_horizon(p->spin);
+    const double horizon = kd_kerr_horizon(p->spin);
     struct kd_critical_observer observer = { .spin = p->spin, .radius = p->observer_r, .frame = p->observer == 1 ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC };
-    /* The axis and the plane exactly: cos(90 degrees) is 6e-17. */
-    observer.cos_theta = p->inclination_deg == 90 ? 0 : cos(i);
-    observer.sin_theta = p->inclination_deg == 180 ? 0 : sin(i);
+    observer.cos_theta = kd_cos_deg(p->inclination_deg);
+    observer.sin_theta = kd_sin_deg(p->inclination_deg);
     if (!(p->observer_r > horizon))
         return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.15g M", horizon);
     m->curve = kd_critical_of(&observer);

@@ -1,17 +1,10 @@
 #include "render/camera.h"
 
+#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/tetrad.h"
 
 #include <math.h>
-
-/* Sine and cosine of degrees, exact at the quarter turns: the equatorial plane and the axis are where users look from. */
-static double cos_deg(double x)
-{
-    x = fabs(fmod(x, 360));
-    return x == 90 || x == 270 ? 0 : cos(x * (M_PI / 180));
-}
-static double sin_deg(double x) { return fmod(x, 180) == 0 ? 0 : sin(x * (M_PI / 180)); }
 
 struct vec { double x, y, z; };
 static struct vec mix(double a, struct vec p, double b, struct vec q)
@@ -30,7 +23,7 @@ static void set_directions(struct kd_camera_exact *o, struct vec c0, struct vec 
  * right-hand side pointing down. */
 static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
-    double cr = cos_deg(c->roll_deg), sr = sin_deg(c->roll_deg);
+    double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
     set_directions(o, (struct vec){ c->centre_alpha, c->centre_beta, 0 }, (struct vec){ step * cr, -step * sr, 0 },
                    (struct vec){ step * sr, step * cr, 0 });
 }
@@ -40,9 +33,9 @@ static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double s
 static void pinhole(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     const struct vec inwards = { -1, 0, 0 }, right = { 0, 0, 1 }, up = { 0, -1, 0 };
-    double cy = cos_deg(c->yaw_deg), sy = sin_deg(c->yaw_deg);
-    double cp = cos_deg(c->pitch_deg), sp = sin_deg(c->pitch_deg);
-    double cr = cos_deg(c->roll_deg), sr = sin_deg(c->roll_deg);
+    double cy = kd_cos_deg(c->yaw_deg), sy = kd_sin_deg(c->yaw_deg);
+    double cp = kd_cos_deg(c->pitch_deg), sp = kd_sin_deg(c->pitch_deg);
+    double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
     struct vec level = mix(cy, inwards, sy, right);
     struct vec forward = mix(cp, level, sp, up), upward = mix(cp, up, -sp, level);
     struct vec side = mix(cy, right, -sy, inwards);
@@ -76,7 +69,7 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     const struct kd_camera *c = &scene->camera;
     double width = (double)scene->image.width * scene->image.samples;
     double height = (double)scene->image.height * scene->image.samples;
-    double u = cos_deg(c->inclination_deg), s = sin_deg(c->inclination_deg);
+    double u = kd_cos_deg(c->inclination_deg), s = kd_sin_deg(c->inclination_deg);
 
     o.middle_x = 0.5 * width - 0.5;
     o.middle_y = 0.5 * height - 0.5;

@@ -1,6 +1,7 @@
 #include "render/plan.h"
 
 #include "interface.h"
+#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "render/accuracy.h"
 #include "render/critical_pixels.h"
@@ -251,7 +252,7 @@ static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, st
 
 static double ergosphere(const struct kd_scene *scene)
 {
-    return kd_kerr_ergosphere(scene->spacetime.spin, cos(scene->camera.inclination_deg * (M_PI / 180)));
+    return kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(scene->camera.inclination_deg));
 }
 
 /* Whether listed rays can stand in for the camera's: they are labelled by L/E and Q/E^2, and E changes sign in the ergosphere. */

@@ -1,5 +1,6 @@
 #include "render/rays_check.h"
 
+#include "physics/angle.h"
 #include "physics/kerr.h"
 
 #include <math.h>
@@ -59,7 +60,7 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
         status = check_accuracy(p, error);
     if (!status && (!n || n > KD_RAYS_MAX))
         status = kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX);
-    double s = sin(p->inclination_deg * (M_PI / 180)), u2 = 1 - s * s, a = p->spin, r = p->r;
+    double s = kd_sin_deg(p->inclination_deg), u = kd_cos_deg(p->inclination_deg), u2 = u * u, a = p->spin, r = p->r;
     double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
     for (size_t i = 0; i < n && !status; i++) {
         double alpha = alpha_beta[2 * i], beta = alpha_beta[2 * i + 1];

@@ -1,5 +1,6 @@
 #include "render/rays_closed.h"
 
+#include "physics/angle.h"
 #include "physics/disk.h"
 #include "physics/kerr.h"
 #include "physics/null_geodesic.h"
@@ -14,22 +15,12 @@
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
 
-/* Exact at the quarter turns, where observers like to sit. */
-static double sine(double degrees)
-{
-    return degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
-}
-static double cosine(double degrees)
-{
-    return degrees == 90 ? 0 : cos(degrees * (M_PI / 180));
-}
-
 static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta, bool outward)
 {
     return (struct kd_null_ray) { .spin = p->spin,
                                   .radius = p->r,
-                                  .cos_theta = cosine(p->inclination_deg),
-                                  .sin_theta = sine(p->inclination_deg),
+                                  .cos_theta = kd_cos_deg(p->inclination_deg),
+                                  .sin_theta = kd_sin_deg(p->inclination_deg),
                                   .alpha = alpha_beta[0],
                                   .beta = alpha_beta[1],
                                   .outward = outward && isfinite(p->r),
@@ -39,7 +30,7 @@ static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *a
 /* outwards: of the real photon, as it leaves the gas. */
 static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
 {
-    double a = p->spin, s = sine(p->inclination_deg), c = cosine(p->inclination_deg);
+    double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
     double alpha = alpha_beta[0], beta = alpha_beta[1], lambda = -alpha * s;
     if (r >= kd_kerr_isco(a))
         return kd_disk_redshift(a, r, lambda);
@@ -165,7 +156,7 @@ void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_b
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
                      uint32_t k, double r)
 {
-    double a = p->spin, s = sine(p->inclination_deg), c = cosine(p->inclination_deg), w2 = 1 / (r * r);
+    double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), w2 = 1 / (r * r);
     double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;
     double d = (1 - kd_kerr_horizon(a) / r) * (1 - kd_kerr_inner_horizon(a) / r);
     double carter = (alpha - a) * (alpha + a) * c * c + beta * beta + j * j;

@@ -2,6 +2,7 @@
 #include "render/rays_device.h"
 
 #include "interface.h"
+#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "render/internal.h"
 #include "render/rays_start.h"
@@ -41,13 +42,6 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Exact at the quarter turns, where observers like to sit. */
-static void observer(double degrees, double *u, double *s)
-{
-    *u = degrees == 90 ? 0 : cos(degrees * (M_PI / 180));
-    *s = degrees == 0 || degrees == 180 ? 0 : sin(degrees * (M_PI / 180));
-}
-
 /* Where a Cartesian ray from infinity starts: far positions cost digits of b, and Tao's method phase. A nearer start would be more
  * exact still, but by leaving the work to Mino time (rays_start.c): at 100 M single precision loses a sixth of what it does here. */
 #define FAR 1e3
@@ -61,8 +55,7 @@ static void upload_states(const struct work *w, const struct kd_ray_labels *rays
     void *at = kd_vk_buffer_map(w->rays);
     const size_t per_start = sizeof(struct kd_rays_origin) / sizeof(double);
     union { struct kd_rays_origin origin; double numbers[sizeof(struct kd_rays_origin) / sizeof(double)]; } start;
-    double u, s;
-    observer(p->inclination_deg, &u, &s);
+    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg);
     put(w, at, 0, p->spin);
     put(w, at, 1, kd_kerr_horizon(p->spin));
     put(w, at, 2, escape(w));
@@ -78,8 +71,7 @@ static void upload(const struct work *w, const struct kd_ray_labels *rays)
 {
     const struct kd_rays_params *p = w->params;
     void *at = kd_vk_buffer_map(w->rays);
-    double u, s, r_plus = kd_kerr_horizon(p->spin);
-    observer(p->inclination_deg, &u, &s);
+    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), r_plus = kd_kerr_horizon(p->spin);
     const double header[HEADER] = {
         p->spin, u, s, 1 / r_plus, sqrt((1 - p->spin) * (1 + p->spin)), isinf(p->r) ? 0 : 1 / p->r,
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,

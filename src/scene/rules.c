@@ -1,5 +1,6 @@
 #include "scene/rules.h"
 
+#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/qnm.h"
 #include "scene/number.h"
@@ -107,8 +108,7 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
 static enum kd_status ergosphere(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
-    double radians = camera->inclination_deg * (M_PI / 180);
-    double least = kd_kerr_ergosphere(scene->spacetime.spin, cos(radians));
+    double least = kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(camera->inclination_deg));
     if (camera->observer != KD_OBSERVER_STATIC || camera->r > least)
         return KD_OK;
     return kd_error_field(

@@ -1,0 +1,134 @@
+/* Bodies that come to whirl at an unstable circle, for E about 1 and on both sides of the circle's L: what is answered must be
+ * right within the error that is stated, or refused. The oracle is quadrature in 30 digits: tests/oracle/whirl_reference.py. */
+#include "orbit/run.h"
+#include "whirl_reference.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define COUNT(x) (sizeof(x) / sizeof *(x))
+#define SAMPLES 9
+
+struct answer {
+    enum kd_orbit_fate fate;
+    enum kd_orbit_end end;
+    double from, mino, proper, t, phi, r, stated, drift;
+};
+
+static enum kd_status ask(const char *text, struct answer *out, struct kd_error *error)
+{
+    struct kd_orbit_request request;
+    struct kd_orbit_run run, *runs[] = { &run };
+    struct kd_orbit_sample samples[SAMPLES];
+    size_t n = 0;
+    kd_orbit_request_init(&request);
+    *error = (struct kd_error) { 0 };
+    enum kd_status status = kd_orbit_request_json(&request, text, strlen(text), error);
+    status = status ? status : kd_orbit_run_init(&run, &request, 0, error);
+    status = status ? status : kd_orbit_run_prepare(runs, 1, error);
+    while (!status && !kd_orbit_run_done(&run))
+        n += kd_orbit_run_advance(&run, 1000000, samples + n, SAMPLES - n);
+    if (!status) {
+        const struct kd_orbit_place *last = &samples[n - 1].place;
+        assert_int_equal(n, SAMPLES);
+        for (size_t i = 0; i < n && run.end != KD_END_HORIZON; i++)
+            assert_true(isfinite(samples[i].place.t) && isfinite(samples[i].place.phi) && samples[i].place.r > 0);
+        *out = (struct answer) { run.orbit.fate, run.end, samples[0].place.r, last->mino, last->proper, last->t, last->phi, last->r,
+                                 run.error_estimate, run.worst.energy };
+        if (run.orbit.fate == KD_ORBIT_BOUND) {
+            const struct kd_orbit_frequencies *f = &run.frequencies;
+            out->mino = run.period, out->phi = f->mino_phi * run.period, out->t = f->mino_t * run.period;
+            out->proper = f->mino_proper * run.period;
+        }
+    }
+    kd_orbit_request_finish(&request);
+    return status;
+}
+
+static void right_or_refused(void **state)
+{
+    (void)state;
+    unsigned refused = 0;
+    double worst = 0;
+    for (size_t i = 0; i < COUNT(whirl_reference); i++) {
+        const struct whirl_reference *row = &whirl_reference[i];
+        struct kd_error error;
+        struct answer a;
+        char text[300], r[40] = "";
+        if (row->from == 100)
+            snprintf(r, sizeof r, ",\"r\":100");
+        snprintf(text, sizeof text,
+                 "{\"spin\":%.17g,\"orbit\":{\"energy\":%.17g,\"angular_momentum\":%.17g%s},\"samples\":%d,\"tolerance\":1e-10%s}",
+                 row->spin, row->energy, row->momentum, r, SAMPLES,
+                 row->fate == KD_ORBIT_BOUND ? ",\"method\":\"closed\",\"duration\":{\"periods\":1}" : "");
+        if (ask(text, &a, &error)) {
+            if (fabs(row->beside) > 1.1e-12 || !strstr(error.message, "whirls") || strcmp(error.pointer, "/orbit/angular_momentum"))
+                fail_msg("%s: %s at %s", text, error.message, error.pointer);
+            refused++;
+            continue;
+        }
+        double off = fmax(fabs(a.mino / row->mino - 1), fabs(a.proper / row->proper - 1));
+        if (row->fate != KD_ORBIT_PLUNGE)
+            off = fmax(off, fmax(fabs(a.t / row->t - 1), fabs(a.phi / row->phi - 1)));
+        double bound = fmax(isnan(a.stated) ? 0 : a.stated, 1e-9);
+        worst = fmax(worst, off / bound);
+        bool ended = a.end == (row->fate == KD_ORBIT_PLUNGE ? KD_END_HORIZON : row->fate == KD_ORBIT_BOUND ? KD_END_DURATION : KD_END_FAR);
+        if (a.fate != row->fate || !ended || !(off <= bound) || !(a.drift < 1e-9))
+            fail_msg("%s: %s, ends at r = %.9g; off by %.2g, stated %.2g; drift of E %.2g", text, kd_orbit_fate_name(a.fate), a.r, off,
+                     a.stated, a.drift);
+    }
+    print_message("%u of %zu refused; the worst error is %.2g of what is stated\n", refused, COUNT(whirl_reference), worst);
+    assert_true(refused > 10 && refused <= COUNT(whirl_reference) / 4);
+}
+
+static void next_to_the_whirl_itself(void **state)
+{
+    (void)state;
+    static const char *const refused[] = {
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4},\"samples\":9}",
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4.000000000000001},\"samples\":9}",
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":3.999999999999999},\"samples\":9}",
+        "{\"spin\":0.9,\"orbit\":{\"energy\":1,\"angular_momentum\":2.632455532033676},\"samples\":9}",
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":3,\"outward\":true},\"samples\":9}",
+    };
+    static const char *const answered[] = {
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":4},\"samples\":9}", /* the circle */
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":3},\"samples\":9}", /* away from it, both ways */
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":20,\"outward\":true},\"samples\":9}",
+    };
+    struct kd_error error;
+    struct answer a;
+    for (size_t i = 0; i < COUNT(refused); i++)
+        if (ask(refused[i], &a, &error) != KD_EINVAL || !strstr(error.message, "whirls"))
+            fail_msg("%s: %s, ends at r = %.9g %s", refused[i], kd_orbit_fate_name(a.fate), a.r, error.message);
+    for (size_t i = 0; i < COUNT(answered); i++)
+        if (ask(answered[i], &a, &error) || !(a.drift < 1e-9))
+            fail_msg("%s: %s, drift of E %.2g", answered[i], error.message, a.drift);
+}
+
+/* With E = 1 infinity is a turning point, and a long step near it goes out and back. t from the middle to r_max is that of
+ * radial fall but for lower orders: quadrature gives 942840164.003769 (both ways, L = 6). */
+static void lets_go_before_infinity(void **state)
+{
+    (void)state;
+    struct kd_error error;
+    struct answer a;
+    assert_int_equal(ask("{\"orbit\":{\"energy\":1,\"angular_momentum\":6},\"r_max\":1e6,\"samples\":9}", &a, &error), KD_OK);
+    assert_int_equal(a.end, KD_END_FAR);
+    if (!(fabs(a.t / 942840164.003769 - 1) < 1e-10 && fabs(a.mino / 1.16278738302296 - 1) < 1e-12 && fabs(a.r / 1e6 - 1) < 1e-12))
+        fail_msg("t %.15g, Mino time %.15g, r %.15g, stated %.2g", a.t, a.mino, a.r, a.stated);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(right_or_refused), cmocka_unit_test(next_to_the_whirl_itself),
+                                        cmocka_unit_test(lets_go_before_infinity) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
