@@ -323,8 +323,9 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     return map ? KD_OK : may_list(scene, error);
 }
 
-enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
-                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+/* All but what depends on the pixels at the critical curve. */
+static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity,
+                              struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan = { 0 };
     plan.width = (uint32_t)scene->image.width;
@@ -351,9 +352,18 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     plan.planes = plan.orders * (1 + plan.phi + plan.delay + plan.fall) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
+    *out = plan;
+    return bands(out, scene, capacity, error);
+}
 
-    status = critical(&plan, scene, capacity, error);
+enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_plan plan;
+    enum kd_status status = outline(scene, needs, capacity, &plan, error); /* limits first: a list of what is too large takes long */
     if (!status)
+        status = critical(&plan, scene, capacity, error);
+    if (!status && plan.critical)
         status = bands(&plan, scene, capacity, error);
     if (status)
         return status;
@@ -384,4 +394,11 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
 {
     const struct kd_needs needs = kd_needs_of(scene);
     return kd_plan_make_for(scene, &needs, capacity, out, error);
+}
+
+enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error)
+{
+    struct kd_plan plan;
+    const struct kd_needs needs = kd_needs_of(scene);
+    return outline(scene, &needs, capacity, &plan, error);
 }

@@ -78,6 +78,10 @@ struct kd_plan {
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
                             struct kd_plan *out, struct kd_error *error);
 
+/* Whether kd_plan_make finds the scene possible, without the list of pixels at the critical curve, which takes milliseconds for
+ * pictures of many pixels. With that list it may still be KD_ETOOBIG. */
+enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error);
+
 /* Buffers that the lens map of the pixels at the critical curve takes, and bytes of one. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
 {

@@ -16,8 +16,6 @@
 
 #define JSON_TYPE "application/json"
 #define HEARTBEAT_MS 15000.0 /* of an event stream */
-#define MOMENT_MS 2.         /* of this thread, which serves everybody */
-#define SMALL (64u << 10)    /* bytes that are read in less */
 
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -165,8 +163,6 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     snprintf(d->draft.preset, sizeof d->draft.preset, "%s", preset ? preset : "");
     client_of(request, d->client, sizeof d->client);
     request->task = &d->task;
-    if (request->body.size <= SMALL && work(&d->task, kd_clock_ms() + MOMENT_MS) == KD_TURN_LAST)
-        return deliver(request);
     return kd_task_submit(&d->task);
 }
 

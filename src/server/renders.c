@@ -1,8 +1,8 @@
 /* POST /v1/plan, and /v1/render from the scene to the picture. */
 #include "render/picture.h"
 #include "server/negotiate.h"
+#include "server/planned.h"
 #include "server/reply.h"
-#include "server/scene_source.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,31 +11,12 @@
 
 #define OFFERED "image/png"
 
-static bool make_plan(struct kd_request *request, struct kd_scene *scene, struct kd_plan *plan,
-                      struct kd_problem *problem, struct kd_error *error)
-{
-    struct kd_capacity capacity;
-
-    if (!kd_scene_of_request(request, scene, problem, error))
-        return false;
-    kd_render_queue_capacity(request->server->renders, &capacity);
-    if (!kd_plan_make(scene, &capacity, plan, error))
-        return true;
-    *problem = kd_problem_from(error);
-    return false;
-}
-
 enum MHD_Result kd_handle_plan(struct kd_request *request)
 {
-    struct kd_scene scene;
-    struct kd_plan plan;
-    struct kd_problem problem;
-    struct kd_error error;
+    enum MHD_Result result;
     struct kd_buffer json = { 0 };
-
-    if (!make_plan(request, &scene, &plan, &problem, &error))
-        return kd_reply_problem(request, &problem);
-    return kd_reply_json(request, kd_plan_to_json(&plan, &json), &json, request->route->answer);
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer) : result;
 }
 
 static bool accepts(struct kd_request *request)
@@ -231,10 +212,9 @@ static enum kd_status tag(struct kd_request *request, const struct kd_scene *sce
 
 enum MHD_Result kd_handle_render(struct kd_request *request)
 {
-    struct kd_scene scene;
-    struct kd_plan plan;
     struct kd_problem problem;
     struct kd_error error;
+    enum MHD_Result result;
 
     if (request->job)
         return deliver(request);
@@ -243,16 +223,19 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
                                             .offered = OFFERED,
                                             .detail = "pictures are offered as " OFFERED " only" });
-    if (!make_plan(request, &scene, &plan, &problem, &error))
-        return kd_reply_problem(request, &problem);
-    if (tag(request, &scene))
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    if (!planned)
+        return result;
+    const struct kd_scene *scene = &planned->scene;
+    const struct kd_plan *plan = &planned->plan;
+    if (tag(request, scene))
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
-        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), &plan));
+        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), plan));
     if (request->head)
-        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(OFFERED), &plan));
-    if (!admitted(request, &plan, &problem, &error))
+        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(OFFERED), plan));
+    if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
-    return submit(request, &scene, &plan);
+    return submit(request, scene, plan);
 }

@@ -3,7 +3,7 @@
 #include "scene/text.h"
 #include "scene/tree.h"
 #include "server/reply.h"
-#include "server/scene_source.h"
+#include "server/planned.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -69,23 +69,23 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     struct kd_session *session = NULL;
     struct kd_session_state state;
     struct kd_problem problem;
-    struct kd_scene scene;
-    struct kd_plan plan;
     struct kd_error error = { 0 };
-    if (!kd_scene_of_request(request, &scene, &problem, &error))
-        return kd_reply_problem(request, &problem);
-    if (kd_sessions_plan(server->sessions, &scene, &plan, &error))
+    enum MHD_Result result;
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    if (!planned)
+        return result;
+    if (kd_sessions_takes(server->sessions, &planned->plan, &error))
         return kd_reply_error(request, &error);
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
                                                                 .detail = "the server is stopping and takes no new sessions" });
-    if (kd_sessions_open(server->sessions, &scene, &plan, &session, &error)) {
+    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, &session, &error)) {
         problem = kd_problem_from(&error);
         problem.retry_after = 10;
         return kd_reply_problem(request, &problem);
     }
     kd_session_state(session, &state);
-    enum MHD_Result result = answer(request, session, &state, true);
+    result = answer(request, session, &state, true);
     kd_session_release(session);
     return result;
 }

@@ -58,16 +58,20 @@ struct kd_scene kd_session_scene(const struct kd_session *s, double now)
 
 /* Not locked. */
 
-enum kd_status kd_sessions_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
+{
+    if (plan->estimate_ms <= all->params.longest_s * 1e3)
+        return KD_OK;
+    return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s, more than the %u s a render may take",
+                        plan->estimate_ms * 1e-3, all->params.longest_s);
+}
+
+static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
     struct kd_capacity capacity;
     kd_render_queue_capacity(all->params.renders, &capacity);
     enum kd_status status = kd_plan_make(scene, &capacity, plan, error);
-    if (!status && plan->estimate_ms > all->params.longest_s * 1e3)
-        status = kd_error_set(error, KD_ETOOBIG,
-                              "a frame of this scene would take about %.0f s, more than the %u s a render may take",
-                              plan->estimate_ms * 1e-3, all->params.longest_s);
-    return status;
+    return status ? status : kd_sessions_takes(all, plan, error);
 }
 
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
@@ -167,7 +171,7 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     if (!status)
         status = kd_scene_validate(&scene, error);
     if (!status)
-        status = kd_sessions_plan(s->all, &scene, &plan, error);
+        status = make_plan(s->all, &scene, &plan, error);
     if (status)
         return status;
     pthread_mutex_lock(&s->all->lock);

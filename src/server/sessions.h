@@ -24,9 +24,8 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
 /* Nothing may be under way: after kd_sessions_close, and when the render queue has finished. Accepts NULL. */
 void kd_sessions_destroy(struct kd_sessions *all);
 
-/* Of a valid scene; errors as kd_plan_make, and KD_ETOOBIG where a frame would take too long. */
-enum kd_status kd_sessions_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan,
-                                struct kd_error *error);
+/* KD_ETOOBIG where a frame would take too long. */
+enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
 /* A valid scene with its plan, to a new session, of which the caller holds a reference. KD_EBUSY: as many as may. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,

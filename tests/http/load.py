@@ -1,5 +1,6 @@
 """A full queue, clients that vanish, many at once, and nothing left behind."""
 import concurrent.futures
+import json
 import os
 import time
 import unittest
@@ -72,6 +73,38 @@ class Queue(daemon.Case):
                 return b' 503 ' not in s.recv(100)
             except TimeoutError:
                 return True
+
+
+class Plans(daemon.Case):
+    options = ('--queue', 1)
+
+    def test_what_is_too_large_is_refused_before_anything_is_listed(self):
+        def seconds():  # of processor time, of all threads
+            with open(f'/proc/{self.daemon.process.pid}/stat') as f:
+                return sum(map(int, f.read().rsplit(')', 1)[1].split()[11:13])) / os.sysconf('SC_CLK_TCK')
+        before = seconds()
+        for _ in range(40):  # 134 MB of marks each, and 0.1 s at best, if they are listed
+            self.assertProblem(self.daemon.post('/v1/plan', '{"image":{"width":32768,"height":32768}}'), 422, 'too-large')
+        self.assertLess(seconds() - before, 1.5)
+
+    def test_large_plans_are_made_by_the_workers(self):
+        large = {'image': {'width': 2500, 'height': 2000}}
+        self.assertEqual(self.daemon.post('/v1/plan', large).json()['rays'], 5000000)
+        padded = json.dumps(large) + ' ' * 70000
+        self.assertEqual(self.daemon.post('/v1/plan', padded).json()['rays'], 5000000)
+        self.assertProblem(self.daemon.post('/v1/plan', '{"image":{"width":0}}' + ' ' * 70000), 422, 'invalid-scene', '/image/width')
+        self.assertProblem(self.daemon.post('/v1/plan', '{' + ' ' * 70000), 400, 'malformed-json')
+        orbit = json.dumps({'orbit': {'p': 8, 'e': 0.5}, 'duration': {'periods': 1000000}, 'steps': 320, 'samples': 2}).encode()
+        with self.daemon.connect() as s:
+            s.sendall(b'POST /v1/orbits HTTP/1.1\r\nHost: localhost\r\nAccept: application/x-ndjson\r\n'
+                      b'Content-Type: application/json\r\nContent-Length: %d\r\n\r\n' % len(orbit) + orbit)
+            self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_turns_unfinished'] == 1))
+            for path, status in (('/v1/plan', 200), ('/v1/sessions', 201)):
+                self.assertProblem(self.daemon.post(path, large), 503, 'queue-full')
+                self.assertProblem(self.daemon.post(path, padded), 503, 'queue-full')
+                self.assertEqual(self.daemon.post(path, '{}').status, status)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.post('/v1/plan', large).status == 200))
+        self.assertTrue(self.daemon.request('HEAD', '/v1/render?image.width=2500&image.height=2000').header('ETag'))
 
 
 class Crowd(daemon.Case):
