@@ -93,3 +93,16 @@ unsigned kd_cli_number(const struct argp_state *state, const char *option, const
         argp_error(state, "%s %s: a whole number from %u to %u", option, text, minimum, maximum);
     return (unsigned)value;
 }
+
+uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text)
+{
+    static const char units[] = "KMGT";
+    char *end;
+    errno = 0;
+    unsigned long long value = strtoull(text, &end, 10);
+    const char *unit = *end ? strchr(units, *end) : NULL;
+    int shift = unit ? 10 * (int)(unit - units + 1) : 0;
+    if (text[0] < '0' || text[0] > '9' || !unit || end[1] || errno || value > UINT64_C(1) << (50 - shift) || value << shift < 64 << 20)
+        argp_error(state, "%s %s: a size from 64M to 1024T, as 1536M or 2G", option, text);
+    return (uint64_t)value << shift;
+}

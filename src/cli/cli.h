@@ -8,6 +8,7 @@
 #include "base/error.h"
 
 #include <argp.h>
+#include <stdint.h>
 
 enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2 };
 
@@ -39,6 +40,11 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 
 /* Write to stdout and make sure that it arrived. */
 int kd_cli_print(const void *data, size_t size);
+
+/* A size from an option's text, as 1536M or 2G (powers of 1024), at least 64M; or a usage error. */
+uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text);
+#define KD_CLI_MEMORY                                                                                                                \
+    { "memory", 'M', "SIZE", 0, "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)", 0 }
 
 /* A whole number from an option's text, or a usage error. */
 unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,

@@ -16,11 +16,13 @@
 struct arguments {
     struct kd_scene_options scene;
     const char *device, *output;
+    uint64_t memory;
     bool stats;
 };
 
 static const struct argp_option table[] = {
     { "output", 'o', "FILE", 0, "the PNG file to write, - for standard output (required)", 0 },
+    KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
     { 0 },
 };
@@ -45,6 +47,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case 'o': arguments->output = text; return 0;
     case 't': arguments->stats = true; return 0;
+    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
         if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the picture go?");
@@ -124,7 +127,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     if (!status)
         status = kd_file_check(arguments->output, error);
     if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device },
+        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory },
                                     &work.renderer, error);
     if (!status)
         status = draw(&work, &scene, error);

@@ -11,6 +11,7 @@
 struct arguments {
     const char *device, *listen;
     const char *state;
+    uint64_t memory;
     unsigned port, queue, sessions, jobs, client_jobs;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
@@ -24,6 +25,7 @@ static const struct argp_option table[] = {
     { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
     { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one address (default: as many as any)", 0 },
     { "state", 'S', "DIR", 0, "keep jobs and their frames there, so that they survive a restart", 0 },
+    KD_CLI_MEMORY,
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
     { 0 },
 };
@@ -50,6 +52,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
     case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
     case 'S': arguments->state = text; return 0;
+    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case 'H': add_host(arguments, text, state); return 0;
     case ARGP_KEY_ARG: argp_error(state, "%s: it takes no argument", text); return 0;
     }
@@ -89,7 +92,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .jobs = arguments->jobs,
         .client_jobs = arguments->client_jobs,
         .state = arguments->state,
-        .renderer = { .device = arguments->device },
+        .renderer = { .device = arguments->device, .memory_bytes = arguments->memory },
     };
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)

@@ -218,9 +218,11 @@ static enum kd_status run(struct kd_frame_job *j)
     struct kd_capacity c;
     bool reused = false;
     kd_renderer_capacity(r, &c);
+    j->store->memory_bytes = j->aside ? c.memory_bytes / 2 : c.memory_bytes; /* what is kept makes way where less is left than was */
     enum kd_status status = kd_store_lens_map(j->store, j->plan, &j->lens, &reused, j->error);
     if (!status)
         status = kd_store_frame(j->store, j->plan, frame->bit_depth, j->error);
+    atomic_store(&r->held, kd_vk_allocated(r->vk));
     if (status)
         return status;
 

@@ -3,12 +3,14 @@
 #define KD_RENDER_INTERNAL_H
 
 #include "render/kernels.h"
+#include "render/memory_share.h"
 #include "render/rays.h"
 #include "render/render.h"
 #include "render/store.h"
 #include "render/tables.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 
 struct kd_particles {
     struct kd_vk_buffer *guides, *grid, *density, *list; /* made when first needed, and kept */
@@ -24,8 +26,10 @@ struct kd_renderer {
     struct kd_vk_buffer *rays[3];    /* a list, its ends, and those on the host: rays_device.c's, kept for the next list */
     struct kd_transfer_data *tables; /* staging; its colour table is filled once */
     bool tables_ready;
-    pthread_mutex_t lock; /* guards capacity */
-    struct kd_capacity capacity;
+    pthread_mutex_t lock; /* guards capacity and memory */
+    struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
+    struct kd_memory_watch memory;
+    _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
     struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
     char name[800];
 };

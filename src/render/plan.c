@@ -177,6 +177,27 @@ static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capac
     return least(rows, in_line * KD_POST_PIXELS / plan->width);
 }
 
+/* Whether all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
+static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c, struct kd_error *error)
+{
+    const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
+    uint64_t host = 2 * plan->host_bytes, bytes = c->host_memory ? fixed + host : fixed, most = c->memory_bytes;
+    plan->cacheable = bytes + plan->lens_bytes <= most;
+    plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
+    bytes += plan->device_bytes - fixed;
+    if (bytes <= most && !c->host_memory && c->host_bytes && host > c->host_bytes) {
+        where = "host";
+        by = "what the host has left";
+        bytes = host;
+        most = c->host_bytes;
+    }
+    if (bytes <= most)
+        return KD_OK;
+    return kd_error_set(error, KD_ETOOBIG,
+                        "the picture needs %.2f GiB of %s memory, %.2f GiB are allowed (by %s): lower image.width, image.height or "
+                        "image.samples", (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
+}
+
 /* Rows of pixels whose lens map, radiance and packed pixels each fit one buffer and one binding, and whose workgroups one
  * dispatch. */
 static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
@@ -201,14 +222,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
                      (plan->light ? 2 * kd_light_bytes(plan) : 0);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
-    plan->cacheable = fixed + plan->lens_bytes <= c->memory_bytes;
-    plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
-    if (plan->device_bytes > c->memory_bytes)
-        return kd_error_set(error, KD_ETOOBIG,
-                            "the picture needs %.1f GiB of device memory, %.1f GiB are allowed: lower image.width, "
-                            "image.height or image.samples",
-                            (double)plan->device_bytes / (1 << 30), (double)c->memory_bytes / (1 << 30));
-    return KD_OK;
+    return fits(plan, fixed, one_band, c, error);
 }
 
 /* The pixels at the critical curve, where the image orders that are thinner than a pixel would show. */

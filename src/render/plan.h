@@ -19,7 +19,10 @@
 
 /* What the device allows and how fast it has been measured to be. */
 struct kd_capacity {
-    uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything */
+    uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything on the device */
+    const char *memory_by;                    /* what sets memory_bytes, for a sentence; NULL: the device */
+    bool host_memory;                         /* the device's memory is the host's: pixels on the host count as well */
+    uint64_t host_bytes;                      /* else of pixels on the host; 0: not known */
     uint64_t max_allocation_bytes;            /* of one buffer; 0: 2^30, the least that Vulkan 1.2 has */
     uint32_t max_groups_x, max_groups_y;      /* workgroups of one dispatch; 0: 65535, the least that Vulkan has */
     double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post, ns_per_particle;

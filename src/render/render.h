@@ -18,7 +18,7 @@ struct kd_renderer_params {
     const char *device;     /* as kd_vk_params */
     const char *cache_dir;  /* as kd_vk_params */
     bool validate;
-    uint64_t memory_bytes;  /* most device memory to use; 0: three quarters of the heap */
+    uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
 };
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error);

@@ -24,13 +24,17 @@ static uint64_t free_bytes(const struct kd_vk_info *info)
 /* Before anything has been measured: orders of magnitude for this type of device, per item. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
+    uint64_t device = free_bytes(info), wish = kd_memory_main(memory_bytes);
+    bool narrower = memory_bytes && wish < device;
     double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
     return (struct kd_capacity){
         .max_binding_bytes = info->max_binding_bytes,
         .max_allocation_bytes = info->max_allocation_bytes,
         .max_groups_x = info->max_groups_x,
         .max_groups_y = info->max_groups_y,
-        .memory_bytes = memory_bytes ? memory_bytes : free_bytes(info),
+        .memory_bytes = narrower ? wish : device,
+        .memory_by = narrower ? "--memory" : NULL,
+        .host_memory = info->type == KD_VK_CPU || info->type == KD_VK_INTEGRATED,
         .ns_per_ray_radius = 30 * scale,
         .ns_per_ray_full = 150 * scale,
         .ns_per_sample_transfer = 20 * scale,
@@ -76,8 +80,6 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     const struct kd_vk_info *info = kd_vk_info(r->vk);
     r->capacity = guess(info, params->memory_bytes);
     r->store.vk = r->aside.vk = r->vk;
-    r->store.memory_bytes = r->capacity.memory_bytes;
-    r->aside.memory_bytes = r->capacity.memory_bytes / 2;
     load_accuracy(r);
     if (!r->capacity.accuracy) {
         kd_renderer_destroy(r);
@@ -113,6 +115,9 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {
     pthread_mutex_lock(&renderer->lock);
     *out = renderer->capacity;
+    kd_memory_watch(&renderer->memory, kd_render_now_ms());
+    if (renderer->memory.known)
+        kd_memory_narrow(out, &renderer->memory.limit, atomic_load(&renderer->held));
     pthread_mutex_unlock(&renderer->lock);
 }
 
@@ -179,6 +184,7 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     kd_json_object(json, "limits");
     kd_json_number(json, "heap_bytes", (double)info->heap_bytes);
     kd_json_number(json, "memory_bytes", (double)c.memory_bytes);
+    kd_json_string(json, "memory_by", c.memory_by ? c.memory_by : "the device");
     kd_json_number(json, "binding_bytes", (double)info->max_binding_bytes);
     kd_json_number(json, "subgroup_size", info->subgroup_size);
     kd_json_end(json);

@@ -27,7 +27,7 @@ struct kd_lens_map {
 
 struct kd_store {
     struct kd_vk *vk;
-    uint64_t memory_bytes; /* most that all of this may hold */
+    uint64_t memory_bytes; /* most that all of this may hold; of each frame anew */
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;

@@ -91,8 +91,14 @@ class Pictures(Case):
     def test_plan(self):
         plan = json.loads(self.good("plan", *SMALL, "--set", "image.samples=2"))
         self.assertEqual(plan["rays"], 4 * 64 * 36)
-        self.bad(2, "lower image.width", "plan", "--set", "image.width=32768", "--set", "image.height=32768",
-                 "--set", "image.samples=8")
+
+    def test_memory(self):
+        for size in ("", "2", "63M", "2000T", "-1G", "1G ", "1.5G", "1GiB", "G", "99999999999999999999T", "18446744073709551615K"):
+            self.bad(2, "a size from 64M to 1024T", "serve", "--memory", size)
+        self.bad(2, "a size from 64M to 1024T", "render", *SMALL, "-M", "0", "-o", self.path("a.png"))
+        self.good("render", *SMALL, "--memory", "64M", "-o", self.path("a.png"))
+        self.bad(2, "by --memory): lower image.width", "render", "--memory", "64M", "--set", "image.width=4096", "--set", "image.height=4096",
+                 "-o", self.path("a.png"))
 
     def test_every_preset(self):
         for line in self.good("presets").decode().splitlines():
