@@ -50,4 +50,8 @@ void extreme_rays(struct kd_renderer *renderer);     /* listed rays in f32 and f
 void extreme_lenses(struct kd_renderer *renderer);   /* the lens maps of pictures */
 void extreme_pictures(struct kd_renderer *renderer); /* whole pictures, JSON to pixels */
 
+/* These lose no digit next to 90 and 180 degrees, where the difference of the angles is exact. */
+static inline double extreme_cos_deg(double i) { return sin((90 - i) * (M_PI / 180)); }
+static inline double extreme_sin_deg(double i) { return sin((i > 90 ? 180 - i : i) * (M_PI / 180)); }
+
 #endif

@@ -57,8 +57,8 @@ static bool ray_of(const struct camera *v, const struct kd_camera_push *c, int p
     float x = (float)(pixel % GRID) - c->middle_x, y = c->middle_y - (float)(pixel / GRID);
     float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
     double i = v->inclination;
-    *ray = (struct kd_null_ray) { .spin = v->spin, .radius = v->r, .cos_theta = i == 90 ? 0 : cos(i * (M_PI / 180)),
-                                  .sin_theta = i == 180 ? 0 : sin(i * (M_PI / 180)), .alpha = kx, .beta = ky, .orders = ORDERS };
+    *ray = (struct kd_null_ray) { .spin = v->spin, .radius = v->r, .cos_theta = extreme_cos_deg(i),
+                                  .sin_theta = extreme_sin_deg(i), .alpha = kx, .beta = ky, .orders = ORDERS };
     for (int k = 0; k < EXTREME_INPUTS; k++)
         weight[k] = 1;
     if (isinf(v->r))

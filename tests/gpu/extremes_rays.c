@@ -35,8 +35,8 @@ static struct kd_null_ray ray_of(const struct view *v, const double *alpha_beta)
 {
     double i = v->inclination;
     return (struct kd_null_ray) {
-        .spin = v->spin, .radius = v->r, .cos_theta = i == 90 ? 0 : cos(i * (M_PI / 180)),
-        .sin_theta = i == 180 ? 0 : sin(i * (M_PI / 180)), .alpha = alpha_beta[0],
+        .spin = v->spin, .radius = v->r, .cos_theta = extreme_cos_deg(i),
+        .sin_theta = extreme_sin_deg(i), .alpha = alpha_beta[0],
         .beta = alpha_beta[1], .orders = ORDERS,
     };
 }
