@@ -43,6 +43,19 @@ static void stage(struct kd_request *request, enum kd_stage to)
     kd_connections_stage(request->server->connections, request->connection, to, 0);
 }
 
+/* libmicrohttpd takes the query apart by itself, into memory of the connection; some hundred parameters exhaust that, and it then waits for
+ * ever (0.9.75). Here it has not begun yet, and without "&" there is one: target.c reads the query from our copy. */
+static void hide_pairs(const char *uri)
+{
+    union {
+        const char *in;
+        char *out;
+    } text = { uri }; /* the library's own copy, in which it decodes escapes in place */
+    for (char *p = text.out; *p; p++)
+        if (*p == '&')
+            *p = '_';
+}
+
 void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
 {
     struct kd_server *server = cls;
@@ -54,19 +67,36 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->connection = connection_of(mhd);
     request->close = kd_connection_is_health(request->connection); /* its next request may be anything, and is for the other daemon */
     request->raw = strdup(uri);
+    hide_pairs(uri);
     request->start_ms = kd_clock_ms();
     atomic_fetch_add(&server->requests, 1);
     stage(request, KD_STAGE_HEADER);
     return request;
 }
 
+#define SECRET 16    /* hexadecimal digits in a row: an id or a token, and whoever has it may read or change what it names */
+#define SHOWN 4      /* of them in the log */
+
+static void target_for_log(const char *raw, char *out, size_t size)
+{
+    size_t n = 0;
+    while (*raw && n + 6 + 4 < size) {
+        size_t digits = strspn(raw, "0123456789abcdefABCDEF");
+        bool secret = digits >= SECRET, token = !strncmp(raw, "token=", 6);
+        size_t take = token ? 6 : secret ? SHOWN : 1;
+        for (size_t i = 0; i < take; i++)
+            out[n++] = (char)(raw[i] > ' ' && raw[i] < 0x7f ? raw[i] : '?'); /* no second line in the log */
+        raw += token ? 6 + strcspn(raw + 6, "&") : secret ? digits : 1;
+        for (int i = 0; i < 3 && (token || secret); i++)
+            out[n++] = '.';
+    }
+    out[n] = 0;
+}
+
 static void write_log(const struct kd_request *request, enum MHD_RequestTerminationCode why)
 {
     char target[200];
-    size_t n = 0;
-    for (const char *p = request->raw ? request->raw : ""; *p && n + 1 < sizeof target; p++)
-        target[n++] = (char)(*p > ' ' && *p < 0x7f ? *p : '?'); /* no second line in the log */
-    target[n] = 0;
+    target_for_log(request->raw ? request->raw : "", target, sizeof target);
     kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s", request->method ? request->method : "-", target,
            request->status, kd_clock_ms() - request->start_ms,
            why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 64
+#define KD_TARGET_PAIRS 256 /* several times the fields of a scene */
 
 struct kd_target {
     char *text; /* owns what the pointers below point into */

@@ -1,5 +1,6 @@
 """Bad scenes, bodies, queries and negotiations: a problem document each, and a server that goes on."""
 import json
+import tempfile
 import unittest
 
 import daemon
@@ -50,12 +51,22 @@ class Scenes(daemon.Case):
 
     def test_escapes(self):
         for query in (b'%', b'%4', b'%zz=1', b'a=%00', b'a=%0d%0a', b'%ff=1', b'a=\x80', b'a=%c0%ae',
-                      b'&'.join(b'p%d=1' % i for i in range(65))):
+                      b'&'.join(b'p%d=1' % i for i in range(257)),
+                      b'&'.join(b'p%d=1' % i for i in range(3000)), b'&'.join([b'a'] * 10000)):
             with self.subTest(query[:40]):
                 answer = self.daemon.raw(b'GET /v1/render?' + query + b' HTTP/1.1\r\nHost: localhost\r\n\r\n')
                 self.assertProblem(answer, 400, 'bad-request')
         self.assertProblem(self.daemon.raw(b'GET /%ff HTTP/1.1\r\nHost: localhost\r\n\r\n'), 400, 'bad-request')
         self.assertEqual(self.daemon.get('/v1/%72ender?%74ime=1&&' + daemon.SMALL).status, 200)
+
+    def test_a_query_holds_all_fields_of_a_scene(self):
+        fields = [p for p in self.daemon.get('/openapi.json').json()['paths']['/v1/render']['get']['parameters']
+                  if p['schema'].get('type') == 'number' and 'default' in p['schema']]
+        self.assertGreater(len(fields), 40)
+        query = '&'.join(f'{p["name"]}={p["schema"]["default"]}' for p in fields) + '&' + daemon.SMALL
+        self.assertEqual(self.daemon.get(f'{RENDER}?{query}').status, 200)
+        answer = self.daemon.get(f'{RENDER}?' + '&'.join(f'x{i}=1' for i in range(256)))
+        self.assertProblem(answer, 422, 'invalid-scene', '/x0')
 
     def test_device_trouble_short_of_its_loss(self):
         self.assertProblem(self.daemon.get(RENDER + '?time=-2'), 503, 'out-of-memory')
@@ -87,6 +98,21 @@ class Negotiation(daemon.Case):
             with self.subTest(accept):
                 problem = self.assertProblem(self.daemon.get(target, Accept=accept), 406, 'not-acceptable')
                 self.assertEqual(problem['offered'], 'image/png')
+
+class Log(unittest.TestCase):
+    def test_no_token_and_no_whole_id(self):
+        with tempfile.TemporaryFile('w+') as log:
+            server = daemon.Daemon('--log', 2, stderr=log)
+            one = server.post('/v1/sessions', '{}').json()
+            for query in (f'token={one["token"]}', f'%74oken={one["token"]}', 'a=1&token=swordfish&b=2'):
+                server.request('DELETE', f'/v1/sessions/{one["id"]}?{query}')
+            self.assertEqual(server.stop(), 0)
+            log.seek(0)
+            text = log.read()
+        self.assertIn('DELETE /v1/sessions/' + one['id'][:4] + '...?', text)
+        self.assertIn('?a=1&token=...&b=2', text)
+        for secret in (one['id'], one['token'], one['id'][:8], one['token'][:8], 'swordfish'):
+            self.assertNotIn(secret, text)
 
 
 if __name__ == '__main__':
