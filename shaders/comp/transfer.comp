@@ -62,8 +62,9 @@ float shift(float w, float energy, float momentum)
     /* 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3 with x = sqrt(r): near the ISCO of a fast hole the left-hand
      * side has no digits left. */
     float r = 1.0 / w, g = 1.0, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0));
+    precise float rest = d * d * (x + 2.0) - 2.0 * tr.one_minus_a;
     if (REDSHIFT)
-        g *= sqrt(max((d * d * (x + 2.0) - 2.0 * tr.one_minus_a) * x3, 0.0)) / (x3 + cam.spin);
+        g *= sqrt(max(rest * x3, 0.0)) / (x3 + cam.spin);
     if (DOPPLER)
         g /= energy - momentum / (x3 + cam.spin);
     else if (FINITE)

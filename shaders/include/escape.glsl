@@ -83,7 +83,7 @@ kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
     /* Twelve half periods: beyond them only rays within 1e-13 of the critical curve still circle. */
     for (uint i = 0; i < 12 * STEPS; i++) {
         kd_path q = kd_path_step(m, p, h);
-        if (q.y.w >= cam.horizon || isnan(q.y.w)) {
+        if (q.y.w >= cam.horizon || !kd_is_finite(q.y.w)) {
             o.fate = KD_FATE_CAPTURED;
             KD_TRACE_STEP(KD_TRACE_END, h, q.y, q.v, p.chi);
             break;

@@ -28,9 +28,18 @@ kd_motion kd_motion_of(kd_ray ray, float a, float u, float s)
     m.momentum = ray.l * s;
     m.q = ray.p * ray.p + u * u * (ray.l * ray.l - m.energy2);
     m.a2 = m.energy2 * (1.0 + u * u) - ray.l * ray.l - ray.p * ray.p;
-    m.k = m.q + (m.momentum - ae) * (m.momentum - ae);
+    precise float j = m.momentum - ae, k = m.q + j * j; /* not multiplied out */
+    m.k = k;
     m.d = a * a * m.q;
     return m;
+}
+
+/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the two factors keep
+ * their digits where the horizons all but meet. Precise: multiplied out, as a driver may, they would have lost them. */
+float kd_delta(float w, float root)
+{
+    precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);
+    return delta;
 }
 
 #endif

@@ -5,6 +5,17 @@
 
 #define KD_PI 3.14159265358979323846
 
+/* False for infinity and NaN, by the bits of the exponent: a compiler that need not preserve NaN (Vulkan 1.2,
+ * shaderSignedZeroInfNanPreserve) may take any comparison with one for true. */
+bool kd_is_finite(float x)
+{
+#ifdef KD_DOUBLE
+    return (unpackDouble2x32(x).y & 0x7ff00000u) != 0x7ff00000u;
+#else
+    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+#endif
+}
+
 /* Arc tangent for |x| <= tan(pi/8). Double: Moshier's rational function (Cephes, 1984). */
 float kd_atan_small(float x)
 {

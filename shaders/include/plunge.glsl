@@ -24,7 +24,7 @@ kd_place plunge_place(float w, float turn, float ago)
 /* Seen at w = 1/r by a ray that goes on with dw = w', where there is this number of particles over that expected. */
 kd_gas plunge_gas(float w, float dw, float energy, float momentum, float number)
 {
-    float a = cam.spin, w2 = w * w, d = (1.0 - w - cam.root * w) * (1.0 - w + cam.root * w);
+    float a = cam.spin, w2 = w * w, d = kd_delta(w, cam.root);
     float gap = max(tr.r_isco * w - 1.0, 1e-12), ur = -sqrt(gap * (2.0 / 3.0) / tr.r_isco) * gap;
     float own = tr.plunge_energy - a * tr.plunge_j * w2, g = 1.0;
     if (DOPPLER) {

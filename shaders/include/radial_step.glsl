@@ -16,13 +16,8 @@ kd_state kd_radial_step(kd_motion m, kd_state y, float h)
     return o;
 }
 
-/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the two factors keep
- * their digits where the horizons all but meet. */
-float kd_horizons(float w, float root)
-{
-    float d = 1.0 - w, h = root * w;
-    return max((d - h) * (d + h), 1e-30);
-}
+/* As a divisor. */
+float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
 /* W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
 float kd_one_way(kd_motion m, kd_state y, float e, float a, float way)
@@ -33,8 +28,8 @@ float kd_one_way(kd_motion m, kd_state y, float e, float a, float way)
 /* w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
 float kd_fall_squared(kd_motion m, float w, float e, float a, float root)
 {
-    float w2 = w * w, all = e + a * (a * e - m.momentum) * w2;
-    return all * all - (1.0 - w - root * w) * (1.0 - w + root * w) * m.k * w2;
+    precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2, square = all * all - kd_delta(w, root) * m.k * w2;
+    return square;
 }
 
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
@@ -55,7 +50,8 @@ float kd_drag(kd_motion m, kd_state y, float e, float a, float root, float way)
  * a hole that is nearly extremal. */
 float kd_fall(float w, float root)
 {
-    float first = w / max(1.0 - w - root * w, 1e-30), x = 2.0 * root * first, y = x / (2.0 + x), y2 = y * y;
+    precise float gap = 1.0 - w - root * w;
+    float first = w / max(gap, 1e-30), x = 2.0 * root * first, y = x / (2.0 + x), y2 = y * y;
 #ifdef KD_DOUBLE
     float series = 0.0;
     for (int k = 8; k >= 0; k--)
@@ -83,10 +79,11 @@ kd_barrier kd_barrier_of(kd_motion m, kd_ray ray, float a, float u, float horizo
     float w = m.a2 < 0.0 ? -2.0 * m.a2 / (3.0 * m.k + disc) : 2.0;
     o.open = w > 1.01 * horizon;
     o.w = min(w, horizon);
-    float w2 = o.w * o.w, ae = a * ray.e, d = max((1.0 - o.w - root * o.w) * (1.0 - o.w + root * o.w), 0.0);
-    float fall = ray.e + a * (ae - m.momentum) * w2, size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
+    float w2 = o.w * o.w, ae = a * ray.e, d = max(kd_delta(o.w, root), 0.0);
+    precise float fall = ray.e + a * (ae - m.momentum) * w2, size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
     float all = abs(ae) + abs(m.momentum), size_k = m.q + 2.0 * u * u * m.energy2 + all * all;
-    o.r = fall * fall - d * m.k * w2;
+    precise float r = fall * fall - d * m.k * w2; /* rounded as `noise` counts it */
+    o.r = r;
     o.noise = 16.0 * abs(fall) * size + 16.0 * d * size_k * w2 + 64.0 * epsilon * size * size;
     return o;
 }

@@ -1,0 +1,119 @@
+/* What a kernel may leave to the driver. Vulkan 1.2 lets it fuse, reorder and multiply out floating-point operations unless they
+ * are decorated NoContraction, and lets it behave as if NaN and infinity did not exist (no kernel asks for
+ * SignedZeroInfNanPreserve). No test by pictures shows that on a driver that does neither, so the SPIR-V is read. */
+#include <stdint.h>
+
+#include "lens_map.spv.h"
+#include "lens_radius.spv.h"
+#include "light.spv.h"
+#include "rays.spv.h"
+#include "rays_f64.spv.h"
+#include "rays_kerr_schild.spv.h"
+#include "rays_kerr_schild_f64.spv.h"
+#include "transfer.spv.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* SPIR-V 1.5 specification, section 3. */
+enum {
+    OP_NAME = 5, OP_FUNCTION = 54, OP_FUNCTION_END = 56, OP_DECORATE = 71, OP_FADD = 129, OP_FSUB = 131, OP_FMUL = 133,
+    OP_IS_NAN = 156, OP_IS_INF = 157, NO_CONTRACTION = 42,
+};
+
+struct spirv {
+    const char *kernel;
+    const uint32_t *words;
+    size_t n;
+    bool motion; /* it follows rays by steps */
+};
+#define SPIRV(name, motion) { #name, kd_spv_##name, sizeof kd_spv_##name / 4, motion }
+static const struct spirv kernels[] = {
+    SPIRV(lens_radius, false), SPIRV(lens_map, true), SPIRV(rays, true), SPIRV(rays_f64, true), SPIRV(rays_kerr_schild, false),
+    SPIRV(rays_kerr_schild_f64, false), SPIRV(transfer, false), SPIRV(light, false),
+};
+enum { KERNELS = sizeof kernels / sizeof *kernels };
+
+static const uint32_t *next(const struct spirv *s, size_t *at)
+{
+    if (*at >= s->n)
+        return NULL;
+    const uint32_t *op = s->words + *at;
+    assert_true(op[0] >> 16);
+    *at += op[0] >> 16;
+    return op;
+}
+static uint32_t opcode(const uint32_t *op) { return op[0] & 0xffff; }
+
+static void no_kernel_asks_for_nan(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < KERNELS; k++) {
+        size_t at = 5;
+        for (const uint32_t *op; (op = next(&kernels[k], &at));)
+            if (opcode(op) == OP_IS_NAN || opcode(op) == OP_IS_INF)
+                fail_msg("%s: isnan or isinf, of which a driver may make false: use kd_is_finite", kernels[k].kernel);
+    }
+}
+
+static bool is_precise(const struct spirv *s, uint32_t id)
+{
+    size_t at = 5;
+    for (const uint32_t *op; (op = next(s, &at));)
+        if (opcode(op) == OP_DECORATE && op[1] == id && op[2] == NO_CONTRACTION)
+            return true;
+    return false;
+}
+
+/* Sums, differences and products in functions whose name begins with this, and how many of them are precise. */
+static void count(const struct spirv *s, const char *name, int *all, int *precise)
+{
+    uint32_t id = 0;
+    size_t at = 5;
+    *all = *precise = 0;
+    for (const uint32_t *op; (op = next(s, &at));)
+        if (opcode(op) == OP_NAME && !strncmp((const char *)(op + 2), name, strlen(name)))
+            id = op[1];
+    bool inside = false;
+    at = 5;
+    for (const uint32_t *op; id && (op = next(s, &at));) {
+        uint32_t code = opcode(op);
+        if (code == OP_FUNCTION || code == OP_FUNCTION_END)
+            inside = code == OP_FUNCTION && op[2] == id;
+        else if (inside && (code == OP_FADD || code == OP_FSUB || code == OP_FMUL)) {
+            ++*all;
+            *precise += is_precise(s, op[2]);
+        }
+    }
+}
+
+/* Delta and what the barrier is judged by: every operation. Nystroem's steps: those that end in y and v, six at least in each of
+ * the two orders. */
+static void what_must_not_be_reordered(void **state)
+{
+    (void)state;
+    static const struct { const char *function; int least; } functions[] = {
+        { "kd_delta(", 0 }, { "kd_fall_squared(", 0 }, { "kd_full_step(", 12 }, { "kd_path_step(", 12 }, { "kd_radial_step(", 12 },
+    };
+    int found = 0;
+    for (size_t k = 0; k < KERNELS; k++)
+        for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
+            int all, precise;
+            count(&kernels[k], functions[i].function, &all, &precise);
+            if (all && precise < (functions[i].least ? functions[i].least : all))
+                fail_msg("%s, %s): %d of %d operations are precise", kernels[k].kernel, functions[i].function, precise, all);
+            found += all > 0 && kernels[k].motion;
+        }
+    assert_true(found >= 10); /* the names are still those */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(no_kernel_asks_for_nan), cmocka_unit_test(what_must_not_be_reordered) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
