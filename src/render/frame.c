@@ -229,7 +229,9 @@ static enum kd_status run(struct kd_frame_job *j)
     kd_tables_fill(r->tables, j->scene, !r->tables_ready);
     r->tables_ready = true;
     r->tables->block.band_pixels = j->plan->width * j->plan->band_rows;
-    memcpy(kd_vk_buffer_map(j->store->transfer), r->tables, sizeof *r->tables);
+    status = kd_store_send(j->store, r->tables, j->error);
+    if (status)
+        return status;
 
     frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (reused ? 2 : 3);
@@ -272,6 +274,8 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
         return KD_OK;
     }
     kd_vk_discard(job->r->vk);
+    job->store->sent_whole = false; /* what was to bring it may be lost */
+    kd_particles_forget(job->particles);
     if (status != KD_EDEVICE)
         kd_vk_wait(job->r->vk, 0, NULL);
     kd_frame_finish(&frame);

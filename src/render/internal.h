@@ -13,7 +13,7 @@
 #include <stdatomic.h>
 
 struct kd_particles {
-    struct kd_vk_buffer *guides, *grid, *density, *list; /* made when first needed, and kept */
+    struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, and kept */
     struct kd_scene of; /* what is in `guides`, */
     double time;        /* at this time: slices of a list, and frames that refine, find it there */
 };
@@ -35,6 +35,8 @@ struct kd_renderer {
 };
 
 void kd_particles_finish(struct kd_particles *particles, struct kd_vk *vk);
+/* `guides` may not have come to the device: work was given up. */
+void kd_particles_forget(struct kd_particles *particles);
 
 /* Learn from the device times of a frame: nanoseconds an item, smoothed. */
 void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);

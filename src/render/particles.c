@@ -225,19 +225,24 @@ double kd_particle_delay(const struct kd_scene *scene)
 static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
                              const struct kd_particle_grid *grid, double time, struct kd_error *error)
 {
-    enum kd_status status = kd_store_at_least(r->vk, &p->guides, tables_bytes(grid), KD_VK_UPLOAD, "orbits of particles", error);
+    uint64_t bytes = tables_bytes(grid);
+    enum kd_status status = kd_store_at_least(r->vk, &p->guides, bytes, KD_VK_DEVICE, "orbits of particles", error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &p->staging, bytes, KD_VK_UPLOAD, "orbits of particles on the host", error);
     bool there = p->time == time && !memcmp(&p->of, scene, sizeof *scene);
     p->time = status ? NAN : time;
     if (status || there)
         return status;
     memcpy(&p->of, scene, sizeof *scene); /* padding too */
-    char *to = kd_vk_buffer_map(p->guides);
+    char *to = kd_vk_buffer_map(p->staging);
     fill_guides((struct kd_guide *)to, scene, grid, time);
     fill_expected((float *)(to + guides_bytes(grid)), scene, grid);
     if (grid->plunging)
         fill_plunge_expected((float *)(to + guides_bytes(grid) + EXPECTED_BYTES), grid);
-    return KD_OK;
+    return kd_vk_copy(r->vk, "upload", p->guides, 0, p->staging, 0, bytes, error);
 }
+
+void kd_particles_forget(struct kd_particles *p) { p->time = NAN; }
 
 static struct kd_particles_push push_of(const struct kd_scene *scene, const struct kd_particle_grid *grid, double time)
 {
@@ -392,12 +397,14 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
         status = kd_vk_wait(r->vk, 0, error);
     if (!status)
         places_of(scene, &grid, kd_vk_buffer_map(r->particles.list), first, stride, n, out);
+    else
+        kd_particles_forget(&r->particles);
     return status;
 }
 
 void kd_particles_finish(struct kd_particles *p, struct kd_vk *vk)
 {
-    struct kd_vk_buffer *buffers[] = { p->guides, p->grid, p->density, p->list };
+    struct kd_vk_buffer *buffers[] = { p->guides, p->staging, p->grid, p->density, p->list };
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         kd_vk_buffer_destroy(vk, buffers[i]);
     memset(p, 0, sizeof *p);

@@ -125,8 +125,11 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     if (!status)
         status = kd_store_at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
     if (!status && !store->transfer)
-        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_UPLOAD, "transfer tables",
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_DEVICE, "transfer tables",
                                      &store->transfer, error);
+    if (!status && !store->staging)
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_UPLOAD, "transfer tables on the host",
+                                     &store->staging, error);
     if (!status && !store->histogram)
         status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_DEVICE, "histogram", &store->histogram, error);
     if (!status && !store->counts)
@@ -139,6 +142,27 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     return status;
 }
 
+enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error)
+{
+    static const size_t ends[] = { 0, offsetof(struct kd_transfer_data, disk), sizeof *tables };
+    bool first = !store->sent || !store->sent_whole;
+    if (!store->sent && !(store->sent = malloc(sizeof *tables)))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the transfer tables");
+    enum kd_status status = KD_OK;
+    for (int part = 0; part < 2 && !status; part++) {
+        size_t from = ends[part], n = ends[part + 1] - from;
+        char *sent = (char *)store->sent + from;
+        const char *now = (const char *)tables + from;
+        if (!first && !memcmp(sent, now, n))
+            continue;
+        memcpy(sent, now, n);
+        memcpy((char *)kd_vk_buffer_map(store->staging) + from, now, n);
+        status = kd_vk_copy(store->vk, "upload", store->transfer, from, store->staging, from, n, error);
+    }
+    store->sent_whole = !status;
+    return status;
+}
+
 void kd_store_finish(struct kd_store *store)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
@@ -147,6 +171,8 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->words);
     kd_vk_buffer_destroy(store->vk, store->readback);
     kd_vk_buffer_destroy(store->vk, store->transfer);
+    kd_vk_buffer_destroy(store->vk, store->staging);
+    free(store->sent);
     kd_vk_buffer_destroy(store->vk, store->histogram);
     kd_vk_buffer_destroy(store->vk, store->counts);
     kd_vk_buffer_destroy(store->vk, store->light);

@@ -8,6 +8,8 @@
 #include "render/render.h"
 #include "vk/vk.h"
 
+struct kd_transfer_data;
+
 /* One buffer a band of the picture. */
 struct kd_bands {
     struct kd_vk_buffer **buffers;
@@ -32,7 +34,9 @@ struct kd_store {
     uint64_t clock;
     struct kd_bands radiance;
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
-    struct kd_vk_buffer *transfer;         /* parameters and tables, host-visible */
+    struct kd_vk_buffer *transfer, *staging; /* parameters and tables: read at each crossing, so on the device, by way of the other */
+    struct kd_transfer_data *sent;           /* what is there; NULL: nothing yet */
+    bool sent_whole;                         /* false: nothing of it, a frame was given up */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
@@ -50,6 +54,9 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
 /* *buffer (NULL: none yet) becomes one of at least this size; a larger one is kept unless it is much too large. */
 enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
                                  const char *name, struct kd_error *error);
+/* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. A frame
+ * that is given up afterwards says so by sent_whole = false. */
+enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error);
 void kd_store_finish(struct kd_store *store);
 
 #endif
