@@ -23,7 +23,8 @@ struct kd_renderer {
     struct kd_kernels kernels;
     struct kd_store store, aside; /* aside: kd_render_aside's */
     struct kd_particles particles, particles_aside;
-    struct kd_vk_buffer *rays[3];    /* a list, its ends, and those on the host: rays_device.c's, kept for the next list */
+    struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays_device.c's, kept for the next list */
+    struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
     struct kd_transfer_data *tables; /* staging; its colour table is filled once */
     bool tables_ready;
     pthread_mutex_t lock; /* guards capacity and memory */

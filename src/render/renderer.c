@@ -101,8 +101,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
         kd_store_finish(&renderer->aside);
         kd_particles_finish(&renderer->particles, renderer->vk);
         kd_particles_finish(&renderer->particles_aside, renderer->vk);
-        for (size_t i = 0; i < sizeof renderer->rays / sizeof *renderer->rays; i++)
-            kd_vk_buffer_destroy(renderer->vk, renderer->rays[i]);
+        for (size_t i = 0; i < sizeof renderer->rays / sizeof **renderer->rays; i++)
+            kd_vk_buffer_destroy(renderer->vk, renderer->rays[i / 3][i % 3]);
         kd_vk_destroy(renderer->vk);
     }
     pthread_mutex_destroy(&renderer->lock);

@@ -188,7 +188,7 @@ static void check_estimate(enum kd_engine engine, uint32_t steps)
 static void test_estimate(void **state)
 {
     (void)state;
-    if (!kd_vk_info(renderer->vk)->float64)
+    if (!has_float64("what a ray's error says, in f64"))
         skip();
     for (uint32_t steps = 4; steps <= 64; steps *= 2) {
         check_estimate(KD_ENGINE_MINO_RKN4, steps);
@@ -202,7 +202,7 @@ static void test_estimate(void **state)
 static void test_orders(void **state)
 {
     (void)state;
-    if (!kd_vk_info(renderer->vk)->float64)
+    if (!has_float64("the orders of the methods, in f64"))
         skip();
     static const struct { enum kd_engine engine; uint32_t steps; int order; double ratio, finest; } methods[] = {
         { KD_ENGINE_MINO_RKN6, 8, 1, 50, 1e-8 },
@@ -357,7 +357,7 @@ static void test_most_steps(void **state)
     enum { FEW = 2 * GRID, ALL = KD_RAYS_MAX_ORDERS };
     static struct kd_ray_crossing crossings[FEW * ALL];
     static struct kd_ray_end ends[FEW];
-    if (!kd_vk_info(renderer->vk)->float64)
+    if (!has_float64("the most steps, in f64"))
         skip();
     const int from = GRID * GRID / 2; /* two rows that pass close to the hole */
     for (size_t i = 0; i < sizeof most / sizeof *most; i++) {
