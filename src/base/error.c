@@ -38,6 +38,7 @@ const char *kd_status_name(enum kd_status status)
     case KD_ETOOBIG: return "too large";
     case KD_ENOMEM: return "out of memory";
     case KD_EIO: return "input or output failed";
+    case KD_EFULL: return "disk full";
     case KD_EDEVICE: return "device failed";
     case KD_EBUSY: return "busy";
     case KD_ECANCELLED: return "cancelled";

@@ -14,6 +14,7 @@ enum kd_status {
     KD_ETOOBIG,    /* well-formed, but larger than this device or this server holds */
     KD_ENOMEM,     /* allocation failed, host or device                             */
     KD_EIO,        /* a file or socket                                              */
+    KD_EFULL,      /* no room on the disk                                           */
     KD_EDEVICE,    /* no usable device, or the device failed or missed its deadline */
     KD_EBUSY,      /* the queue is full                                             */
     KD_ECANCELLED, /* the caller's progress callback asked to stop                  */

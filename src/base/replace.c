@@ -1,13 +1,21 @@
 #include "base/replace.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
+
+#define STALE_S 3600 /* without a change; by then a file of ours is written, however slow the disk */
+
+static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
 static bool make_directories(char *path)
 {
@@ -28,6 +36,8 @@ static bool write_all(int fd, const void *data, size_t size)
         ssize_t n = write(fd, at, size);
         if (n < 0 && errno == EINTR)
             continue;
+        if (!n)
+            errno = ENOSPC;
         if (n <= 0)
             return false;
         at += n;
@@ -36,22 +46,87 @@ static bool write_all(int fd, const void *data, size_t size)
     return true;
 }
 
+/* An empty file beside the name. */
+static int open_temporary(int folder, const char *name, char out[NAME_MAX + 1])
+{
+    unsigned char random[KD_TEMPORARY_TAIL - 1];
+    for (int attempt = 0; attempt < 100; attempt++) {
+        if (getrandom(random, sizeof random, 0) != (ssize_t)sizeof random)
+            return -1;
+        int n = snprintf(out, NAME_MAX + 1, "%s.", name);
+        if (n < 0 || (size_t)n + sizeof random > NAME_MAX) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        for (size_t i = 0; i < sizeof random; i++)
+            out[(size_t)n + i] = letters[random[i] % (sizeof letters - 1)];
+        out[(size_t)n + sizeof random] = 0;
+        int fd = openat(folder, out, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+        if (fd >= 0 || errno != EEXIST)
+            return fd;
+    }
+    return -1;
+}
+
+bool kd_replace_is_temporary(const char *other, const char *name)
+{
+    size_t n = strlen(name);
+    return !strncmp(other, name, n) && other[n] == '.' && strlen(other + n) == KD_TEMPORARY_TAIL &&
+           strspn(other + n + 1, letters) == KD_TEMPORARY_TAIL - 1;
+}
+
+bool kd_replace_file_at(int folder, const char *name, const void *data, size_t size)
+{
+    char temporary[NAME_MAX + 1];
+    int fd = open_temporary(folder, name, temporary);
+    if (fd < 0)
+        return false;
+    bool good = write_all(fd, data, size) && !fsync(fd);
+    good = !close(fd) && good && !renameat(folder, temporary, folder, name);
+    int cause = errno;
+    if (!good)
+        unlinkat(folder, temporary, 0);
+    /* The new name is as good as the old one without this, but a power cut may bring the old one back. Some file systems have no such call
+     * for folders. */
+    if (good && fsync(folder) && errno != EINVAL && errno != EROFS)
+        cause = errno, good = false;
+    errno = cause;
+    return good;
+}
+
+/* What others have left half written when they were killed. Whoever is at it has touched it a moment ago. */
+static void remove_stale(int folder, const char *name)
+{
+    int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *d = fd < 0 ? NULL : fdopendir(fd);
+    struct stat about;
+    if (fd >= 0 && !d)
+        close(fd);
+    for (struct dirent *entry; d && (entry = readdir(d));)
+        if (kd_replace_is_temporary(entry->d_name, name) && !fstatat(folder, entry->d_name, &about, AT_SYMLINK_NOFOLLOW) &&
+            S_ISREG(about.st_mode) && about.st_mtime < time(NULL) - STALE_S)
+            unlinkat(folder, entry->d_name, 0);
+    if (d)
+        closedir(d);
+}
+
 bool kd_replace_file(const char *path, const void *data, size_t size)
 {
-    char *temporary = NULL, *directories = strdup(path);
-    bool good = directories && make_directories(directories);
-    if (good && asprintf(&temporary, "%s.XXXXXX", path) < 0)
-        temporary = NULL, good = false;
-    int fd = good ? mkostemp(temporary, O_CLOEXEC) : -1;
-    if (fd >= 0) {
-        good = write_all(fd, data, size) && !fsync(fd);
-        good = !close(fd) && good && !rename(temporary, path);
-        int cause = errno;
-        if (!good)
-            unlink(temporary);
-        errno = cause;
+    char *copy = strdup(path), *slash = copy ? strrchr(copy, '/') : NULL;
+    const char *name = slash ? slash + 1 : path;
+    int folder = -1;
+    if (copy && make_directories(copy)) {
+        if (slash)
+            *slash = 0;
+        folder = open(!slash ? "." : *copy ? copy : "/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     }
-    free(directories);
-    free(temporary);
-    return good && fd >= 0;
+    bool good = folder >= 0 && kd_replace_file_at(folder, name, data, size);
+    int cause = errno;
+    if (good)
+        remove_stale(folder, name);
+    if (folder >= 0)
+        close(folder);
+    free(copy);
+    errno = cause;
+    return good;
 }

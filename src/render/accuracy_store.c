@@ -1,9 +1,12 @@
 #include "render/accuracy_store.h"
 
+#include "base/log.h"
+#include "base/read.h"
 #include "base/replace.h"
 #include "render/internal.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,22 +33,14 @@ enum kd_status kd_accuracy_save(const struct kd_accuracy_table *table, const cha
 
 static enum kd_status read_file(const char *path, struct kd_buffer *out, struct kd_error *error)
 {
-    char chunk[16384];
-    size_t n;
-    FILE *file = fopen(path, "re");
-    if (!file)
-        return errno == ENOENT
-                   ? kd_error_set(error, KD_EIO, "there is no accuracy table of this device yet: " MAKE)
-                   : kd_error_set(error, KD_EIO, "cannot read %s: %s; " MAKE, path, strerror(errno));
-    enum kd_status status = KD_OK;
-    while (!status && out->size <= FILE_MAX && (n = fread(chunk, 1, sizeof chunk, file)) > 0)
-        status = kd_buffer_append(out, chunk, n);
-    if (status)
-        kd_error_set(error, status, "out of memory for %s", path);
-    else if (ferror(file))
-        status = kd_error_set(error, KD_EIO, "cannot read %s; " MAKE, path);
-    fclose(file);
-    return status;
+    if (kd_read_file(AT_FDCWD, path, 0, FILE_MAX, out))
+        return KD_OK;
+    if (errno == ENOENT)
+        return kd_error_set(error, KD_EIO, "there is no accuracy table of this device yet: " MAKE);
+    if (errno == ENOMEM)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the accuracy table");
+    kd_log(KD_LOG_WARN, "cannot read %s: %s", path, strerror(errno));
+    return kd_error_set(error, KD_EIO, "the accuracy table of this device cannot be read (%s); " MAKE, strerror(errno));
 }
 
 /* The file's bytes, once they have been understood. */

@@ -27,6 +27,11 @@ struct kd_job {
     double fraction;                 /* of the frame being rendered */
     double estimate_ms;              /* of all frames, by their plans */
     double began_ms;                 /* by this server; 0: not yet */
+    double due_ms;                   /* not before; on kd_clock_ms */
+    double delay_ms;                 /* before the next try, once something has run out; 0: nothing has */
+    double ended_ms;                 /* on kd_clock_ms, whatever happens to the clock on the wall */
+    char delayed[160];               /* why it waits until due_ms */
+    bool struck;                     /* by this server: one attempt of the record is for it */
     unsigned finished_here;
     uint64_t bytes;
     unsigned revision; /* of what its status says */
@@ -59,6 +64,8 @@ double kd_job_now_s(void); /* since 1970 */
 static inline bool kd_job_is_active(const struct kd_job *job) { return job->listed && job->record.state == KD_JOB_ACTIVE; }
 void kd_job_write(struct kd_job *job); /* its record, to disk */
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
+/* Something has run out that may be there again later: its next frame waits, each time for longer. */
+void kd_job_delay(struct kd_job *job, const char *why);
 /* Takes the job off the list, whose reference is then the caller's; its files go with the last one. */
 void kd_job_unlist(struct kd_job *job);
 void kd_job_wake(struct kd_job *job, double now); /* those whose wait is over */

@@ -30,7 +30,7 @@ static const char *state_word(const struct kd_job_status *s)
 {
     if (s->deleted)
         return "deleted";
-    return s->state == KD_JOB_DONE ? "done" : s->state == KD_JOB_FAILED ? "failed" : s->place ? "waiting" : "running";
+    return s->state == KD_JOB_DONE ? "done" : s->state == KD_JOB_FAILED ? "failed" : s->place || *s->delayed ? "waiting" : "running";
 }
 
 static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s, bool token, struct kd_buffer *out)
@@ -50,6 +50,8 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "bytes", (double)s->bytes);
     kd_json_number(&json, "created", s->created);
     kd_json_number(&json, "ended", s->ended > 0 ? s->ended : NAN);
+    if (*s->delayed)
+        kd_json_string(&json, "delayed", s->delayed);
     if (s->state == KD_JOB_FAILED)
         kd_json_string(&json, "error", s->error);
     kd_json_end(&json);

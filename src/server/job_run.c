@@ -66,6 +66,15 @@ static enum kd_status encode_row(struct kd_render_job *render, unsigned encoder)
     return KD_OK;
 }
 
+/* A frame has failed: for good, or until there is memory and room on the disk again. */
+static void give_up(struct kd_job *job, const struct kd_error *error)
+{
+    if (error->status == KD_ENOMEM || error->status == KD_EFULL)
+        kd_job_delay(job, error->message);
+    else
+        kd_job_end(job, KD_JOB_FAILED, error->message);
+}
+
 /* Hand over the next frame of a job. False: there was none. */
 static bool begin(struct kd_job *job)
 {
@@ -78,14 +87,18 @@ static bool begin(struct kd_job *job)
         return false;
     struct kd_job_frame *frame = calloc(1, sizeof *frame);
     capacity_of(all, &capacity);
-    if (!frame || plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)) {
-        kd_job_end(job, KD_JOB_FAILED, frame ? error.message : "out of memory for a frame");
+    enum kd_status status = frame ? plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)
+                                  : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
+    if (status) {
+        give_up(job, &error);
         free(frame);
         return false;
     }
+    *job->delayed = 0;
     if (!(job->began_ms > 0)) {
         job->began_ms = kd_clock_ms();
         job->record.attempts++;
+        job->struck = true;
         kd_job_write(job);
     }
     frame->render.background = true;
@@ -118,8 +131,9 @@ void kd_jobs_pump(struct kd_jobs *all)
 {
     if (all->closed || all->rendering || all->behind >= BEHIND_MAX || kd_render_queue_lost(all->params.renders, NULL))
         return;
+    double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
-        if (kd_job_is_active(job) && begin(job))
+        if (kd_job_is_active(job) && now >= job->due_ms && begin(job))
             return;
 }
 
@@ -131,6 +145,8 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 
 static void finished(struct kd_job *job, unsigned number, uint64_t size)
 {
+    if (job->have[number]) /* begun once more after the one before it had failed, while it was being encoded */
+        return;
     job->have[number] = 1;
     if (job->glance.frame == number)
         kd_buffer_finish(&job->glance.png);
@@ -140,8 +156,10 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
     job->bytes += size;
     job->all->bytes += size;
     job->revision++;
+    job->delay_ms = 0;
     if (!kd_job_is_active(job))
         return;
+    job->struck = false;
     if (job->record.attempts) {
         job->record.attempts = 0;
         kd_job_write(job);
@@ -182,8 +200,11 @@ static void done(struct kd_render_job *render)
     struct kd_job *job = frame->job;
     struct kd_jobs *all = job->all;
     enum kd_status status = render->status;
-    if (!status)
+    bool stored = !status;
+    if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->png, &render->error);
+    if (stored && status)
+        render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
     pthread_mutex_lock(&all->lock);
     if (frame->rendered)
         all->behind--;
@@ -191,8 +212,10 @@ static void done(struct kd_render_job *render)
         all->rendering = NULL;
     if (!status)
         finished(job, frame->number, render->png.size);
-    else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) /* those two go on after a restart */
-        kd_job_end(job, KD_JOB_FAILED, render->error.message);
+    else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
+        job->next = frame->number < job->next ? frame->number : job->next;
+        give_up(job, &render->error);
+    }
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
     kd_job_release(job);

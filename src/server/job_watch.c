@@ -66,9 +66,9 @@ void kd_job_wake(struct kd_job *job, double now)
 /* Finished jobs that nobody reads and that have been kept long enough, off the list: their references are the caller's. Locked. */
 static struct kd_job *take_old(struct kd_jobs *all)
 {
-    double now = kd_job_now_s();
+    double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
-        if (!kd_job_is_active(job) && job->references == 1 && now - job->record.ended > all->params.keep_s) {
+        if (!kd_job_is_active(job) && job->references == 1 && now - job->ended_ms > 1e3 * all->params.keep_s) {
             kd_log(KD_LOG_INFO, "job %.4s... has been kept for %.0f s", job->record.id, all->params.keep_s);
             kd_job_unlist(job);
             return job;
@@ -82,6 +82,7 @@ void kd_jobs_sweep(struct kd_jobs *all)
     pthread_mutex_lock(&all->lock);
     for (struct kd_job *job = all->first; job; job = job->link)
         kd_job_wake(job, now);
+    kd_jobs_pump(all); /* one may have waited long enough */
     struct kd_job *old = take_old(all);
     pthread_mutex_unlock(&all->lock);
     if (old)
@@ -89,10 +90,23 @@ void kd_jobs_sweep(struct kd_jobs *all)
     kd_jobs_bury(all, FILES_A_SWEEP);
 }
 
+/* The server ends because it was told to: that says nothing against the job that is being rendered. */
+static void take_back_strikes(struct kd_jobs *all)
+{
+    for (struct kd_job *job = all->first; job; job = job->link)
+        if (job->struck && job->record.attempts) {
+            job->struck = false;
+            job->record.attempts--;
+            kd_job_write(job);
+        }
+}
+
 void kd_jobs_close(struct kd_jobs *all)
 {
     pthread_mutex_lock(&all->lock);
     all->closed = true;
+    if (!kd_render_queue_lost(all->params.renders, NULL))
+        take_back_strikes(all);
     kd_jobs_drop_frame(all, NULL);
     for (struct kd_job *job = all->first; job; job = job->link)
         kd_job_wake(job, kd_clock_ms());

@@ -38,11 +38,26 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
 {
     job->record.state = state;
     job->record.ended = kd_job_now_s();
+    job->ended_ms = kd_clock_ms();
+    *job->delayed = 0;
     snprintf(job->record.error, sizeof job->record.error, "%s", why);
     move_up(job->all);
     kd_job_write(job);
     kd_log(state == KD_JOB_DONE ? KD_LOG_INFO : KD_LOG_WARN, "job %.4s... %s%s", job->record.id,
            state == KD_JOB_DONE ? "is done" : "has failed: ", why);
+}
+
+#define DELAY_MS 1e3 /* once; then twice as long each time, to ... */
+#define DELAY_MAX_MS 60e3
+
+void kd_job_delay(struct kd_job *job, const char *why)
+{
+    job->delay_ms = job->delay_ms > 0 ? fmin(2 * job->delay_ms, DELAY_MAX_MS) : DELAY_MS;
+    job->due_ms = kd_clock_ms() + job->delay_ms;
+    job->fraction = 0;
+    job->revision++;
+    snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
+    kd_log(KD_LOG_WARN, "job %.4s... waits for %.0f s: %s", job->record.id, 1e-3 * job->delay_ms, why);
 }
 
 static void finish(struct kd_job *job)
@@ -134,6 +149,24 @@ static void find_frames(struct kd_job *job)
     job->all->bytes += job->bytes;
 }
 
+/* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to fetch what is done. */
+static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
+{
+    double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
+    return 1e3 * fmin(fmax(s, 0), most);
+}
+
+/* It may be what has ended the servers, so others go first (kd_job_store_load), and it waits. It is never given up for that. */
+static void wait_after_strikes(struct kd_job *job)
+{
+    unsigned n = job->record.attempts;
+    if (n < KD_JOB_ATTEMPTS)
+        return;
+    job->due_ms = kd_clock_ms() + fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
+    snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times before another frame was there", n);
+    kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
+}
+
 /* One that the store knows. */
 static void resume(void *user, const struct kd_job_record *known, struct kd_buffer *request)
 {
@@ -141,25 +174,41 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
     struct kd_job_spec spec = { 0 };
     struct kd_error error = { 0 };
     char why[sizeof error.message] = "";
-    if (kd_job_spec_parse((const char *)request->data, request->size, known->preset, &spec, &error))
-        snprintf(why, sizeof why, "the request cannot be read any more: %.400s", error.message);
+    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, known->preset, &spec, &error);
     kd_buffer_finish(request);
+    if (status == KD_ENOMEM) {
+        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        return;
+    }
+    if (status)
+        snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
+    if (*why) { /* what is done is there for who reads it, whatever the request says to this version */
+        spec.frames = known->frames;
+        spec.curve = known->curve;
+    }
     struct kd_job *job = create(all, &spec);
     if (!job) {
         kd_job_spec_finish(&spec);
-        kd_log(KD_LOG_ERROR, "no memory for job %.4s...", known->id);
+        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
         return;
     }
     job->record = *known;
+    if (!job->record.frames) {
+        job->record.frames = job->frames;
+        job->record.curve = job->curve;
+    }
     find_frames(job);
     append(all, job);
-    if (job->record.state != KD_JOB_ACTIVE)
+    if (job->record.state != KD_JOB_ACTIVE) {
+        job->ended_ms = kd_clock_ms() - age_ms(all, known);
         return;
-    if (job->record.attempts >= KD_JOB_ATTEMPTS)
-        snprintf(why, sizeof why, "the server has ended %u times before another frame was there", job->record.attempts);
-    if (*why)
-        kd_job_end(job, KD_JOB_FAILED, why);
-    else if (job->finished == job->frames)
+    }
+    wait_after_strikes(job);
+    if (*why) { /* another version can: until then it waits */
+        job->due_ms = INFINITY;
+        snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
+        kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);
+    } else if (job->finished == job->frames)
         kd_job_end(job, KD_JOB_DONE, "");
 }
 
@@ -172,6 +221,8 @@ enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_job
     all->params.state = NULL;
     all->temporary = !params->state;
     pthread_mutex_init(&all->lock, NULL);
+    if (all->temporary)
+        kd_job_store_tidy();
     enum kd_status status = all->temporary ? KD_OK : kd_job_store_open(params->state, &all->store, error);
     if (!status && all->store)
         status = kd_job_store_load(all->store, resume, all, error);
@@ -261,6 +312,8 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
     } else {
         job->estimate_ms = draft->ms;
         job->record.created = kd_job_now_s();
+        job->record.frames = job->frames;
+        job->record.curve = job->curve;
         memcpy(job->record.preset, draft->preset, sizeof job->record.preset);
         snprintf(job->client, sizeof job->client, "%s", client);
         status = enter(all, job, text, length, quota, error);
@@ -329,7 +382,7 @@ static bool is_next(const struct kd_job *job)
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - job->finished - job->fraction;
-    if (!kd_job_is_active(job) || !(job->began_ms > 0 || is_next(job)))
+    if (!kd_job_is_active(job) || *job->delayed || !(job->began_ms > 0 || is_next(job)))
         return NAN;
     double frame_ms = job->finished_here ? (kd_clock_ms() - job->began_ms) / (job->finished_here + job->fraction)
                                          : job->estimate_ms / job->frames;
@@ -358,6 +411,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     for (const struct kd_job *other = all->first; other && other != job && kd_job_is_active(job); other = other->link)
         out->place += kd_job_is_active(other);
     snprintf(out->error, sizeof out->error, "%s", job->record.error);
+    memcpy(out->delayed, job->delayed, sizeof out->delayed);
     pthread_mutex_unlock(&all->lock);
 }
 

@@ -15,7 +15,9 @@
 struct kd_jobs;
 struct kd_job;
 
-#define KD_JOB_ATTEMPTS 3 /* restarts without a frame after which a job is taken for what ends the server */
+#define KD_JOB_ATTEMPTS 3 /* ends of the server without a frame after which a job waits before it is tried again: it may be the cause */
+#define KD_JOB_WAIT_MS 30e3 /* then, and twice as long after each further one, ... */
+#define KD_JOB_WAIT_MAX_MS 3600e3
 
 struct kd_jobs_params {
     struct kd_render_queue *renders;
@@ -62,6 +64,7 @@ struct kd_job_status {
     double created, ended;            /* seconds since 1970 */
     uint64_t bytes;
     char error[480];
+    char delayed[160]; /* why it is not tried at present; "": it is */
 };
 void kd_job_status(struct kd_job *job, struct kd_job_status *out);
 

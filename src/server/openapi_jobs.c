@@ -20,7 +20,7 @@ static const char answer[] =
     "{\"type\":\"object\",\"properties\":{\"id\":{\"type\":\"string\"},\"token\":{\"type\":\"string\"},\"state\":{\"enum\":[\"waiting\",\"running\","
     "\"done\",\"failed\",\"deleted\"]}," OUTPUT ",\"place\":" COUNT ",\"frames\":" COUNT ",\"finished\":" COUNT ",\"fraction\":{\"type\":\"number\"},"
     "\"remaining_s\":{\"type\":[\"number\",\"null\"]},\"bytes\":" COUNT ",\"created\":{\"type\":\"number\"},\"ended\":{\"type\":[\"number\","
-    "\"null\"]},\"error\":{\"type\":\"string\"}}}";
+    "\"null\"]},\"delayed\":{\"type\":\"string\"},\"error\":{\"type\":\"string\"}}}";
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000, "openapi.json says so");
 

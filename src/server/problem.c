@@ -36,6 +36,7 @@ struct kd_problem kd_problem_from(const struct kd_error *error)
     case KD_EINVAL: problem.type = KD_PROBLEM_INVALID_SCENE; break;
     case KD_ETOOBIG: problem.type = KD_PROBLEM_TOO_LARGE; break;
     case KD_ENOMEM: problem.type = KD_PROBLEM_NO_MEMORY, problem.retry_after = 5; break;
+    case KD_EFULL: problem.type = KD_PROBLEM_DISK_FULL, problem.retry_after = 60; break;
     case KD_EBUSY: problem.type = KD_PROBLEM_QUEUE_FULL, problem.retry_after = 1; break;
     case KD_ECANCELLED: problem.type = KD_PROBLEM_STOPPING, problem.retry_after = 1; break;
     case KD_EDEVICE: problem.type = KD_PROBLEM_DEVICE_LOST; break;

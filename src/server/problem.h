@@ -35,6 +35,7 @@
     X(QUEUE_FULL, 503, "queue-full", "Too many requests are waiting")                                         \
     X(CROWDED, 503, "too-many-connections", "Too many connections are open")                                 \
     X(STOPPING, 503, "stopping", "The server is stopping")                                                   \
+    X(DISK_FULL, 507, "disk-full", "There is no room on the disk")                                            \
     X(HTTP_VERSION, 505, "http-version", "Only HTTP/1.1 and HTTP/1.0 are spoken here")
 
 enum kd_problem_type {

@@ -2,10 +2,12 @@
 
 #include "base/buffer.h"
 #include "base/log.h"
+#include "base/read.h"
 #include "base/replace.h"
 #include "vk/device.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +20,7 @@ struct envelope {
 };
 static const char magic[8] = "kdpipe1";
 #define SUFFIX ".pipelines"
+#define FILE_MAX ((size_t)256 << 20) /* drivers keep some MiB; what is larger is not ours */
 
 /* FNV-1a, 64 bits: against damage, not against malice; the directory is the user's own. */
 static uint64_t hash_of(const uint8_t *data, size_t size)
@@ -67,21 +70,6 @@ static char *path_of(const struct kd_vk *vk, const char *dir)
     return path;
 }
 
-static bool read_all(const char *path, struct kd_buffer *out)
-{
-    uint8_t chunk[65536];
-    size_t n;
-    FILE *file = fopen(path, "rbe");
-    if (!file)
-        return false;
-    bool good = true;
-    while (good && (n = fread(chunk, 1, sizeof chunk, file)) > 0)
-        good = !kd_buffer_append(out, chunk, n);
-    good = good && !ferror(file);
-    fclose(file);
-    return good;
-}
-
 /* The driver's data within the file, or NULL. */
 static const uint8_t *open_envelope(const struct kd_vk *vk, const struct kd_buffer *file, size_t *size)
 {
@@ -105,7 +93,7 @@ enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_err
     VkPipelineCacheCreateInfo info = { .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
 
     cache->path = path_of(vk, dir);
-    if (cache->path && read_all(cache->path, &file)) {
+    if (cache->path && kd_read_file(AT_FDCWD, cache->path, 0, FILE_MAX, &file)) {
         info.pInitialData = open_envelope(vk, &file, &info.initialDataSize);
         if (info.pInitialData)
             cache->hash = hash_of(info.pInitialData, info.initialDataSize);
