@@ -8,6 +8,8 @@
 #include <poll.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,6 +18,7 @@
 #define REPLY_MS 30e3         /* to take an answer, and besides ... */
 #define BYTES_PER_MS 32       /* ... the time it takes at 32 kB/s, a poor mobile line */
 
+#define STALL_MS 2e3 /* a client that reads takes something in less, over nearly any line */
 #define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
 #define LINGER_BYTES ((size_t)16 << 20)
 #define LINGERING 64 /* at once */
@@ -28,6 +31,8 @@ struct kd_connection {
     size_t discarded;
     enum kd_stage stage;
     double deadline; /* on kd_clock_ms; 0: none */
+    int unsent;      /* bytes, when it was last looked at */
+    double stalled_ms; /* since then there are as many; 0: it has not been looked at */
 };
 
 struct kd_connections {
@@ -288,6 +293,22 @@ void kd_connections_sweep(struct kd_connections *all)
         one->deadline = 0;
     }
     empty_lingering(all, now);
+    pthread_mutex_unlock(&all->lock);
+}
+
+void kd_connections_cut_stalled(struct kd_connections *all)
+{
+    double now = kd_clock_ms();
+    pthread_mutex_lock(&all->lock);
+    for (struct kd_connection *one = all->first; one; one = one->next) {
+        int unsent = 0;
+        if (ioctl(one->socket, SIOCOUTQ, &unsent) || !unsent || unsent != one->unsent || !(one->stalled_ms > 0)) {
+            one->unsent = unsent;
+            one->stalled_ms = now;
+        } else if (now - one->stalled_ms > STALL_MS) {
+            shutdown(one->socket, SHUT_RDWR);
+        }
+    }
     pthread_mutex_unlock(&all->lock);
 }
 

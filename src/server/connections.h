@@ -54,6 +54,9 @@ unsigned kd_connections_most(unsigned limit);
 /* Shut down what is overdue, with a 408 where a request had begun; empty what lingers. One thread, often. */
 void kd_connections_sweep(struct kd_connections *all);
 
+/* On the way down: shut down those whose clients have not taken a byte for STALL_MS of what is on its way to them. One thread, often. */
+void kd_connections_cut_stalled(struct kd_connections *all);
+
 /* Whether the peer has closed, or half-closed, its end. The socket must be known to be open. */
 bool kd_socket_abandoned(int socket);
 

@@ -66,6 +66,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
+        kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }
 }
