@@ -74,10 +74,12 @@ static void set_signals(void (*handler)(int))
     sigaction(SIGINT, &action, NULL);
 }
 
-static void announce(const char *address, uint16_t port)
+static void announce(const char *address, uint16_t port, const char *const *own)
 {
     bool six = strchr(address, ':'); /* an IPv6 address needs brackets in a URL */
     printf("kerrd: listening on http://%s%s%s:%u/\n", six ? "[" : "", address, six ? "]" : "", port);
+    for (const char *const *name = own; name && *name; name++)
+        printf("kerrd: reached at http://%s:%u/\n", *name, port);
     fflush(stdout); /* whoever started us may be waiting for this line in a pipe */
 }
 
@@ -98,7 +100,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
     if (status)
         return status;
     set_signals(on_signal);
-    announce(arguments->listen, kd_server_port(running));
+    announce(arguments->listen, kd_server_port(running), kd_server_own_names(running));
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);

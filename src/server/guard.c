@@ -1,7 +1,9 @@
 #include "server/guard.h"
 
+#include "scene/text.h"
 #include "server/negotiate.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -83,6 +85,18 @@ static bool refuse(struct kd_problem *problem, enum kd_problem_type type, const 
     return false;
 }
 
+static const char *wrong_host(struct kd_header *header)
+{
+    char given[80], name[80];
+    size_t size = *header->host == '[' ? strcspn(header->host, "]") + 1 : strcspn(header->host, ":");
+    kd_text_clip(given, sizeof given, header->host);
+    bool whole = size < sizeof name && size <= strspn(header->host, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-_[:]");
+    snprintf(name, sizeof name, "%.*s", whole && size ? (int)size : 4, whole && size ? header->host : "NAME");
+    snprintf(header->wrong_host, sizeof header->wrong_host,
+             "the Host is \"%s\", none of the names this server answers to; kerrd serve --host %s adds it", given, name);
+    return header->wrong_host;
+}
+
 bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts,
                     bool hostless, struct kd_header *header, struct kd_problem *problem)
 {
@@ -103,7 +117,6 @@ bool kd_guard_check(struct MHD_Connection *connection, const char *version, cons
     if (scan.hosts != 1)
         return refuse(problem, KD_PROBLEM_MISDIRECTED, "exactly one Host is required");
     if (!kd_host_listed(header->host, hosts))
-        return refuse(problem, KD_PROBLEM_MISDIRECTED,
-                      "the Host is none of the names this server was told to answer to");
+        return refuse(problem, KD_PROBLEM_MISDIRECTED, wrong_host(header));
     return true;
 }

@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 struct kd_header {
+    char wrong_host[280]; /* what is wrong with it, for the answer */
     const char *host, *content_type;
     uint64_t content_length;
     bool has_length, chunked;

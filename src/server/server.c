@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "server/keeper.h"
 #include "server/listen.h"
+#include "server/names.h"
 #include "server/request.h"
 #include "server/service.h"
 
@@ -18,27 +19,35 @@ static unsigned or_default(unsigned value, unsigned otherwise)
     return value ? value : otherwise;
 }
 
-/* Loopback by name and number, the listening address if it is one address, and what the caller adds. */
-static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more,
-                                    struct kd_error *error)
+static bool add_host(struct kd_server *server, size_t *n, const char *name)
+{
+    server->hosts[*n] = strdup(name);
+    return server->hosts[(*n)++];
+}
+
+/* Loopback by name and number, the listening address if it is one address, else the machine's own ones and its name, and what the
+ * caller adds. */
+static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *const *more, struct kd_error *error)
 {
     const char *names[4] = { "127.0.0.1", "localhost", "[::1]", listen };
     char bracketed[80];
-    size_t n = 0, n_more = 0;
+    size_t n = 0, n_more = 0, n_own = 0;
+    bool good = true;
 
     if (strchr(listen, ':') && *listen != '[') {
         snprintf(bracketed, sizeof bracketed, "[%s]", listen);
         names[3] = bracketed;
     }
+    if (kd_names_any(listen) && !(server->own = kd_names_own(listen)))
+        return kd_error_set(error, KD_ENOMEM, "no memory for the machine's own addresses, or they cannot be listed");
     while (more && more[n_more])
         n_more++;
-    server->hosts = calloc(4 + n_more + 1, sizeof *server->hosts);
-    if (!server->hosts)
-        return kd_error_set(error, KD_ENOMEM, "out of memory");
-    for (; n < 4 + n_more; n++)
-        if (!(server->hosts[n] = strdup(n < 4 ? names[n] : more[n - 4])))
-            return kd_error_set(error, KD_ENOMEM, "out of memory");
-    return KD_OK;
+    while (server->own && server->own[n_own])
+        n_own++;
+    server->hosts = calloc(4 + n_own + n_more + 1, sizeof *server->hosts);
+    for (size_t i = 0; good && server->hosts && i < 4 + n_own + n_more; i++)
+        good = add_host(server, &n, i < 4 ? names[i] : i < 4 + n_own ? server->own[i - 4] : more[i - 4 - n_own]);
+    return good && server->hosts ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
 }
 
 /* FNV-1a over what decides a picture besides its scene. */
@@ -171,6 +180,11 @@ enum kd_status kd_server_create(const struct kd_server_params *params, struct kd
     return KD_OK;
 }
 
+const char *const *kd_server_own_names(const struct kd_server *server)
+{
+    return (const char *const *)server->own;
+}
+
 uint16_t kd_server_port(const struct kd_server *server)
 {
     return server->port;
@@ -224,6 +238,7 @@ void kd_server_destroy(struct kd_server *server)
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);
     free(server->hosts);
+    kd_names_free(server->own);
     if (server->stop_fd >= 0)
         close(server->stop_fd);
     pthread_cond_destroy(&server->changed);

@@ -33,6 +33,8 @@ struct kd_server_params {
 enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out,
                                 struct kd_error *error);
 uint16_t kd_server_port(const struct kd_server *server);
+/* Where it listens on every address: those of this machine and its name, by which it is reached, NULL-terminated; else NULL. */
+const char *const *kd_server_own_names(const struct kd_server *server);
 /* Begin to stop: /readyz fails at once, running and queued renders finish. Async-signal-safe. */
 void kd_server_stop(struct kd_server *server);
 /* Block until stopped and drained. KD_EDEVICE when the device was lost: exit the process soon, without

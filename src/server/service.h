@@ -48,6 +48,7 @@ struct kd_server {
     struct kd_front *front;
     uint16_t port;
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
+    char **own;         /* kd_names_own, where it listens on every address; else NULL */
     unsigned drain_ms, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;

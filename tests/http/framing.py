@@ -1,4 +1,7 @@
 """The header guard, limits on bodies, and deadlines, with bytes that no proper client sends."""
+import re
+import shutil
+import subprocess
 import time
 import unittest
 
@@ -114,6 +117,31 @@ class Guard(daemon.Case):
                 s.sendall(data)
                 s.shutdown(1)
                 s.recv(65536)
+
+
+def own_addresses(family):
+    text = subprocess.run(['ip', '-o', 'addr'], capture_output=True, text=True).stdout if shutil.which('ip') else ''
+    found = re.findall(family + r' ([0-9a-f.:]+)/\d+ .*scope global', text)
+    if not found and family == 'inet':
+        text = subprocess.run(['hostname', '-I'], capture_output=True, text=True).stdout
+        found = [a for a in text.split() if ':' not in a]
+    return found
+
+
+class EveryAddress(daemon.Case):
+    options = ('--listen', '0.0.0.0')
+
+    def test_own_addresses_are_answered_to(self):
+        own = own_addresses('inet')
+        if not own:
+            self.skipTest('this machine has no address besides loopback')
+        for address in own:
+            self.assertEqual(self.daemon.raw(get(f'Host: {address}:80'.encode())).status, 200)
+        for host in ('192.0.2.7', '192.0.2.7:8080', 'evil.example'):
+            problem = self.assertProblem(self.daemon.raw(get(f'Host: {host}'.encode())), 421, 'misdirected')
+            self.assertIn('--host ' + host.split(':')[0], problem['detail'])
+            self.assertIn(f'"{host}"', problem['detail'])
+        self.assertIn('--host NAME', self.daemon.raw(get(b'Host: $(x)')).json()['detail'])
 
 
 class Sizes(daemon.Case):
