@@ -13,12 +13,12 @@ double kd_accuracy_holds(const struct kd_accuracy_row *row)
         return INFINITY;
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         const struct kd_accuracy_entry *e = &row->sets[k];
-        double median = e->of[KD_ACCURACY_R].median;
+        double median = e->of[KD_ACCURACY_R].median, most = k == KD_ACCURACY_BULK ? e->of[KD_ACCURACY_R].p99 : median;
         if (k == KD_ACCURACY_NEAR_CRITICAL)
             continue;
-        if (!e->rays || !e->crossings || !(median >= 0) || e->differ > KD_ACCURACY_STRAY * e->rays)
+        if (!e->rays || !e->crossings || !(median >= 0) || !(most >= median) || e->differ > KD_ACCURACY_STRAY * e->rays)
             return INFINITY;
-        out = fmax(out, k == KD_ACCURACY_BULK ? KD_ACCURACY_SAFETY * median : median);
+        out = fmax(out, most);
     }
     return out;
 }

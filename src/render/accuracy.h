@@ -14,10 +14,9 @@
 #define KD_ACCURACY_ORDERS 3
 #define KD_ACCURACY_FAR 1e3 /* M: w = 1/r is what is computed, its error absolute, so that of r grows as r */
 #define KD_ACCURACY_ROWS 64
-/* What a row is said to hold: this times the median over the bulk set, since medians of common spins and inclinations lie
- * within 3.5 of one another (docs/accuracy.md), or the median of any other set if that is larger: few steps lose up to forty
- * times as much edge-on. Near the critical curve no number of steps helps, so that set is left out. */
-#define KD_ACCURACY_SAFETY 4
+/* What a row is said to hold: what 99 % of the crossings of the bulk set are within, or the median of any other set if that is
+ * larger: few steps lose more edge-on. Near the critical curve no number of steps helps, so that set is left out. It is the first
+ * choice only: of a list of rays, those that are beyond a tolerance by their own error are followed again (rays_hold.h). */
 #define KD_ACCURACY_STRAY 0.01 /* a row of which more rays than this differ in one of these sets holds nothing */
 
 enum kd_accuracy_quantity { KD_ACCURACY_R, KD_ACCURACY_PHI, KD_ACCURACY_DELAY, KD_ACCURACY_G, KD_ACCURACY_QUANTITIES };
@@ -57,7 +56,7 @@ struct kd_accuracy_choice {
     double error, rays_per_s; /* what it holds; speed over the bulk */
 };
 
-/* The tolerance that a row holds; INFINITY if none. */
+/* The tolerance that a row is chosen for; INFINITY if none. */
 double kd_accuracy_holds(const struct kd_accuracy_row *row);
 
 /* The fastest row within the limits (NULL: all) that holds a relative error of the crossing radius. KD_EINVAL at

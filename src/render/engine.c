@@ -71,6 +71,10 @@ static enum kd_status by_tolerance(const struct kd_wish *wish, const struct kd_a
     enum kd_status status = kd_accuracy_choose(table, wish->tolerance, &limits, &choice, error);
     if (!status)
         *out = (struct kd_setting) { choice.engine, choice.precision, choice.steps, choice.error };
+    if (status == KD_EINVAL && wish->engine < 0 && wish->precision != KD_PRECISION_F32 && wish->tolerance >= KD_CLOSED_HOLDS && wish->tolerance < 1) {
+        *out = (struct kd_setting) { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64, .holds = KD_CLOSED_HOLDS };
+        return KD_OK;
+    }
     return status;
 }
 

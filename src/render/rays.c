@@ -3,6 +3,7 @@
 #include "render/rays_check.h"
 #include "render/rays_closed.h"
 #include "render/rays_device.h"
+#include "render/rays_hold.h"
 
 #include <float.h>
 #include <math.h>
@@ -74,6 +75,8 @@ static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct
         kd_rays_redshift(params, alpha_beta, n, crossings, ends);
     if (!status && params->engine >= KD_ENGINE_KS_EULER)
         status = compare(params, alpha_beta, n, crossings, ends, progress, user, error);
+    if (!status && params->tolerance > 0)
+        status = kd_rays_hold(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
     return status;
 }
 

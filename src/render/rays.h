@@ -27,7 +27,8 @@ struct kd_rays_params {
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;          /* a half period, a multiple of 4; 0: the engine's default; closed: 0 */
-    double holds;            /* the tolerance that these were chosen to hold, for the answer; 0: none */
+    double tolerance;        /* > 0: rays whose own error is beyond it are followed again, finer; 0: none */
+    double holds;            /* what the table says that the setting holds, for the answer; 0: no tolerance was asked for */
 };
 
 /* Rays by their labels. A list from outside starts inwards; those of a picture from a finite radius may not. */
@@ -49,9 +50,11 @@ struct kd_ray_end {
                               * there is no crossing); bounds the true one for 999 of 1000 rays at least; NaN for neither. 1 or
                               * more: there may be another number of crossings, one next to the horizon or very far out (Mino engines,
                               * closed form), or there is another number or fate than the closed form's (Kerr-Schild engines) */
+    bool again;              /* followed again by a finer setting, for the tolerance */
 };
 
-/* Trace n rays. alpha_beta: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.
+/* Trace n rays. With a tolerance each that is not within it by its own error, or undecided, is followed again by more steps in double
+ * precision, then in closed form: what is beyond it after that no double holds. alpha_beta: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.
  * renderer may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread.
  * KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta,

@@ -2,6 +2,7 @@
 
 #include "base/decimal.h"
 #include "image/npy.h"
+#include "render/rays_hold.h"
 #include "render/rays_rows.h"
 
 #include <math.h>
@@ -45,9 +46,11 @@ enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd
     size_t n = 0;
     if (!errors)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu errors", answer->n);
-    answer->undecided = 0;
+    answer->undecided = answer->followed_again = answer->beyond = 0;
     for (size_t i = 0; i < answer->n; i++) {
         answer->undecided += answer->ends[i].fate == KD_RAY_UNDECIDED;
+        answer->followed_again += answer->ends[i].again;
+        answer->beyond += answer->params.tolerance > 0 && !kd_rays_held(&answer->ends[i], answer->params.tolerance);
         if (isfinite(answer->ends[i].error))
             errors[n++] = answer->ends[i].error;
     }
@@ -74,6 +77,10 @@ static enum kd_status json_accuracy(const struct kd_rays_answer *answer, struct 
         kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\",\"steps\":%u,\"rays\":%zu,\"undecided\":%zu",
                          kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n,
                          answer->undecided);
+    if (!status && p->tolerance > 0)
+        status = add_number(out, ",\"tolerance\":", p->tolerance);
+    if (!status && p->tolerance > 0)
+        status = kd_buffer_printf(out, ",\"followed_again\":%zu,\"beyond\":%zu", answer->followed_again, answer->beyond);
     if (!status && p->holds > 0)
         status = add_number(out, ",\"holds\":", p->holds);
     if (!status)
@@ -91,12 +98,16 @@ const char *kd_rays_approximation(const struct kd_rays_params *params, size_t in
         "and angular momentum of the ISCO; neither feels pressure",
         isinf(params->r) ? NULL
                          : "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity",
-        params->precision == KD_PRECISION_F32
+        params->precision == KD_PRECISION_F32 && !(params->tolerance > 0)
             ? "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong"
             : NULL,
         params->engine >= KD_ENGINE_KS_EULER ? "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
                                                "takes the momentum they leave with for their direction of escape, good to 1e-6 rad"
                                              : NULL,
+        params->tolerance > 0 && params->engine != KD_ENGINE_CLOSED
+            ? "rays beyond the tolerance by their own error were followed again in double precision, at last in closed form; what is still beyond "
+              "it says so by its error"
+            : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)

@@ -1,7 +1,7 @@
 /* What kd_rays_trace found, and how it is written: JSON, NPY or CSV, as a stream of bytes that is made while it is read. A
  * million rays in JSON are half a gigabyte; nobody holds it. Any thread, one at a time.
  *
- * JSON  {"spin", "observer", "orders", "accuracy": {engine, precision, steps, rays, undecided, worst_error, median_error},
+ * JSON  {"spin", "observer", "orders", "accuracy": {engine, precision, steps, rays, undecided, tolerance, followed_again, beyond, holds, worst_error, median_error},
  *       "approximations": [...], "rays": [{"fate", "crossings": [{order, r, phi, delay, g}], "sky": {theta, phi}, "error"}]}
  *       A number that does not exist is left out, a sky too for a ray that does not escape.
  * NPY   records, in the order of the rays: fate (u1: 0 captured, 1 escaped, 2 undecided), n_crossings (u1), error,
@@ -23,6 +23,7 @@ struct kd_rays_answer {
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     size_t undecided; /* these by kd_rays_answer_summarise */
+    size_t followed_again, beyond; /* of a tolerance: for it; not within it by their own error after all, the undecided among them */
     double worst_error, median_error; /* over the rays that have one; NaN if none has */
 };
 

@@ -338,6 +338,7 @@ enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const str
     request->params.precision = by.precision;
     request->params.steps = by.steps;
     request->params.holds = by.holds > 0 ? by.holds : 0;
+    request->params.tolerance = isfinite(request->wish.tolerance) ? request->wish.tolerance : 0;
     return KD_OK;
 }
 

@@ -37,7 +37,7 @@ static const char request[] =
 static const char answer[] =
     "{\"type\":\"object\",\"properties\":{\"spin\":" NUMBER "," OBSERVER ",\"orders\":" ORDERS
     ",\"accuracy\":{\"type\":\"object\",\"properties\":{\"engine\":" ENGINES ",\"precision\":" PRECISIONS ",\"steps\":" STEPS
-    ",\"rays\":" NUMBER ",\"undecided\":" NUMBER ",\"holds\":" NUMBER ",\"worst_error\":" NUMBER ",\"median_error\":" NUMBER "}},"
+    ",\"rays\":" NUMBER ",\"undecided\":" NUMBER ",\"tolerance\":" NUMBER ",\"followed_again\":" NUMBER ",\"beyond\":" NUMBER ",\"holds\":" NUMBER ",\"worst_error\":" NUMBER ",\"median_error\":" NUMBER "}},"
     "\"approximations\":{\"type\":\"array\",\"items\":{\"type\":\"string\"}},"
     "\"rays\":{\"type\":\"array\",\"items\":{\"type\":\"object\",\"properties\":{"
     "\"fate\":{\"enum\":[\"captured\",\"escaped\",\"undecided\"]},"

@@ -60,7 +60,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };
-    char timing[120], accuracy[160];
+    char timing[120], accuracy[240];
     const char *sentence;
     snprintf(timing, sizeof timing, "queue;dur=%.3f, read;dur=%.3f, trace;dur=%.3f",
              job->task.begun_ms - job->task.submitted_ms, job->read_ms, job->trace_ms);
@@ -69,6 +69,9 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
     int n = snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s steps=%u undecided=%zu", answer->n,
                      kd_engine_name(answer->params.engine), kd_precision_name(answer->params.precision),
                      answer->params.steps, answer->undecided);
+    if (answer->params.tolerance > 0)
+        n += snprintf(accuracy + n, sizeof accuracy - (size_t)n, " tolerance=%.3g followed_again=%zu beyond=%zu", answer->params.tolerance,
+                      answer->followed_again, answer->beyond);
     if (!isnan(answer->worst_error))
         snprintf(accuracy + n, sizeof accuracy - (size_t)n, " median=%.1e worst=%.1e", answer->median_error,
                  answer->worst_error);

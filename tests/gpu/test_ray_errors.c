@@ -5,6 +5,7 @@
 #include "null_reference.h"
 #include "null_series.h"
 #include "physics/critical.h"
+#include "render/accuracy.h"
 #include "render/internal.h"
 #include "render/rays.h"
 #include "render/rays_check.h"
@@ -194,6 +195,64 @@ static void test_few_steps_at_high_order(void **state)
     assert_true(end.n_crossings == 8 || end.error >= 1);
 }
 
+/* Crossings further off than a tolerance, in all lists; of them, those of rays that say that they are within it. */
+struct held { size_t crossings, off, silent, again, beyond, rays; };
+
+static void count(const struct list *l, double tolerance, const struct kd_ray_end *ends, const struct kd_ray_crossing *crossings, struct held *t)
+{
+    for (size_t k = 0; k < l->n; k++) {
+        const struct series_path *p = &l->paths[k];
+        const struct kd_ray_end *e = &ends[k];
+        bool said = e->fate == KD_RAY_UNDECIDED || e->error > tolerance;
+        t->rays++;
+        t->again += e->again;
+        t->beyond += said;
+        for (int n = 0; n < p->crossings; n++) { /* one that is not told is as wrong as can be */
+            bool off = n >= (int)e->n_crossings || fabsl(crossings[k * ORDERS + (size_t)n].r / p->r[n] - 1) > tolerance;
+            t->crossings++;
+            t->off += off;
+            t->silent += off && !said;
+        }
+    }
+}
+
+static struct held hold(const struct kd_setting *by, double tolerance, bool again)
+{
+    static struct kd_ray_crossing crossings[RAYS * ORDERS];
+    static struct kd_ray_end ends[RAYS];
+    struct held t = { 0 };
+    for (int i = 0; i < VIEWS; i++) {
+        const struct kd_rays_params params = {
+            .spin = views[i].spin, .r = views[i].r, .inclination_deg = views[i].inclination, .orders = ORDERS, .engine = by->engine,
+            .precision = by->precision, .steps = by->steps, .tolerance = again ? tolerance : 0,
+        };
+        OK(kd_rays_trace(renderer, &params, lists[i].rays, lists[i].n, crossings, ends, NULL, NULL, &error));
+        count(&lists[i], tolerance, ends, crossings, &t);
+    }
+    return t;
+}
+
+/* A tolerance holds for each ray, whatever its place in the image, but for those that say that they are beyond it: few,
+ * next to the critical curve, where double precision knows no better. */
+static void test_tolerance(void **state)
+{
+    (void)state;
+    struct kd_wish wish = KD_WISH_NONE;
+    for (int k = 4; k <= 11; k++) {
+        struct kd_setting by;
+        wish.tolerance = pow(10, -k);
+        OK(kd_setting_of(&wish, kd_accuracy_built_in(), kd_vk_info(renderer->vk)->float64, &by, &error));
+        const struct held once = hold(&by, wish.tolerance, false), held = hold(&by, wish.tolerance, true);
+        print_message("%.0e, %s %s %u: %zu crossings, %zu beyond at first (%.3g %%), %zu after %zu of %zu rays were followed again, %zu rays say so\n",
+                      wish.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps, once.crossings, once.off,
+                      100.0 * (double)once.off / (double)once.crossings, held.off, held.again, held.rays, held.beyond);
+        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* or the test proves nothing */
+        assert_true(10000 * held.silent <= held.crossings);
+        assert_true(1000 * held.off <= held.crossings || k > 8);
+        assert_true(20 * held.beyond <= held.rays || k > 9);
+    }
+}
+
 int main(void)
 {
     int status = open_renderer();
@@ -201,6 +260,7 @@ int main(void)
         return status;
     prepare();
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_series), cmocka_unit_test(test_closed), cmocka_unit_test(test_single),
-                                        cmocka_unit_test(test_double), cmocka_unit_test(test_few_steps_at_high_order) };
+                                        cmocka_unit_test(test_double), cmocka_unit_test(test_few_steps_at_high_order),
+                                        cmocka_unit_test(test_tolerance) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -111,7 +111,10 @@ static void what_cannot_be(void **state)
     wish.tolerance = 1e-15;
     refuse(wish, true, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
     wish.tolerance = 1e-9;
+    assert_int_equal(settle(wish, false).engine, KD_ENGINE_CLOSED); /* which needs no device */
+    wish.precision = KD_PRECISION_F32;
     refuse(wish, false, "/accuracy/tolerance", "stands in for this device's, was measured to hold");
+    wish.precision = -1;
     wish.steps = 8;
     refuse(wish, true, "/accuracy/steps", "beside a tolerance");
     wish.steps = 0;
