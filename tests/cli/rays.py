@@ -112,6 +112,20 @@ class Rays(Case):
         self.assertIn(done.returncode, (1, 2))  # none at all, or none of that name
         self.assertTrue(done.stderr.startswith(b"kerrd: "), done.stderr)
 
+    def test_a_tolerance_is_held_ray_by_ray(self):
+        """On a device. What 32 bits do not hold of five orders next to the critical curve is followed again; what no double holds says so."""
+        near = ["--ray=5.8396981340323952,-2.9198490670161976", "--ray=5.8438,-2.9219", "--ray=-7,1"] # 1e-6 and 1e-3 from it
+        for tolerance, beyond in ((1e-5, 0), (1e-12, 1)):
+            done = run("rays", "--spin", "0.9", "--inclination-deg", "70", "--orders", "5", "--tolerance", str(tolerance), *near)
+            if done.returncode == 1:
+                self.skipTest("there is no device")
+            answer = json.loads(done.stdout)
+            accuracy, errors = answer["accuracy"], [ray["error"] for ray in answer["rays"]]
+            self.assertIn(accuracy["followed_again"], (1, 2, 3), accuracy)
+            self.assertEqual(accuracy["beyond"], sum(error > tolerance for error in errors))
+            self.assertLessEqual(accuracy["beyond"], beyond)
+            self.assertTrue(any("followed again" in sentence for sentence in answer["approximations"]))
+
     def test_large(self):
         rays = [[(i * 37 % 1001) / 50 - 10, (i * 61 % 997) / 50 - 10] for i in range(50000)]
         whole = self.good("rays", "-", "--format", "npy", stdin=npy(rays))

@@ -19,12 +19,12 @@ enum { ORDERS = 8, RAYS = 120 };
 static const struct view { double spin, inclination, r; bool critical; } views[] = {
     { 0.9, 70, INFINITY, false }, { 0, 45, INFINITY, false }, { 0.998, 85, INFINITY, false }, { -0.7, 20, INFINITY, false },
     { 0.5, 135, INFINITY, false }, { 0.9, 90, INFINITY, false }, { 0.9, 0, INFINITY, false }, { 0.3, 180, INFINITY, false },
-    { 0.9, 60, 50, false },
+    { 0.9, 89.99, INFINITY, false }, { 0.9, 60, 50, false },
     { 0.9, 70, INFINITY, true }, { 0, 45, INFINITY, true }, { 0.998, 85, INFINITY, true }, { -0.7, 20, INFINITY, true },
-    { 0.5, 135, INFINITY, true }, { 0.9, 90, INFINITY, true }, { 0.9, 0, INFINITY, true },
+    { 0.5, 135, INFINITY, true }, { 0.9, 90, INFINITY, true }, { 0.9, 0, INFINITY, true }, { 0.9, 89.99, INFINITY, true },
     { 0.9999999, 60, INFINITY, false }, { 0.999999999999, 70, INFINITY, false }, { -0.999999999999, 45, INFINITY, false },
     { 0.9999999, 90, INFINITY, false }, { 5e-324, 30, INFINITY, false }, { 0.9, 5e-324, INFINITY, false },
-    { 0.9, 1e-3, INFINITY, false },
+    { 0.9, 1e-3, INFINITY, false }, { 0.9, 89.99999999999999, INFINITY, false }, { 0.9, 90.00000000000001, INFINITY, false },
     { 0.9, 60, 1e6, false }, { 0.9, 60, 3, false }, { 0, 80, 3, false }, { 0.9999999, 60, 1.2, false }, { 0.9, 60, 1.45, false },
     { -0.9, 90, 4, false },
 };
