@@ -97,10 +97,20 @@ static double predict(const struct kd_frame_cost *cost, const struct kd_rung *fr
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
-static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *from,
-                                uint32_t first)
+/* The lowest rung that a pace may take. Where nothing moves, and light alone changes, a picture that keeps its size is worth more
+ * than many of them. */
+static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
 {
-    uint32_t last = (uint32_t)g->ladder.n_rungs - 1, to = at_most(first, last);
+    uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
+    while (last > 0 && g->rings && pace == &g->paces[0] && g->ladder.rungs[last].quality.scale < 1)
+        last--;
+    return last;
+}
+
+static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
+                                const struct kd_rung *from, uint32_t first)
+{
+    uint32_t last = last_rung(g, pace), to = at_most(first, last);
     while (to < last && predict(cost, from, &g->ladder.rungs[to], false) > room(g, cost))
         to++;
     return to;
@@ -159,7 +169,7 @@ static void climb(const struct kd_governor *g, struct kd_pace *pace, const struc
 static void spare_a_stall(struct kd_governor *g, double now)
 {
     struct kd_pace *pace = &g->paces[0];
-    uint32_t last = (uint32_t)g->ladder.n_rungs - 1, to = pace->rung;
+    uint32_t last = last_rung(g, pace), to = pace->rung;
     while (to < last && !traceable(g, pace, &g->ladder.rungs[to], g->params.stall_ms))
         to++;
     if (to > pace->rung)
@@ -179,8 +189,8 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
         spare_a_stall(g, now);
     }
     if (far || varying(&cost) > OVER * room(g, &cost)) {
-        if (pace->rung + 1 < g->ladder.n_rungs)
-            move(pace, first_that_fits(g, &cost, here, pace->rung + 1), false, now);
+        if (pace->rung < last_rung(g, pace))
+            move(pace, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
         return;
     }
     if (now - pace->changed_at >= COOLDOWN_MS)
@@ -213,7 +223,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
     for (int i = 0; i < 2 && g->ladders; i++) {
         struct kd_pace *pace = &g->paces[i];
         struct kd_frame_cost cost = mean_of_middle(pace);
-        pace->rung = pace->count ? first_that_fits(g, &cost, &old.rungs[pace->rung], 0)
+        pace->rung = pace->count ? first_that_fits(g, pace, &cost, &old.rungs[pace->rung], 0)
                                  : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
         pace->ceiling = pace->count = 0;
         pace->climbed = false;
@@ -221,15 +231,35 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
     g->ladders++;
 }
 
+/* A picture knows nothing of motion. */
+static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
+{
+    struct kd_scene still = *b;
+    still.motion = a->motion;
+    return !memcmp(a, &still, sizeof still) && memcmp(a, b, sizeof still); /* equal scenes are equal bytes: kd_scene_defaults */
+}
+
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
+    /* What is shown is right already. It is only told once more, when nothing else has changed meanwhile. */
+    bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_scene_moves(asked);
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
     for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)
         begin_anew(&g->paces[i]);
+    bool rings = kd_scene_only_rings(asked);
+    if (g->rings != rings) {
+        begin_anew(&g->paces[0]);
+        g->rings = rings;
+        g->paces[0].rung = at_most(g->paces[0].rung, last_rung(g, &g->paces[0]));
+    }
     g->asked = *asked;
     g->revision++;
     g->changed_at = now;
+    if (told_again) {
+        g->shown_revision = g->revision;
+        g->shown.final = false;
+    }
     if (!lens)
         return;
     /* Changes of the lens that keep coming just after they were forgotten are one long one. */
@@ -242,7 +272,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
 static void expect(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *of, uint32_t known)
 {
     struct kd_pace *pace = &g->paces[!cost->lens_reused];
-    uint32_t rung = first_that_fits(g, cost, of, 0);
+    uint32_t rung = first_that_fits(g, pace, cost, of, 0);
     if (pace->count > known || !isinf(pace->changed_at) || rung == pace->rung)
         return;
     pace->rung = rung;

@@ -38,6 +38,9 @@
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
  *   on.
  *
+ * Where a hole rings and nothing else goes on, nothing moves: frames keep the size that is asked, however long they take, and give
+ * up rays of a pixel alone. A change of motion alone changes no picture: what is shown is rendered once more, as at rest.
+ *
  * When nothing changed for rest_ms: the steps of the ladder, one frame each, those that are less than what is shown left out. Then
  * nothing, until the next change. A scene that is stepped in time at each frame does not rest. */
 #ifndef KD_RENDER_GOVERNOR_H
@@ -99,6 +102,7 @@ struct kd_governor {
     struct kd_rung traced_on;            /* and their rung; no rays: none yet */
     double blind_until, blind_ms;        /* lens maps are not kept, whatever the changes are */
     uint32_t missed;                     /* frames in a row that traced though the lens was the same */
+    bool rings;                          /* nothing moves, light alone changes */
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
     double shown_rays;

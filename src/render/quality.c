@@ -60,14 +60,14 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
     int32_t samples = asked->image.samples, orders = asked->accuracy.orders;
     out->rungs[0] = make_rung(asked, scale, samples, orders, -1);
     out->n_rungs = 1;
-    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++)
-        if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
-            add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
-            scale = scales[i];
     while (samples > bounds->samples) {
         samples = samples / 2 > bounds->samples ? samples / 2 : bounds->samples;
         add_rung(out, make_rung(asked, scale, samples, orders, -1));
     }
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++)
+        if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
+            add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
+            scale = scales[i];
     while (orders > bounds->orders) {
         orders = (orders + 1) / 2 > bounds->orders ? (orders + 1) / 2 : bounds->orders;
         add_rung(out, make_rung(asked, scale, samples, orders, -1));

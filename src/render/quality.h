@@ -37,8 +37,8 @@ struct kd_ladder_bounds {
 enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
-    /* Downwards from what is asked: resolution first, then samples, then orders, then the steps along a ray. Each is less work than
-     * the one before. */
+    /* Downwards from what is asked: samples first, for what moves needs its pixels more than smooth edges, then resolution, then
+     * orders, then the steps along a ray. Each is less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
     /* Upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at most the profile "balanced";

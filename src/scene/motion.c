@@ -51,11 +51,24 @@ static bool rings(const struct kd_scene *scene)
     return scene->style.ringdown * exp(-mode.omega_re / (2 * mode.quality) * since) > SEEN;
 }
 
-bool kd_scene_moves(const struct kd_scene *scene)
+/* A smooth disk knows neither azimuth nor time. */
+static bool has_lumps(const struct kd_scene *scene)
 {
     const struct kd_spot *on[KD_SPOTS];
-    /* A smooth disk knows neither azimuth nor time. */
-    bool lumps = scene->disk.model == KD_DISK_PARTICLES || kd_scene_spots(scene, on);
-    return (scene->motion.azimuth_rate_deg != 0 && (lumps || scene->sky.model != KD_SKY_NONE)) ||
-           (time_goes_on(scene) && (lumps || rings(scene)));
+    return scene->disk.model == KD_DISK_PARTICLES || kd_scene_spots(scene, on);
+}
+
+static bool goes_round(const struct kd_scene *scene)
+{
+    return scene->motion.azimuth_rate_deg != 0 && (has_lumps(scene) || scene->sky.model != KD_SKY_NONE);
+}
+
+bool kd_scene_only_rings(const struct kd_scene *scene)
+{
+    return time_goes_on(scene) && rings(scene) && !has_lumps(scene) && !goes_round(scene);
+}
+
+bool kd_scene_moves(const struct kd_scene *scene)
+{
+    return goes_round(scene) || (time_goes_on(scene) && (has_lumps(scene) || rings(scene)));
 }

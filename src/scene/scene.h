@@ -65,6 +65,8 @@ enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *
 /* What goes on by itself in a live session, azimuth and time, after so many seconds; and whether any of it can be seen. */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 bool kd_scene_moves(const struct kd_scene *scene);
+/* Whether all that can be seen to go on is a smooth disk that rings: nothing moves, light alone changes. */
+bool kd_scene_only_rings(const struct kd_scene *scene);
 
 /* The spots that are on, in order. */
 #define KD_SPOTS 3

@@ -118,8 +118,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     asked.image.samples = 2;
     kd_ladder_make(&asked, &bounds, &ladder);
     static const struct { double scale; int samples, orders, profile; } expected[] = {
-        { 1, 2, 3, -1 }, { .75, 2, 3, -1 }, { .625, 2, 3, -1 }, { .5, 2, 3, -1 }, { .375, 2, 3, -1 },
-        { .25, 2, 3, -1 }, { .25, 1, 3, -1 }, { .25, 1, 2, -1 }, { .25, 1, 2, KD_PROFILE_INTERACTIVE }, { .25, 1, 2, KD_PROFILE_DRAFT },
+        { 1, 2, 3, -1 }, { 1, 1, 3, -1 }, { .75, 1, 3, -1 }, { .625, 1, 3, -1 }, { .5, 1, 3, -1 }, { .375, 1, 3, -1 },
+        { .25, 1, 3, -1 }, { .25, 1, 2, -1 }, { .25, 1, 2, KD_PROFILE_INTERACTIVE }, { .25, 1, 2, KD_PROFILE_DRAFT },
     };
     assert_int_equal(ladder.n_rungs, sizeof expected / sizeof *expected);
     for (size_t i = 0; i < ladder.n_rungs; i++) {
@@ -128,8 +128,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
         assert_int_equal(ladder.rungs[i].quality.orders, expected[i].orders);
         assert_int_equal(ladder.rungs[i].quality.profile, expected[i].profile);
     }
-    assert_int_equal(ladder.rungs[3].quality.width, 640);
-    assert_int_equal(ladder.rungs[3].quality.height, 360);
+    assert_int_equal(ladder.rungs[4].quality.width, 640);
+    assert_int_equal(ladder.rungs[4].quality.height, 360);
 }
 
 /* Steady machines */
@@ -320,6 +320,45 @@ static void another_kind_of_scene_begins_anew(void **state)
         s.truth = (struct truth) { .traced = 12, .reused = 12, .pixels = 10 };
         run(&s, DRAG, 300);
         assert_true(s.last.final);
+    }
+}
+
+/* Nothing moves while a smooth disk rings: the picture keeps its size on any machine, and gets it back where it had lost it. */
+static void what_only_rings_keeps_its_size(void **state)
+{
+    (void)state;
+    struct simulation s;
+    for (int before = 0; before < 3; before++) {
+        begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 400, .reused = 300, .pixels = 60 });
+        s.asked.image.samples = 2;
+        if (before)
+            run(&s, before == 1 ? DRAG : PLAY, 5000);
+        else
+            change(&s, true);
+        s.now += 3000;
+        while (frame(&s))
+            s.now += 200;
+        assert_true(s.last.final);
+        s.asked.motion.time_rate = 8;
+        change(&s, false); /* a picture knows nothing of that */
+        assert_true(kd_governor_turn(&s.governor, s.now).wait_ms > 0);
+        s.asked.style.ringdown = 1;
+        for (int i = 0; i < 200; i++) {
+            s.asked.top.time += 0.1;
+            change(&s, false);
+            assert_true(frame(&s));
+            assert_true(s.last.scale == 1);
+        }
+        assert_int_equal(s.last.samples, 1);
+        s.asked.top.time = 1e4; /* faded */
+        change(&s, false);
+        s.now += 200;
+        while (frame(&s))
+            s.now += 200;
+        assert_true(s.last.final);
+        s.asked.disk.model = KD_DISK_PARTICLES; /* that moves */
+        run(&s, PLAY, 5000);
+        assert_true(s.last.scale < 1);
     }
 }
 
@@ -793,6 +832,7 @@ int main(void)
         cmocka_unit_test(recovers_from_a_slow_beginning),
         cmocka_unit_test(a_drag_is_soon_forgotten),
         cmocka_unit_test(another_kind_of_scene_begins_anew),
+        cmocka_unit_test(what_only_rings_keeps_its_size),
         cmocka_unit_test(what_refinement_measured_is_believed),
         cmocka_unit_test(noise_and_spikes_change_little),
         cmocka_unit_test(load_that_comes_and_goes_is_followed),
