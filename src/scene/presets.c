@@ -10,30 +10,37 @@
 const struct kd_preset kd_presets[] = {
     { "schwarzschild", "A hole that does not spin, its disk seen from 10 degrees above",
       "{\"spacetime\":{\"spin\":0},"
-      "\"camera\":{\"inclination_deg\":80}}" },
+      "\"camera\":{\"inclination_deg\":80},"
+      "\"image\":{\"samples\":2}}" },
     { "gargantua", "The hole and camera of James et al. 2015: nearly the largest spin, from 74 M, a disk from 9.26 to 18.7 M of "
                    "some 4500 K; with the Doppler shift and the redshift that the film left out",
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
-      "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000}}" },
+      "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
+      "\"image\":{\"samples\":2}}" },
     { "m87", "The hole of M87 with its spin pointing away from us; a thin disk stands in for the hot flow",
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9},"
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56},"
-      "\"disk\":{\"outer\":15}}" },
+      "\"disk\":{\"outer\":15},"
+      "\"image\":{\"samples\":2}}" },
     { "sgra", "The hole in the middle of our Galaxy; a thin disk stands in for the hot flow",
       "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.3e6},"
       "\"camera\":{\"inclination_deg\":30,\"field_m\":56},"
-      "\"disk\":{\"outer\":15}}" },
+      "\"disk\":{\"outer\":15},"
+      "\"image\":{\"samples\":2}}" },
     { "luminet1979", "The first picture of a black hole with a disk: no spin, from 10 degrees above, bolometric brightness",
       "{\"spacetime\":{\"spin\":0},"
       "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":80,\"field_m\":46},"
       "\"disk\":{\"model\":\"novikov-thorne\",\"outer\":20,\"taper\":0,\"peak_temperature_k\":6500,"
       "\"band\":\"bolometric\",\"doppler\":true,\"redshift\":true},"
-      "\"style\":{\"tone_map\":\"srgb\"}}" },
+      "\"style\":{\"tone_map\":\"srgb\"},"
+      "\"image\":{\"samples\":2}}" },
     { "edge-on", "The disk seen along its plane: what is visible of it is bent light",
-      "{\"camera\":{\"inclination_deg\":90}}" },
+      "{\"camera\":{\"inclination_deg\":90},"
+      "\"image\":{\"samples\":2}}" },
     { "face-on", "The disk seen from its pole",
-      "{\"camera\":{\"inclination_deg\":0,\"field_m\":80}}" },
+      "{\"camera\":{\"inclination_deg\":0,\"field_m\":80},"
+      "\"image\":{\"samples\":2}}" },
     { "photon-rings", "Six photon rings, one above the other: across, the angle round the shadow's edge; upwards, the distance to "
                       "that edge, nine and a half decades of it",
       "{\"spacetime\":{\"spin\":0.9},"
