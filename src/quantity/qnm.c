@@ -19,7 +19,9 @@
       .help = "mass of the hole, with any redshift: m (1 + z)")                                                        \
     P(t, .unit = "M", .initial = "0", .minimum = 0, .maximum = 1e6, .along = true, .help = "time of the sample `wave`")              \
     P(shift_octaves, .unit = "1", .initial = "0", .minimum = -40, .maximum = 40, .along = true,                        \
-      .help = "octaves by which the sound is higher than the ringing, and faster")
+      .help = "octaves by which the sound is higher than the ringing, and faster")                                     \
+    P(stretch, .unit = "1", .initial = "1", .minimum = 1, .maximum = 1e6, .along = true,                               \
+      .help = "how many times as slowly as the ringing the sound then fades, at the same pitch")
 #define OUTPUTS(O)                                                                                                     \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency")                                             \
     O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate")                                        \
@@ -37,7 +39,7 @@
     O(t_s, .unit = "s", .help = "t for mass_msun")                                                                     \
     O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)")                                                     \
     O(sound_hz, .unit = "Hz", .help = "frequency_hz shifted by shift_octaves: that of the WAV file")                   \
-    O(sound_damping_s, .unit = "s", .help = "damping_s likewise")
+    O(sound_damping_s, .unit = "s", .help = "damping_s likewise, times stretch")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -89,7 +91,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->t_s = p->t * unit;
     o->wave = kd_ringdown_wave(o->omega_re + I * o->omega_im, p->t);
     o->sound_hz = o->frequency_hz * exp2(p->shift_octaves);
-    o->sound_damping_s = o->damping_s * exp2(-p->shift_octaves);
+    o->sound_damping_s = o->damping_s * exp2(-p->shift_octaves) * p->stretch;
     return KD_OK;
 }
 

@@ -66,6 +66,22 @@ static enum kd_status audible(const struct kd_quantity_answer *answer, struct kd
                           floor(log2(KD_SOUND_HZ_MAX / natural)));
 }
 
+static double parameter_of(const struct kd_quantity_answer *answer, const char *name)
+{
+    return answer->request.axes[parameter(answer->request.quantity, name)].first;
+}
+
+/* Unstretched all are: the mode of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e in 4.5 s at 20 Hz. */
+static enum kd_status short_enough(const struct kd_quantity_answer *answer, struct kd_error *error)
+{
+    double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");
+    if (fades <= KD_SOUND_DAMPING_S)
+        return KD_OK;
+    return kd_error_field(error, "/stretch", "stretch is %g, which makes the sound fade by e in %.3g s; allowed for this one is 1 to %.4g, "
+                          "which is %g s", stretch, fades, four_digits(fmax(1, KD_SOUND_DAMPING_S * stretch / fades), false),
+                          KD_SOUND_DAMPING_S);
+}
+
 /* A file in memory. */
 struct memory {
     struct kd_buffer *out;
@@ -108,11 +124,17 @@ static sf_count_t get(void *data, sf_count_t size, void *user)
 static void describe(SNDFILE *file, const struct kd_quantity_answer *answer)
 {
     const struct kd_quantity *quantity = answer->request.quantity;
-    char text[400];
+    char text[700];
     size_t n = 0;
     for (size_t i = 0; i < quantity->n_parameters && n < sizeof text; i++)
         n += (size_t)snprintf(text + n, sizeof text - n, "%s%s=%.10g", i ? " " : "", quantity->parameters[i].name,
                               answer->request.axes[i].first);
+    if (n < sizeof text)
+        n += (size_t)snprintf(text + n, sizeof text - n,
+                              "; the hole rings at %.6g Hz and fades by e in %.6g s; this sound is %g octaves higher, at %.6g Hz, and fades "
+                              "by e in %.6g s, %g times as slowly as it would at that pitch",
+                              output(answer, "frequency_hz"), output(answer, "damping_s"), parameter_of(answer, "shift_octaves"),
+                              output(answer, "sound_hz"), output(answer, "sound_damping_s"), parameter_of(answer, "stretch"));
     for (size_t i = 0; quantity->approximations[i] && n < sizeof text; i++)
         n += (size_t)snprintf(text + n, sizeof text - n, "; %s", quantity->approximations[i]);
     sf_set_string(file, SF_STR_TITLE, quantity->summary);
@@ -141,6 +163,8 @@ enum kd_status kd_quantity_sound(const struct kd_quantity_answer *answer, struct
     SF_INFO info = { .samplerate = RATE, .channels = 1, .format = SF_FORMAT_WAV | SF_FORMAT_PCM_16 };
     struct memory memory = { .out = out };
     enum kd_status status = audible(answer, error);
+    if (!status)
+        status = short_enough(answer, error);
     if (status)
         return status;
     SNDFILE *file = sf_open_virtual(&io, SFM_WRITE, &info, &memory);

@@ -151,6 +151,33 @@ class Physics(daemon.Case):
                     curve = 32767 * math.exp(-t / numbers['sound_damping_s']) * math.cos(2 * math.pi * numbers['sound_hz'] * t)
                     self.assertAlmostEqual(samples[k], curve, delta=1.01)
 
+    def test_a_ringdown_is_stretched(self):
+        """At the same pitch, and the file says by how much."""
+        for query, stretch in (('?mass_msun=60', 130), ('?mass_msun=4e6&shift_octaves=16', 100)):
+            query += f'&stretch={stretch}&format=wav'
+            answer = self.daemon.get('/v1/physics/qnm' + query)
+            numbers, plain = self.values('qnm' + query.replace('&format=wav', '')), self.values('qnm' + query.split('&stretch')[0])
+            self.assertAlmostEqual(numbers['sound_damping_s'] / plain['sound_damping_s'], stretch, places=9)
+            self.assertEqual(numbers['sound_hz'], plain['sound_hz'])
+            samples = self.sound(query)
+            self.assertGreater(len(samples), 48000, 'it lasts')
+            hz, damping = self.fitted(samples)
+            self.assertAlmostEqual(hz / numbers['sound_hz'], 1, delta=2e-4)
+            self.assertAlmostEqual(damping / numbers['sound_damping_s'], 1, delta=2e-3)
+            said = re.search(rb'rings at (\S+) Hz and fades by e in (\S+) s; this sound is (\S+) octaves higher, at (\S+) Hz, and fades by e in '
+                             rb'(\S+) s, (\S+) times', answer.body)
+            octaves = float(re.search('octaves=([^&]*)', query)[1]) if 'octaves' in query else 0
+            for got, wanted in zip(map(float, said.groups()), (plain['frequency_hz'], plain['damping_s'], octaves, numbers['sound_hz'],
+                                                               numbers['sound_damping_s'], stretch)):
+                self.assertAlmostEqual(got, wanted, delta=1e-5 * abs(wanted))
+
+    def test_a_ringdown_is_stretched_too_far(self):
+        problem = self.assertProblem(self.daemon.get('/v1/physics/qnm?stretch=1e5&format=wav'), 422, 'invalid-parameters')
+        self.assertEqual(problem['pointer'], '/stretch')
+        most = re.search('allowed for this one is 1 to ([0-9]*)', problem['detail'])[1]
+        self.assertLess(len(self.sound(f'?stretch={most}&format=wav')) / 48000, 60)
+        self.assertProblem(self.daemon.get(f'/v1/physics/qnm?stretch={1.001 * float(most)}&format=wav'), 422, 'invalid-parameters')
+
     def test_ringdown_that_is_not_heard(self):
         problem = self.assertProblem(self.daemon.get('/v1/physics/qnm?mass_msun=1e8&format=wav'), 422, 'invalid-parameters')
         self.assertEqual(problem['pointer'], '/mass_msun')
