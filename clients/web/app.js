@@ -1,24 +1,31 @@
 // The page: a picture of the scene that follows what is chosen, and three more views of numbers. It draws; it computes no
 // physics.
-import { byId } from './dom.js';
+import { byId, el } from './dom.js';
 import { caption, showAccuracy } from './accuracy.js';
+import { persistent } from './again.js';
 import { buildControls } from './controls.js';
+import { describe, entitle, followScene } from './describe.js';
 import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { buildLiving, hasSpots } from './living.js';
 import { buildOverlays } from './overlay.js';
 import { buildPresets, openPreset } from './presets.js';
 import { Scene } from './scene.js';
+import { physics } from './server.js';
 import { share } from './share.js';
 import { openSource } from './source.js';
 import { handle } from './view.js';
 
-// What a view needs is loaded when it is opened.
+// What a view needs is loaded when it is opened. Some browsers remember for good that a module did not come: by hand there is another way.
+const load = module =>
+  module.catch(() => {
+    throw Object.assign(new Error(t('The server does not answer', 'Il server non risponde')), { byHand: () => location.reload() });
+  });
 const views = {
   lensing: null,
-  orbits: async () => (await import('./orbits.js')).openOrbits(),
-  physics: async () => (await import('./physics.js')).openPhysics(),
-  scale: async () => (await import('./scale.js')).openScale(),
+  orbits: async () => (await load(import('./orbits.js'))).openOrbits(),
+  physics: async () => (await load(import('./physics.js'))).openPhysics(),
+  scale: async () => (await load(import('./scale.js'))).openScale(),
 };
 const opened = new Set();
 const status = byId('status');
@@ -37,6 +44,13 @@ function sayWrong(text) {
   status.dataset.wrong = true;
 }
 
+// Of what is missing of a view at its first opening its own section tells.
+function opener(view) {
+  const fault = el('p', { class: 'fault', role: 'status' });
+  if (views[view]) byId(view).prepend(fault);
+  return persistent(fault, view, async () => views[view]?.());
+}
+
 async function turnTo(name) {
   const view = Object.hasOwn(views, name) ? name : 'lensing';
   for (const other of Object.keys(views)) {
@@ -47,9 +61,10 @@ async function turnTo(name) {
   document.body.dataset.view = view;
   document.dispatchEvent(new Event('viewchange'));
   link.set('view', view === 'lensing' ? null : view);
+  entitle(view);
   if (!opened.has(view)) {
     opened.add(view);
-    await views[view]?.().catch(error => sayWrong(error.message));
+    await opener(view)();
   }
 }
 
@@ -93,6 +108,7 @@ async function watch(scene) {
     const url = URL.createObjectURL(frame.picture);
     const next = picture.cloneNode(); // the old one stays until the new one can be shown whole
     next.src = url;
+    next.alt = describe(scene);
     await next.decode();
     picture.replaceWith(next);
     if (!old) requestAnimationFrame(() => (performance.mark('first-picture'), setTimeout(seen)));
@@ -131,6 +147,7 @@ async function watch(scene) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
   }
+  followScene(scene);
   const complain = buildControls(byId('fields'), scene, byId('living'));
   buildLiving(stage, scene, source);
   const drawOverlays = buildOverlays(byId('overlays'), stage, scene);
@@ -142,12 +159,24 @@ async function watch(scene) {
     stage.dataset.final = false;
     source.refresh();
   });
+  // It is the hole that rings, about its own axis, whichever way the disk turns.
+  const hole = () => ({ spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)), mass_msun: scene.get('spacetime.mass_msun') });
   byId('hear').addEventListener('click', async () => {
+    try {
+      const { play, ringing, told } = await import('./sound.js'),
+        ring = ringing((await physics('qnm', hole())).values, hole());
+      byId('heard').textContent = told(ring);
+      if (ring.audible) await play(ring.url(ring.stretch));
+    } catch (error) {
+      tell(byId('heard'), error.message);
+    }
+  });
+  byId('wave').addEventListener('click', async () => {
     await goTo('physics');
-    byId('curve-qnm').scrollIntoView();
-    for (const name of ['spin', 'mass_msun']) {
+    byId('curve-qnm')?.scrollIntoView();
+    for (const [name, value] of Object.entries(hole())) {
       const input = byId('in-qnm-' + name);
-      input.value = Number(scene.get('spacetime.' + name).toFixed(4));
+      input.value = value;
       input.dispatchEvent(new Event('change'));
     }
   });
@@ -173,15 +202,25 @@ async function start() {
     button.addEventListener('click', () => goTo(button.dataset.view));
   turnTo(link.get('view'));
   link.onReturn(turnTo);
-  const scene = await Scene.load();
-  await openPreset(scene);
+  const scene = await new Promise(resolve =>
+    persistent(
+      status,
+      'lensing',
+      async () => {
+        const loaded = await Scene.load();
+        await openPreset(loaded);
+        resolve(loaded);
+      },
+      () => (status.dataset.wrong = true),
+    )(),
+  );
   if (scene.unknown.length)
     byId('link-fault').textContent = t(
       `Of the link this was not understood: ${scene.unknown.join(', ')}.`,
       `Del collegamento questo non si capisce: ${scene.unknown.join(', ')}.`,
     );
   await watch(scene);
-  await buildPresets(scene);
+  persistent(byId('preset-fault'), 'lensing', () => buildPresets(scene))();
 }
 
 start().catch(error => sayWrong(error.message));

@@ -2,6 +2,7 @@
 import { el } from './dom.js';
 import { named, number, section, tell, unit, word } from './i18n.js';
 import { hasSpots, showsTime } from './living.js';
+import { scale, stepByArrows } from './slider.js';
 
 // What sliders span where the schema allows much more than anybody sweeps; the number beside takes all of it.
 const useful = {
@@ -40,18 +41,11 @@ const open = ['spacetime', 'camera'];
 const living = ['time', 'motion.time_rate', 'disk.particles', 'disk.seed']; // stand beside what starts and stops time
 const left_out = ['image.width', 'image.height']; // the window's
 
-// Position 0 … 1000 of a slider ↔ value; logarithmic where the span is wide.
-function scale([low, high]) {
-  const log = low > 0 && high / low > 30;
-  return {
-    to: x => Math.round(1000 * (log ? Math.log(x / low) / Math.log(high / low) : (x - low) / (high - low))),
-    from: s => Number((log ? low * (high / low) ** (s / 1000) : low + ((high - low) * s) / 1000).toPrecision(4)),
-  };
-}
-
 function numberRow(field, scene, id, hint) {
   const { minimum, maximum, word: special, type } = field;
-  const s = scale(useful[field.path] ?? [minimum, maximum]),
+  const [low, high] = useful[field.path] ?? [minimum, maximum],
+    range = { ...field, minimum: low, maximum: high },
+    s = scale(range),
     whole = type === 'integer';
   const short = whole && maximum - minimum <= 64;
   const slider = el('input', {
@@ -67,6 +61,7 @@ function numberRow(field, scene, id, hint) {
     const value = short ? slider.valueAsNumber : s.from(slider.valueAsNumber);
     give(whole ? Math.round(value) : value);
   });
+  if (!whole) stepByArrows(box, range, give);
   box.addEventListener('change', () => {
     if (!box.validity.valid) box.reportValidity();
     else if (box.value !== '') give(box.valueAsNumber);

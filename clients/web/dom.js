@@ -19,6 +19,14 @@ export const byId = id => document.getElementById(id);
 
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
+const looks = ['visibilitychange', 'viewchange'];
+
+// Waits until somebody looks at a view.
+export async function seen(view) {
+  while (document.hidden || document.body.dataset.view !== view)
+    await new Promise(resolve => looks.forEach(event => document.addEventListener(event, resolve, { once: true })));
+}
+
 // Runs a task that may take a while: one at a time, and of those asked for meanwhile only the newest.
 export function latest(task) {
   let busy = false,

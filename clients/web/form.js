@@ -2,8 +2,20 @@
 import { el } from './dom.js';
 import { named, unit, word } from './i18n.js';
 import * as link from './link.js';
+import { scale, stepByArrows } from './slider.js';
 
-// specs: [{ name, label, unit, help, value, min, max, step, choices, words }]; a label goes over what the name says; changed() is told. Returns values() by name.
+function slider(spec, input, tell) {
+  const s = scale({ minimum: spec.min, maximum: spec.max, unit: spec.unit, default: spec.value }),
+    node = el('input', { type: 'range', min: 0, max: 1000, tabindex: -1, 'aria-hidden': 'true' });
+  node.addEventListener('input', () => {
+    input.value = Number((Math.round(s.from(node.valueAsNumber) / spec.step) * spec.step).toPrecision(12));
+    tell();
+  });
+  return { node, follow: () => (node.value = s.to(input.valueAsNumber)) };
+}
+
+// specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto }]; a label goes over what the name says; changed() is
+// told. What is auto has no value until somebody gives it one, and is emptied to have none again. Returns values() by name.
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
   for (const spec of specs) {
@@ -17,42 +29,41 @@ export function buildForm(root, prefix, specs, changed) {
           { id },
           spec.choices.map(choice => el('option', { value: choice }, spec.words?.[choice] ?? word(choice))),
         )
-      : el('input', { type: 'number', id, min: spec.min, max: spec.max, step: spec.step ?? 'any', required: true });
-    input.value = link.get(key) ?? spec.value;
-    const slide =
-      !spec.choices &&
-      spec.step &&
-      el('input', { type: 'range', min: spec.min, max: spec.max, step: spec.step, tabindex: -1, 'aria-hidden': 'true' });
-    if (slide) {
-      slide.value = input.value;
-      slide.addEventListener('input', () => {
-        input.value = slide.value;
-        tell();
-      });
-    }
+      : el('input', { type: 'number', id, min: spec.min, max: spec.max, step: spec.step ?? 'any', required: !spec.auto });
+    input.value = link.get(key) ?? spec.value ?? '';
+    input.chosen = !spec.auto || link.get(key) != null;
+    const slide = !spec.choices && spec.step && !spec.auto && slider(spec, input, tell);
+    slide?.follow?.();
     function tell() {
-      if (slide) slide.value = input.value;
+      if (slide) slide.follow();
       if (!input.validity.valid) return input.reportValidity();
+      input.chosen = !spec.auto || input.value !== '';
       link.set(key, input.value === String(spec.value) ? null : input.value);
       changed();
     }
     input.addEventListener('change', tell);
-    inputs.set(spec.name, input);
+    if (!spec.choices && !spec.step)
+      stepByArrows(input, { minimum: spec.min, maximum: spec.max, unit: spec.unit, default: spec.value }, value => {
+        input.value = value;
+        tell();
+      });
+    inputs.set(spec.name, { input, follow: () => slide?.follow?.() });
     root.append(
       el(
         'div',
         { class: 'field', title: text.help },
         el('label', { for: id }, spec.label ?? text.label, mark && el('span', { class: 'unit' }, mark)),
-        el('div', { class: slide ? 'pair' : '' }, slide || null, input),
+        el('div', { class: slide ? 'pair' : '' }, slide ? slide.node : null, input),
       ),
     );
   }
+  const input = name => inputs.get(name).input;
   return {
-    values: () => Object.fromEntries([...inputs].map(([name, input]) => [name, input.value])),
-    set(name, value) {
-      inputs.get(name).value = value;
-      link.set(`${prefix}.${name}`, value);
+    input,
+    values: () => Object.fromEntries([...inputs].filter(([, { input }]) => input.chosen).map(([name, { input }]) => [name, input.value])),
+    // What an auto field comes to, as long as nobody has chosen.
+    suggest(name, value) {
+      if (!input(name).chosen) input(name).value = value;
     },
-    input: name => inputs.get(name),
   };
 }

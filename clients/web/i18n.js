@@ -2,7 +2,14 @@
 // index.html as data-it beside the English one. it.js has what the server says in English, and is fetched for Italian alone.
 import * as link from './link.js';
 
-export const lang = (link.get('lang') ?? navigator.language).startsWith('it') ? 'it' : 'en';
+export const lang = (link.get('lang') ?? navigator.language ?? 'en').startsWith('it') ? 'it' : 'en';
+// WebKit under LANG=C calls its language "c", which Intl does not take: uPlot would throw over it while it is loaded.
+try {
+  new Intl.NumberFormat(navigator.language);
+} catch {
+  Object.defineProperty(navigator, 'language', { value: lang });
+}
+
 export const t = (en, it) => (lang === 'it' ? it : en);
 
 const words = lang === 'it' ? await import('./it.js') : null;
@@ -130,5 +137,4 @@ export function translatePage() {
   if (lang !== 'it') return;
   for (const node of document.querySelectorAll('[data-it]')) node.textContent = node.dataset.it;
   for (const node of document.querySelectorAll('[data-it-label]')) node.setAttribute('aria-label', node.dataset.itLabel);
-  for (const node of document.querySelectorAll('[data-it-alt]')) node.setAttribute('alt', node.dataset.itAlt);
 }

@@ -4,7 +4,7 @@ import { duration, number, t, tell } from './i18n.js';
 import { physics } from './server.js';
 
 const usual_rate = 8; // M a second, where none was chosen
-const spots = ['spot1.brightness', 'spot2.brightness', 'spot3.brightness'];
+export const spots = ['spot1.brightness', 'spot2.brightness', 'spot3.brightness'];
 
 export const hasSpots = scene => spots.some(path => scene.get(path) > 0);
 const hasParticles = scene => scene.get('disk.model') === 'particles';
@@ -47,7 +47,8 @@ export function buildLiving(stage, scene, source) {
     seed.hidden = !hasParticles(scene);
     spot.setAttribute('aria-pressed', scene.get('spot1.brightness') > 0);
     strike.hidden = !canRing(scene);
-    byId('hear').hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
+    for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
+    if (byId('hear').hidden) byId('heard').textContent = '';
     fault.textContent = '';
     if (showsTime(scene)) weigh().catch(() => {}); // the clock then has no seconds
     tell_time();

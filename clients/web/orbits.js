@@ -1,6 +1,8 @@
 // Orbits of bodies, by POST /v1/orbits: the path in space, the potential it moves in, how well its energy is kept, and how
 // its periastron advances.
-import { byId, el, latest, still, svg } from './dom.js';
+import { persistent } from './again.js';
+import { entitle } from './describe.js';
+import { byId, el, still, svg } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t, tell, word } from './i18n.js';
 import { plot } from './plot.js';
@@ -110,11 +112,8 @@ function buildPicture(root) {
     ),
   );
   return {
-    clear() {
-      path = null;
-      picture.replaceChildren();
-    },
-    show(points, horizon) {
+    show(points, horizon, words) {
+      picture.setAttribute('aria-label', words);
       path = points;
       hole = horizon;
       reach = Math.max(...points.map(p => Math.hypot(...p)), horizon);
@@ -172,6 +171,12 @@ function facts(answer) {
   ]);
 }
 
+function nameOf({ spin, shape }) {
+  const a = `a = ${number(spin)} M`;
+  return shape ? t(`${a}, p = ${number(shape.p)} M, e = ${number(shape.e)}, inclination ${number(shape.inclination_deg)}°`,
+                   `${a}, p = ${number(shape.p)} M, e = ${number(shape.e)}, inclinazione ${number(shape.inclination_deg)}°`) : a;
+}
+
 export async function openOrbits() {
   const picture = buildPicture(byId('orbit-picture')),
     fault = byId('orbit-fault'),
@@ -181,6 +186,7 @@ export async function openOrbits() {
     play = byId('orbit-play');
   byId('orbit-plots').replaceChildren(potential, drift);
   let samples = null,
+    shown = '', // its name
     at = 0,
     running = !still.matches,
     last = 0;
@@ -220,35 +226,31 @@ export async function openOrbits() {
     return { ...answer, column: name => rows.map(row => row[series.columns.indexOf(name)]) };
   }
 
-  const load = latest(async () => {
+  const load = persistent(fault, 'orbits', follows, keep);
+
+  async function follows() {
     const v = form.values(),
       shaped = v.orbit === own,
       falls = v.orbit === 'plunge'; // to its end, in no periods
     for (const name of ['spin', 'p', 'e', 'inclination_deg']) form.input(name).closest('.field').hidden = !shaped;
     form.input('periods').closest('.field').hidden = falls;
-    try {
-      const answer = await follow({
-        ...(shaped ? { spin: Number(v.spin) } : {}),
-        samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
-        method: v.method,
-        ...(falls ? {} : { duration: { periods: Number(v.periods) } }),
-        orbit: shaped ? { p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) } : { case: v.orbit },
-      });
-      await show(answer);
-      fault.textContent = '';
-    } catch (error) {
-      clear();
-      tell(fault, error.message);
-    }
-  });
+    const answer = await follow({
+      ...(shaped ? { spin: Number(v.spin) } : {}),
+      samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
+      method: v.method,
+      ...(falls ? {} : { duration: { periods: Number(v.periods) } }),
+      orbit: shaped ? { p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) } : { case: v.orbit },
+    });
+    await show(answer);
+    byId('orbits').dataset.kept = false;
+    byId('orbit-kept').textContent = '';
+  }
 
-  // Nothing of the orbit before stays under the name of one that there is not.
-  function clear() {
-    samples = null;
-    picture.clear();
-    live.textContent = '';
-    for (const root of ['orbit-facts', 'orbit-approximations']) byId(root).replaceChildren();
-    byId('orbit-plots').hidden = true;
+  // Where there is no such orbit the one before stays, under its own name.
+  function keep() {
+    if (!shown) return;
+    byId('orbits').dataset.kept = true;
+    byId('orbit-kept').textContent = t(`Still shown is the last one that there was: ${shown}.`, `Resta quella di prima, l’ultima che c’era: ${shown}.`);
   }
 
   async function show(answer) {
@@ -257,8 +259,9 @@ export async function openOrbits() {
       { horizon } = (await physics('kerr', { spin: answer.spin })).values;
     samples = { t: column('t'), r: column('r'), error: column('energy_error'), point: x.map((_, i) => [x[i], y[i], z[i]]) };
     at = 0;
-    picture.show(samples.point, horizon);
-    byId('orbit-plots').hidden = false;
+    shown = nameOf(answer);
+    picture.show(samples.point, horizon, t(`The orbit in space: ${shown}; ${word(answer.fate)}`, `L’orbita nello spazio: ${shown}; ${word(answer.fate)}`));
+    entitle('orbits', shown);
     byId('orbit-facts').replaceChildren(...facts(answer));
     byId('orbit-approximations').replaceChildren(...(answer.result.approximations ?? []).map(text => tell(el('li'), text)));
     const least = 10 ** Math.floor(Math.log10(Math.max(...samples.error.map(Math.abs)) || 1e-16));

@@ -1,9 +1,12 @@
 // The curves: each a few parameters, an equation, numbers of /v1/physics and what they are taken from.
+import { persistent } from './again.js';
+import { entitle } from './describe.js';
 import { byId, el } from './dom.js';
 import { buildForm } from './form.js';
-import { duration, number, t, tell } from './i18n.js';
+import { number, t } from './i18n.js';
 import { plot } from './plot.js';
 import { getJson, physics, physicsUrl } from './server.js';
+import { ringing, soundRow } from './sound.js';
 
 const degrees = radians => (radians == null ? null : (radians * 180) / Math.PI);
 const spin = value => ({ name: 'spin', value, min: -0.998, max: 0.998, step: 0.002 });
@@ -12,41 +15,11 @@ const axis = (label, more) => ({ label, ...more });
 const outside = far => async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:141` });
 const radius = t('radius r / M', 'raggio r / M');
 
-// What rings too low or too high for ears is shifted by whole octaves, to a few hundred Hz.
-const heard = { least: 20, most: 20000, best: 300 };
-
-function listen(v, { t: _, ...asked }, chosen) {
-  const [hertz] = v.frequency_hz,
-    octaves = Number(chosen) + (hertz < heard.least || hertz > heard.most ? Math.round(Math.log2(heard.best / hertz)) : 0),
-    pitch = hertz * 2 ** octaves,
-    [inside, swings] = [pitch >= heard.least && pitch <= heard.most, number(v.quality / Math.PI, 2)];
-  const url = physicsUrl('qnm', { ...asked, shift_octaves: octaves }) + '&format=wav',
-    sound = new Audio();
-  sound.preload = 'none';
-  sound.src = url;
-  const shift = octaves
-    ? t(
-        ` ${number(Math.abs(octaves))} octaves ${octaves > 0 ? 'higher' : 'lower'}, and ${octaves > 0 ? 'faster' : 'slower'}, than it is.`,
-        ` ${number(Math.abs(octaves))} ottave più ${octaves > 0 ? 'in alto' : 'in basso'} e più ${octaves > 0 ? 'veloce' : 'lento'} del vero.`,
-      )
-    : '';
-  return el(
-    'p',
-    { class: 'row' },
-    inside && el('button', { type: 'button', onclick: () => sound.play() }, t('Hear it', 'Ascolta')),
-    inside && el('a', { class: 'button', href: url, download: 'ringdown.wav' }, t('Save WAV', 'Salva WAV')),
-    el(
-      'span',
-      { class: 'help' },
-      inside
-        ? t(
-            `At ${number(pitch, 3)} Hz, fading by e in ${duration(v.damping_s[0] / 2 ** octaves)}: ${swings} of its swings.`,
-            `A ${number(pitch, 3)} Hz; si smorza di un fattore e in ${duration(v.damping_s[0] / 2 ** octaves)}: di sue oscillazioni ${swings}.`,
-          )
-        : t(`No ear hears ${number(pitch, 3)} Hz.`, `Nessun orecchio sente ${number(pitch, 3)} Hz.`),
-      shift,
-    ),
-  );
+// Buttons to hear it; the field of octaves shows those in force.
+function listen(v, { t: _, ...asked }, octaves, form) {
+  const ring = ringing(v, asked, octaves === undefined ? undefined : Number(octaves));
+  form.suggest('octaves', ring.octaves);
+  return soundRow(ring);
 }
 
 const charts = [
@@ -165,7 +138,7 @@ const charts = [
       { name: 'l', label: 'l', value: 2, min: 2, max: 4, step: 1 },
       { name: 'm', label: 'm', value: 2, min: -4, max: 4, step: 1 },
       { name: 'mass_msun', value: 60, min: 0.001, max: 1e12 },
-      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), value: 0, min: -8, max: 8, step: 1 },
+      { name: 'octaves', label: t('Octaves up or down', 'Ottave in su o in giù'), min: -40, max: 40, step: 1, auto: true },
     ],
     query: { t: '0:90:241' },
     after: listen,
@@ -323,26 +296,21 @@ function card(chart, known) {
     inputs,
     chart.name,
     chart.inputs.map(input => ({ ...parameter[input.name], ...input })),
-    draw,
+    () => draw(),
   );
   formula.innerHTML = `<math display="block">${chart.equation}</math>`; // our own text, from above
   inputs.addEventListener('submit', event => event.preventDefault());
 
-  async function draw() {
-    try {
-      const { octaves, ...asked } = { ...chart.query, ...form.values() }; // the first is for ears alone
-      Object.assign(asked, await chart.adjust?.(asked));
-      const [answer, also] = await Promise.all([physics(chart.name, asked), chart.also?.(asked)]);
-      const shown = chart.show(answer.values, answer.parameters, also);
-      const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
-      figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
-      if (chart.after) after.replaceChildren(chart.after(answer.values, asked, octaves));
-      sources.textContent = answer.sources.join('; ');
-      fault.textContent = '';
-    } catch (error) {
-      tell(fault, error.message);
-    }
-  }
+  const draw = persistent(fault, 'physics', async () => {
+    const { octaves, ...asked } = { ...chart.query, ...form.values() }; // the first is for ears alone
+    Object.assign(asked, await chart.adjust?.(asked));
+    const [answer, also] = await Promise.all([physics(chart.name, asked), chart.also?.(asked)]);
+    const shown = chart.show(answer.values, answer.parameters, also);
+    const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
+    figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
+    if (chart.after) after.replaceChildren(chart.after(answer.values, asked, octaves, form));
+    sources.textContent = answer.sources.join('; ');
+  });
 
   const node = el(
     'section',
@@ -369,5 +337,6 @@ export async function openPhysics() {
       ),
     );
   byId('curves').replaceChildren(...cards.map(c => c.node));
+  entitle('physics', t(`${cards.length} curves`, `${cards.length} curve`));
   for (const c of cards) await c.draw(); // one after the other: pictures come first
 }

@@ -1,7 +1,9 @@
 // A hole in kilometres, seconds and on the sky, beside what the Event Horizon Telescope measured.
-import { byId, el, latest, svg } from './dom.js';
+import { persistent } from './again.js';
+import { entitle } from './describe.js';
+import { byId, el, svg } from './dom.js';
 import { buildForm } from './form.js';
-import { duration, number, t, tell, unit } from './i18n.js';
+import { duration, number, t, unit } from './i18n.js';
 import { physics } from './server.js';
 
 const specs = [
@@ -66,40 +68,44 @@ function draw(v, edge) {
   );
 }
 
+// What is seen, for the title and for those who have the figure read to them.
+function name(hole, v, edge) {
+  const called = specs[0].words[hole],
+    width = `${number(edge.width * v.m_uas)} µas`,
+    ring = v.ring_uas ? t(`, the measured ring ${number(v.ring_uas)} µas across`, `, l’anello misurato è largo ${number(v.ring_uas)} µas`) : '';
+  entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : called);
+  byId('scale-picture').setAttribute('aria-label', t(`The edge of the shadow, ${width} across${ring}`, `Il bordo dell’ombra, largo ${width}${ring}`));
+}
+
 export async function openScale() {
-  const fault = byId('scale-fault');
-  const load = latest(async () => {
+  const load = persistent(byId('scale-fault'), 'scale', async () => {
     const { hole, mass_msun, distance_pc, ...rest } = form.values(),
       any = hole === 'none';
     for (const name of ['mass_msun', 'distance_pc']) form.input(name).disabled = !any;
-    try {
-      const [{ values, units, sources }, edge] = await Promise.all([
-        physics('scale', { hole, ...rest, ...(any ? { mass_msun, distance_pc } : {}) }),
-        physics('shadow', { ...rest, angle_deg: '0:358:180' }),
-      ]);
-      draw(values, edge.values);
-      if (!any)
-        for (const [name, value] of [
-          ['mass_msun', values.mass],
-          ['distance_pc', values.distance],
-        ])
-          form.input(name).value = value;
-      byId('scale-rows').replaceChildren(
-        ...shown
-          .filter(([name]) => values[name] != null)
-          .map(([name, en, it]) =>
-            el('tr', {}, el('th', { scope: 'row' }, t(en, it)), el('td', {}, units[name] === 's' ? duration(values[name]) : `${number(values[name])} ${unit(units[name])}`)),
-          ),
-      );
-      byId('scale-words').textContent = t(
-        `With this spin and inclination the edge of the shadow is ${number(edge.values.width * values.m_uas)} µas wide and ${number(edge.values.height * values.m_uas)} µas high.`,
-        `Con questo spin e questa inclinazione il bordo dell’ombra è largo ${number(edge.values.width * values.m_uas)} µas e alto ${number(edge.values.height * values.m_uas)} µas.`,
-      );
-      byId('scale-sources').textContent = sources.join('; ');
-      fault.textContent = '';
-    } catch (error) {
-      tell(fault, error.message);
-    }
+    const [{ values, units, sources }, edge] = await Promise.all([
+      physics('scale', { hole, ...rest, ...(any ? { mass_msun, distance_pc } : {}) }),
+      physics('shadow', { ...rest, angle_deg: '0:358:180' }),
+    ]);
+    draw(values, edge.values);
+    name(hole, values, edge.values);
+    if (!any)
+      for (const [name, value] of [
+        ['mass_msun', values.mass],
+        ['distance_pc', values.distance],
+      ])
+        form.input(name).value = value;
+    byId('scale-rows').replaceChildren(
+      ...shown
+        .filter(([name]) => values[name] != null)
+        .map(([name, en, it]) =>
+          el('tr', {}, el('th', { scope: 'row' }, t(en, it)), el('td', {}, units[name] === 's' ? duration(values[name]) : `${number(values[name])} ${unit(units[name])}`)),
+        ),
+    );
+    byId('scale-words').textContent = t(
+      `With this spin and inclination the edge of the shadow is ${number(edge.values.width * values.m_uas)} µas wide and ${number(edge.values.height * values.m_uas)} µas high.`,
+      `Con questo spin e questa inclinazione il bordo dell’ombra è largo ${number(edge.values.width * values.m_uas)} µas e alto ${number(edge.values.height * values.m_uas)} µas.`,
+    );
+    byId('scale-sources').textContent = sources.join('; ');
   });
   const form = buildForm(byId('scale-inputs'), 'scale', specs, load);
   await load();

@@ -9,6 +9,9 @@ export class Problem extends Error {
   }
 }
 
+// Whether another try may go better: nobody answered, or the server had trouble of its own.
+export const passes = error => !(error instanceof Problem) || error.status >= 500 || error.status === 429;
+
 export async function ask(url, options) {
   const answer = await fetch(url, options).catch(() => {
     throw new Error(t('The server does not answer', 'Il server non risponde'));

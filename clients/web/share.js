@@ -2,6 +2,7 @@
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
+import { samples } from './source.js';
 
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
 
@@ -12,7 +13,7 @@ export function share(scene, size) {
 
   function picked() {
     const [width, height] = sizes.value === 'window' ? [size().width, size().height] : sizes.value.split('x').map(Number);
-    return { 'image.width': width, 'image.height': height };
+    return { 'image.width': width, 'image.height': height, 'image.samples': samples(scene) };
   }
 
   function show() {

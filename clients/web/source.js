@@ -2,11 +2,9 @@
 // wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or a slow line never
 // falls behind. How fine each picture is while the scene changes is the server’s affair; at rest it has all pixels of the window
 // and several rays for each.
-import { latest } from './dom.js';
-import { ask, Problem } from './server.js';
-
-const least_samples = 2;
-const again_ms = 3000; // after a failure that is nobody's fault
+import { again_ms } from './again.js';
+import { latest, seen } from './dom.js';
+import { ask, passes as may_pass, Problem } from './server.js';
 
 // "width=640 height=360 ..." as numbers.
 const figures = header =>
@@ -43,12 +41,12 @@ function mergePatch(before, after) {
   return patch;
 }
 
+const least_samples = 2;
+
+// Of a picture at rest; what is saved has as many.
+export const samples = scene => Math.max(scene.get('image.samples'), least_samples);
+
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
-const events = ['visibilitychange', 'viewchange'];
-async function visible() {
-  while (document.hidden || document.body.dataset.view !== 'lensing')
-    await new Promise(resolve => events.forEach(event => document.addEventListener(event, resolve, { once: true })));
-}
 
 // scene; size() → { width, height } of the window in device pixels; shown(frame) and failed(error) are told. Returns
 //   refresh()      to be called whenever the scene or the window has changed
@@ -59,6 +57,7 @@ export function openSource(scene, size, shown, failed) {
     timer = 0,
     pulling = false,
     striking = null,
+    polls = new AbortController(),
     recent = [];
 
   function wanted() {
@@ -66,8 +65,7 @@ export function openSource(scene, size, shown, failed) {
     return scene.document({
       'image.width': width,
       'image.height': height,
-      // Where pictures follow each other, more of them and finer ones are worth more than smooth edges.
-      'image.samples': scene.goesOn() ? scene.get('image.samples') : Math.max(scene.get('image.samples'), least_samples),
+      'image.samples': samples(scene),
       ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0 } : {}),
     });
   }
@@ -107,8 +105,9 @@ export function openSource(scene, size, shown, failed) {
     scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
   }
 
-  // A session that has ended is opened anew: it lives for a minute without anybody who watches.
+  // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not seen has no size.
   async function send() {
+    await seen('lensing');
     const document = wanted(),
       jumps = scene.jumps;
     try {
@@ -127,7 +126,7 @@ export function openSource(scene, size, shown, failed) {
       if (!pulling) pull();
     } catch (error) {
       if (error.status === 404 && session) return ((session = null), send());
-      error.again = !(error instanceof Problem) || error.status >= 500;
+      error.again = may_pass(error);
       failed(error);
       if (error.again) timer = setTimeout(put, again_ms);
     }
@@ -135,7 +134,7 @@ export function openSource(scene, size, shown, failed) {
   const put = latest(send);
 
   async function next(from) {
-    const answer = await ask(`${from.url}/frame.png?after=${from.frame}`);
+    const answer = await ask(`${from.url}/frame.png?after=${from.frame}`, { signal: polls.signal });
     if (answer.status === 204) return;
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
@@ -158,12 +157,13 @@ export function openSource(scene, size, shown, failed) {
     pulling = true;
     while (session) {
       const from = session;
-      await visible();
+      await seen('lensing');
       try {
         await next(from);
       } catch (error) {
+        if (session !== from) continue; // nobody asks for that one any more
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
-        else if (session === from) ((session = null), put());
+        else ((session = null), put());
         await pause(error.status === 404 ? 0 : again_ms);
       }
     }
@@ -171,8 +171,12 @@ export function openSource(scene, size, shown, failed) {
   }
 
   addEventListener('pagehide', () => {
-    if (session) fetch(session.url, { method: 'DELETE', headers: headers(), keepalive: true });
+    const left = session,
+      owner = headers();
     session = null;
+    polls.abort(); // else it would be told that the session is gone
+    polls = new AbortController();
+    if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
   });
   addEventListener('pageshow', event => {
     if (event.persisted) put();

@@ -1,0 +1,70 @@
+// What is seen, in words: for titles, and for those who have a picture read to them.
+import { byId } from './dom.js';
+import { number, t } from './i18n.js';
+import { hasSpots, spots } from './living.js';
+
+const views = {
+  lensing: t('Lensing', 'Lente'),
+  orbits: t('Orbits', 'Orbite'),
+  physics: t('Physics', 'Fisica'),
+  scale: t('Real scale', 'Scala reale'),
+};
+const seen = {}; // what a view shows, by its name
+
+// The title says it while the view is the one that is looked at.
+export function entitle(view, what) {
+  if (what != null) seen[view] = what;
+  if (document.body.dataset.view === view) document.title = `${views[view]}${seen[view] ? `: ${seen[view]}` : ''} – kerrd`;
+}
+
+export function nameOf(scene) {
+  const spin = number(scene.get('spacetime.spin')),
+    tilt = number(scene.get('camera.inclination_deg'));
+  return t(`spin ${spin}, inclination ${tilt}°`, `spin ${spin}, inclinazione ${tilt}°`);
+}
+
+function whence(scene) {
+  if (scene.get('camera.projection') === 'ring')
+    return t('the edge of its shadow unrolled, distances to it on a logarithmic scale', 'il bordo della sua ombra srotolato, con le distanze da esso in scala logaritmica');
+  const r = scene.get('camera.r');
+  if (r === 'infinity') {
+    const field = number(scene.get('camera.field_m'));
+    return t(`seen from infinity, ${field} M across`, `visto dall’infinito, largo ${field} M`);
+  }
+  const wide = number(scene.get('camera.fov_deg'));
+  return t(`seen from ${number(r)} M, ${wide}° across`, `visto da ${number(r)} M, largo ${wide}°`);
+}
+
+function diskOf(scene) {
+  const model = scene.get('disk.model');
+  if (model === 'none') return t('No disk.', 'Nessun disco.');
+  const inner = scene.get('disk.inner'),
+    outer = number(scene.get('disk.outer')),
+    what = model === 'particles' ? t(`disk of ${number(scene.get('disk.particles'))} particles`, `disco di ${number(scene.get('disk.particles'))} particelle`) : t('thin disk', 'disco sottile');
+  return inner === 'isco'
+    ? t(`A ${what} from the ISCO to ${outer} M.`, `Un ${what} dall’ISCO a ${outer} M.`)
+    : t(`A ${what} from ${number(inner)} to ${outer} M.`, `Un ${what} da ${number(inner)} a ${outer} M.`);
+}
+
+export function describe(scene) {
+  const lit = spots.filter(path => scene.get(path) > 0).map(path => `${number(scene.get(path.replace('brightness', 'r')))} M`);
+  return [
+    t(`A black hole, ${nameOf(scene)}, ${whence(scene)}.`, `Un buco nero, ${nameOf(scene)}, ${whence(scene)}.`),
+    diskOf(scene),
+    hasSpots(scene) && t(`Hot spots going round at ${lit.join(', ')}.`, `Macchie calde in orbita a ${lit.join(', ')}.`),
+    scene.get('sky.model') !== 'none' && t('A celestial grid behind.', 'Dietro, un reticolo celeste.'),
+  ]
+    .filter(Boolean)
+    .join(' ');
+}
+
+// Keeps title, picture and stage at what the scene is.
+export function followScene(scene) {
+  function follow() {
+    entitle('lensing', nameOf(scene));
+    byId('picture').alt = describe(scene);
+    byId('stage').setAttribute('aria-label', t(`Camera on the hole: ${nameOf(scene)}`, `Camera sul buco: ${nameOf(scene)}`));
+  }
+  for (const event of ['change', 'settle']) scene.addEventListener(event, follow);
+  follow();
+}

@@ -1,0 +1,73 @@
+// A ringdown for ears. What rings too low or too high for them is shifted by whole octaves, which makes all of it as much faster or
+// slower; and as it makes a swing or two before it is gone, its fading is stretched at the same pitch. Both are said.
+import { el } from './dom.js';
+import { duration, number, t, tell } from './i18n.js';
+import { physicsUrl } from './server.js';
+
+const heard = { least: 20, most: 20000, best: 300 }; // Hz
+const fading_s = 0.5; // by e: long enough for a pitch to be heard
+const repeated_ms = 2000;
+
+// v: values of the quantity qnm for `asked`; octaves: undefined for what suits ears.
+export function ringing(v, asked, octaves) {
+  const [hertz] = [v.frequency_hz].flat(),
+    [damping] = [v.damping_s].flat(),
+    suits = hertz < heard.least || hertz > heard.most ? Math.round(Math.log2(heard.best / hertz)) : 0,
+    shift = octaves ?? suits,
+    pitch = hertz * 2 ** shift,
+    short = damping / 2 ** shift,
+    stretch = Math.max(1, Number((fading_s / short).toPrecision(2)));
+  const url = stretched => physicsUrl('qnm', { ...asked, shift_octaves: shift, stretch: stretched }) + '&format=wav';
+  return { octaves: shift, pitch, short, stretch, swings: v.quality / Math.PI, audible: pitch >= heard.least && pitch <= heard.most, url };
+}
+
+// In words: what was done to it.
+export function told({ octaves, pitch, short, stretch, swings, audible }) {
+  if (!audible) return t(`No ear hears ${number(pitch, 3)} Hz.`, `Nessun orecchio sente ${number(pitch, 3)} Hz.`) + shifted(octaves);
+  const fades =
+    stretch > 1
+      ? t(
+          `its fading stretched ${number(stretch)} times, by e in ${duration(short * stretch)}: left as it is it would make ${number(swings, 2)} of its swings in ${duration(short)}, a click.`,
+          `con lo smorzamento allungato di ${number(stretch)} volte, un fattore e in ${duration(short * stretch)}: lasciato com’è farebbe ${number(swings, 2)} delle sue oscillazioni in ${duration(short)}, uno schiocco.`,
+        )
+      : t(`fading by e in ${duration(short)}: ${number(swings, 2)} of its swings.`, `si smorza di un fattore e in ${duration(short)}: di sue oscillazioni ${number(swings, 2)}.`);
+  return t(`At ${number(pitch, 3)} Hz, ${fades}`, `A ${number(pitch, 3)} Hz, ${fades}`) + shifted(octaves);
+}
+
+function shifted(octaves) {
+  if (!octaves) return '';
+  const n = number(Math.abs(octaves)),
+    up = octaves > 0;
+  return t(
+    ` ${n} ${n === '1' ? 'octave' : 'octaves'} ${up ? 'higher' : 'lower'}, and ${up ? 'faster' : 'slower'}, than the hole rings.`,
+    ` ${n} ${n === '1' ? 'ottava' : 'ottave'} più ${up ? 'in alto' : 'in basso'} e più ${up ? 'veloce' : 'lento'} di come risuona il buco.`,
+  );
+}
+
+const speaker = new Audio(); // one, so that nothing is heard twice
+let timer = 0;
+
+export function play(url, repeated) {
+  clearTimeout(timer);
+  speaker.src = url;
+  speaker.loop = Boolean(repeated);
+  if (repeated) timer = setTimeout(() => (speaker.loop = false), repeated_ms);
+  return speaker.play().catch(error => {
+    if (error.name !== 'AbortError') throw error; // another sound goes over this one
+  });
+}
+
+// Buttons and words for a card.
+export function soundRow(ring) {
+  const { audible, stretch, url } = ring,
+    words = el('span', { class: 'help', role: 'status' }, told(ring)),
+    sound = (...how) => play(...how).catch(error => tell(words, error.message));
+  return el(
+    'p',
+    { class: 'row' },
+    audible && el('button', { type: 'button', onclick: () => sound(url(stretch)) }, t('Hear it', 'Ascolta')),
+    audible && stretch > 1 && el('button', { type: 'button', onclick: () => sound(url(1), true) }, t('As short as it is, repeated', 'Breve com’è, ripetuto')),
+    audible && el('a', { class: 'button', href: url(stretch), download: 'ringdown.wav' }, t('Save WAV', 'Salva WAV')),
+    words,
+  );
+}

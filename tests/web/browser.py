@@ -1,0 +1,153 @@
+"""The page in a headless browser, in front of the program itself. Each view's tests are a file: FILE.py KERRD FOLDER, where
+screenshots go. They are skipped, with the reason, where Playwright for Python, Chromium or a Vulkan device is missing."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+import urllib.request
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'http'))
+import daemon  # noqa: E402
+
+try:
+    from playwright.sync_api import sync_playwright
+except ImportError:
+    sync_playwright = None
+
+AT_REST = '#stage[data-final=true]'
+FINE = '#stage[data-final=true][data-samples="2"]'
+VIEWS = ('lensing', 'orbits', 'physics', 'scale')
+READY = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
+KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / 'screenshots'
+CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
+# No GPU and no WebGL: the page must need neither.
+FLAGS = ['--no-sandbox', '--disable-gpu', '--disable-3d-apis', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync']
+
+
+def value(cell):
+    """Of a number as the page writes it in English: 1,234.5 or 6.3 × 10⁻⁵."""
+    superscripts = str.maketrans('⁰¹²³⁴⁵⁶⁷⁸⁹⁻', '0123456789-')
+    return float(cell.replace(',', '').replace('−', '-').replace(' × 10', 'e').translate(superscripts))
+
+
+class Browser(unittest.TestCase):
+    """Tests that share a server and a browser; each page has a context of its own."""
+    @classmethod
+    def setUpClass(cls):
+        cls.daemon = daemon.Daemon()
+        cls.base = f'http://127.0.0.1:{cls.daemon.port}/'
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+        code = cls.daemon.stop()
+        if code:
+            raise AssertionError(f'kerrd exited with {code}')
+
+    def setUp(self):
+        self.complaints, self.requests, self.contexts, self.expected = [], [], [], ''
+
+    def tearDown(self):
+        # Before the pages close: what a browser says of requests that a closing page drops is no complaint.
+        for context in self.contexts:
+            for page in context.pages:
+                page.evaluate('0')
+        complaints, requests = list(self.complaints), list(self.requests)
+        for context in self.contexts:
+            context.close()
+        self.assertEqual([c for c in complaints if not self.expected or self.expected not in c], [])
+        for request in requests:
+            self.assertTrue(request.url.startswith((self.base, 'blob:' + self.base)), request.url)
+
+    def open(self, fragment='lang=en', wait=AT_REST, **options):
+        page = self.page(self.context(**options))
+        page.goto(self.base + '#' + fragment)
+        page.wait_for_selector(wait, timeout=60000, state='attached')
+        return page
+
+    def context(self, **options):
+        options.setdefault('viewport', {'width': 1000, 'height': 640})
+        context = self.browser.new_context(**options)
+        self.contexts.append(context)
+        return context
+
+    def page(self, context):
+        page = context.new_page()
+        page.on('console', lambda m: self.complaints.append(f'{m.type}: {m.text}') if m.type in ('error', 'warning') else None)
+        page.on('pageerror', lambda e: self.complaints.append(str(e)))
+        page.on('request', lambda r: self.requests.append(r))
+        return page
+
+    def shot(self, page, name, **options):
+        SHOTS.mkdir(exist_ok=True)
+        page.screenshot(path=SHOTS / f'{name}.png', **options)
+
+    def pixels(self, page):
+        return page.evaluate('''async () => {
+            const picture = document.getElementById('picture'), { naturalWidth: width, naturalHeight: height } = picture;
+            const context = new OffscreenCanvas(width, height).getContext('2d');
+            context.drawImage(picture, 0, 0);
+            const hash = await crypto.subtle.digest('SHA-256', context.getImageData(0, 0, width, height).data);
+            return `${width}x${height} ` + [...new Uint8Array(hash)].map(b => b.toString(16).padStart(2, '0')).join('');
+        }''')
+
+    def drawn(self, page, canvas):
+        return page.locator(canvas).evaluate('''canvas => {
+            const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+            copy.drawImage(canvas, 0, 0);
+            const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+            let coloured = 0, hash = 0;
+            for (let i = 0; i < data.length; i += 4) {
+                const [r, g, b] = data.slice(i, i + 3), most = Math.max(r, g, b);
+                coloured += most - Math.min(r, g, b) > 50;
+                hash = (hash * 31 + r + 7 * g + 13 * b) % 1000003;
+            }
+            return { coloured, hash };
+        }''')
+
+    def field(self, page, path):
+        return page.locator(f'[data-path="{path}"] input[type=number]').input_value()
+
+    def drag(self, page, right, down):
+        box = page.locator('#stage').bounding_box()
+        x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for step in range(1, 9):
+            page.mouse.move(x + right * step / 8, y + down * step / 8)
+        page.mouse.up()
+        page.wait_for_selector(AT_REST)
+
+    def open_groups(self, page):
+        page.evaluate('() => { for (const d of document.querySelectorAll("details")) d.open = true; }')
+
+    def clock(self, page):
+        return float(page.inner_text('#clock').split()[2].replace(',', ''))
+
+    def physics(self, name, **parameters):
+        query = '&'.join(f'{k}={v}' for k, v in parameters.items())
+        with urllib.request.urlopen(f'{self.base}v1/physics/{name}?{query}') as answer:
+            return json.load(answer)['values']
+
+
+def skip(reason):
+    print('skipped:', reason)
+    sys.exit(77)
+
+
+def main():
+    if not sync_playwright:
+        skip('Playwright for Python is not installed')
+    if not CHROMIUM:
+        skip('there is no chromium')
+    if 'devices: none' in subprocess.run([KERRD, 'doctor'], capture_output=True, text=True, timeout=60).stdout:
+        skip('no Vulkan device')
+    sys.argv.insert(2, 'serve')
+    daemon.main()

@@ -1,0 +1,338 @@
+"""The picture, its controls, the lines over it and what can be taken away: lensing.py KERRD FOLDER (browser.py)."""
+import json
+import pathlib
+import re
+import subprocess
+import urllib.request
+
+from browser import AT_REST, FINE, READY, VIEWS, Browser, main, value
+import daemon
+
+BUDGET = 300_000  # bytes of all that a visit to every view loads, as sent, without pictures
+
+
+class Lensing(Browser):
+    def test_it_loads_and_is_light(self):
+        page = self.open(wait=FINE)
+        self.shot(page, 'lensing')
+        self.assertEqual(page.title(), 'Lensing: spin 0.7, inclination 82° – kerrd')
+        self.assertEqual(page.get_attribute('#picture', 'alt'),
+                         'A black hole, spin 0.7, inclination 82°, seen from infinity, 46 M across. A thin disk from the ISCO to 22 M.')
+        with urllib.request.urlopen(self.base + 'v1/schema') as answer:
+            schema = json.load(answer)['properties']
+        paths = {f'{section}.{name}' for section, spec in schema.items() for name in spec.get('properties', {})}
+        shown = set(page.locator('[data-path]').evaluate_all('all => all.map(n => n.dataset.path)'))
+        self.assertEqual(shown, (paths | {'time'}) - {'image.width', 'image.height'})
+        words = page.inner_text('#accuracy-words')
+        self.assertIn('traced again in double precision', words)
+        told = [value(x) for x in re.search('off by (.+?) of themselves in the median, (.+?) at worst', words).groups()]
+        last = [r for r in self.requests if '/frame.png' in r.url][-2].response().headers['kerrd-accuracy']  # one is still awaited
+        for got, name in zip(told, ('median', 'worst')):
+            self.assertAlmostEqual(got / float(re.search(rf'{name}=(\S+)', last)[1]), 1, delta=0.06)
+        self.assertGreater(page.locator('#approximations li').count(), 3)
+        self.assertGreater(page.locator('#timings tr').count(), 4)
+        self.assertEqual(page.evaluate('() => document.createElement("canvas").getContext("webgl")'), None, 'the flag took WebGL away')
+
+        first = page.evaluate('''() => {
+            const opened = performance.getEntriesByType('resource').find(e => e.name.endsWith('/v1/sessions')).startTime;
+            const shown = performance.getEntriesByName('first-picture')[0].startTime;
+            return [shown, shown - opened].map(Math.round);
+        }''')
+        print(f'first picture {first[0]} ms after navigation, {first[1]} ms after the session was asked for')
+        at_first = sum(r.sizes()['responseBodySize'] + r.sizes()['responseHeadersSize'] for r in self.requests
+                       if r.url.startswith(self.base) and '/frame.png' not in r.url and r.response())
+        print(f'{at_first} bytes for the first view')
+        for view in VIEWS[1:]:
+            page.click(f'nav [data-view={view}]')
+            page.wait_for_timeout(1500)
+        sizes = {}
+        for request in self.requests:
+            if request.url.startswith(self.base) and '/frame.png' not in request.url and request.response():
+                sizes[request.url] = request.sizes()['responseBodySize'] + request.sizes()['responseHeadersSize']
+        own = sum(n for url, n in sizes.items() if '/v1/' not in url)
+        print(f'{len(sizes)} requests, {sum(sizes.values())} bytes for all views, {own} of them the page itself')
+        self.assertLess(sum(sizes.values()), BUDGET)
+
+    def test_a_drag_changes_the_picture(self):
+        page = self.open()
+        before = self.pixels(page)
+        self.drag(page, 0, -80)
+        self.assertGreater(float(self.field(page, 'camera.inclination_deg')), 90)
+        self.assertNotEqual(self.pixels(page), before)
+        self.drag(page, 60, 0)
+        self.assertNotEqual(float(self.field(page, 'camera.azimuth_deg')), 0)
+
+    def test_a_picture_at_rest_costs_nothing(self):
+        for width in (1280, 1000, 900, 700):
+            page = self.open(wait=FINE, viewport={'width': width, 'height': 700})
+            page.wait_for_timeout(500)
+            before = len(self.requests)
+            page.wait_for_timeout(1500)
+            self.assertEqual([r.url for r in self.requests[before:]], [], width)
+
+    def test_wheel_keys_and_buttons(self):
+        page = self.open()
+        page.hover('#stage')
+        page.mouse.wheel(0, 300)
+        page.wait_for_selector(AT_REST)
+        far = float(self.field(page, 'camera.field_m'))
+        self.assertGreater(far, 50)
+        page.focus('#stage')
+        page.keyboard.press('+')
+        self.assertLess(float(self.field(page, 'camera.field_m')), far)
+        page.keyboard.press('ArrowUp')
+        page.keyboard.press('Shift+ArrowRight')
+        self.assertEqual((self.field(page, 'camera.inclination_deg'), self.field(page, 'camera.azimuth_deg')), ('80', '10'))
+        for key, end in (('ArrowUp', '0'), ('ArrowDown', '180')):
+            for _ in range(20):
+                page.keyboard.press('Shift+' + key)
+            self.assertEqual(self.field(page, 'camera.inclination_deg'), end)
+        page.click('#nearer')
+        self.assertLess(float(self.field(page, 'camera.field_m')), far / 1.2)
+        page.click('#reset')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual((self.field(page, 'camera.field_m'), self.field(page, 'camera.inclination_deg')), ('46', '82'))
+        page = self.open(viewport={'width': 700, 'height': 600})
+        page.hover('#stage')
+        page.mouse.wheel(0, 300)
+        self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.field_m') != '46'))
+        self.assertEqual(page.evaluate('scrollY'), 0)
+
+    def test_what_is_seen_is_said(self):
+        page = self.open('lang=it&preset=hot-spot&pause=1')
+        self.assertEqual(page.title(), 'Lente: spin 0,5, inclinazione 155° – kerrd')
+        self.assertEqual(page.get_attribute('#picture', 'alt'),
+                         'Un buco nero, spin 0,5, inclinazione 155°, visto dall’infinito, largo 50 M. Un disco sottile dall’ISCO a 16 M. '
+                         'Macchie calde in orbita a 9 M.')
+        self.assertIn('spin 0,5', page.get_attribute('#stage', 'aria-label'))
+
+    def test_arrow_keys_in_boxes(self):
+        page = self.open('lang=en&spot1.brightness=4')
+        self.open_groups(page)
+        for path, up in (('spacetime.spin', '0.71'), ('camera.inclination_deg', '83'), ('spot1.brightness', '4.1'), ('disk.peak_temperature_k', '5700')):
+            box = page.locator(f'[data-path="{path}"] input[type=number]')
+            was = box.input_value()
+            box.press('ArrowUp')
+            self.assertEqual(box.input_value(), up, path)
+            box.press('ArrowDown')
+            self.assertEqual(box.input_value(), was, path)
+        for key, end in (('ArrowUp', 0.998), ('ArrowDown', -0.998)):
+            page.fill('[data-path="spacetime.spin"] input[type=number]', str(end * 0.999))
+            page.press('[data-path="spacetime.spin"] input[type=number]', key)
+            page.press('[data-path="spacetime.spin"] input[type=number]', key)
+            self.assertEqual(float(self.field(page, 'spacetime.spin')), end)
+
+    def test_sliders_over_decades_go_by_factors(self):
+        """From one position to the next a value grows by a few per cent, wherever it stands; angles and signs stay linear."""
+        page = self.open()
+        slide = lambda path, at: page.evaluate("""([path, at]) => {
+            const row = document.querySelector(`[data-path="${path}"]`), slider = row.querySelector('input[type=range]');
+            slider.value = at;
+            slider.dispatchEvent(new Event('input'));
+            return [row.querySelector('input[type=number]').valueAsNumber, slider.valueAsNumber];
+        }""", [path, at])
+        for path, low, high in (('spot1.brightness', 0, 1e6), ('spot1.size', 1e-3, 1e5), ('disk.peak_temperature_k', 1000, 1e5)):
+            values = [slide(path, at)[0] for at in range(0, 1001, 50)]
+            self.assertEqual((values[0], values[-1]), (low, high))
+            ratios = [b / a for a, b in zip(values[4:], values[5:])]
+            self.assertLess(max(ratios) / min(ratios), 1.35, path)
+            self.assertLess(values[10], high / 9, path)
+            self.assertTrue(all(abs(slide(path, at)[1] - at) <= 1 for at in (100, 300, 777)), 'the slider stays where it was put')
+        for path, middle in (('camera.inclination_deg', 90), ('spacetime.spin', 0), ('camera.centre_alpha', 0)):
+            self.assertEqual(slide(path, 500)[0], middle)
+        slide('spot1.brightness', 0)
+
+    def test_a_finger_scrolls_where_nothing_is_turned(self):
+        page = self.open()
+        touch = lambda selector: page.locator(selector).evaluate('node => getComputedStyle(node).touchAction')
+        for view in VIEWS[1:]:
+            page.click(f'nav [data-view={view}]')
+            page.wait_for_selector(READY[view])
+        self.assertEqual([touch(s) for s in ('#stage', '#orbit-picture svg', '#scale-picture')], ['none', 'none', 'auto'])
+
+    def test_pinch(self):
+        page = self.open(has_touch=True)
+        page.evaluate('''() => {
+            const stage = document.getElementById('stage');
+            stage.setPointerCapture = () => {};
+            const send = (type, pointerId, x) => stage.dispatchEvent(new PointerEvent(type, { pointerId, clientX: x, clientY: 200, bubbles: true }));
+            send('pointerdown', 1, 200); send('pointerdown', 2, 300);
+            send('pointermove', 2, 400); send('pointerup', 1, 200); send('pointerup', 2, 400);
+        }''')
+        self.assertEqual(float(self.field(page, 'camera.field_m')), 23)
+
+    def test_a_link_restores_the_view(self):
+        page = self.open()
+        self.drag(page, 30, 40)
+        self.open_groups(page)
+        page.select_option('[data-path="sky.model"] select', 'grid')
+        page.check('#over-shadow')
+        page.wait_for_selector(FINE)
+        page.wait_for_timeout(300)
+        again = self.open(page.url.split('#')[1], FINE)
+        self.assertIn('camera.inclination_deg=', again.url)
+        for path in ('camera.inclination_deg', 'camera.azimuth_deg'):
+            self.assertEqual(self.field(again, path), self.field(page, path))
+        self.assertTrue(again.is_checked('#over-shadow'))
+        self.assertEqual(self.pixels(again), self.pixels(page))
+
+    def test_presets_and_refusals(self):
+        page = self.open()
+        before = self.pixels(page)
+        page.select_option('#preset', 'gargantua')
+        self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.r') == '74.1'))
+        page.wait_for_selector(AT_REST)
+        self.assertEqual((self.field(page, 'spacetime.spin'), self.field(page, 'camera.r')), ('0.999', '74.1'))
+        self.assertIn('James', page.inner_text('#preset-help'))
+        self.assertNotEqual(self.pixels(page), before)
+        self.expected = '422'
+        page.fill('[data-path="camera.r"] input[type=number]', '1.5')
+        page.keyboard.press('Enter')
+        page.wait_for_selector('[data-path="camera.r"] .fault:not([hidden])')
+        self.assertIn('ergosphere', page.inner_text('[data-path="camera.r"] .fault'))
+        page.fill('[data-path="camera.r"] input[type=number]', '30')
+        page.keyboard.press('Enter')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(page.locator('.fault:not([hidden]):not(:empty)').count(), 0)
+
+    def test_the_box_of_presets_follows(self):
+        page = self.open('lang=en&preset=gargantua')
+        page.wait_for_selector('#preset option:nth-child(3)', state='attached')
+        self.assertEqual((page.input_value('#preset'), self.field(page, 'camera.r')), ('gargantua', '74.1'))
+        again = self.open(page.url.split('#')[1])
+        self.assertTrue(daemon.eventually(lambda: again.input_value('#preset') == 'gargantua'))
+        self.drag(again, 20, 20)
+        self.assertEqual((again.input_value('#preset'), again.inner_text('#preset-help')), ('own', ''))
+        again.wait_for_timeout(300)
+        self.assertNotIn('preset=', again.url)
+        again.click('#reset')
+        self.assertEqual(again.input_value('#preset'), '')
+
+    def test_the_scene_can_be_taken_away(self):
+        page = self.open('lang=en&spacetime.spin=-0.5')
+        self.open_groups(page)
+        page.select_option('#save-size', '1280x720')
+        scene = json.loads(page.input_value('#scene-text'))
+        self.assertEqual(scene, {'spacetime': {'spin': -0.5}, 'image': {'width': 1280, 'height': 720, 'samples': 2}})
+        page.select_option('#scene-form', 'curl')
+        command = page.input_value('#scene-text')
+        answer = subprocess.run(command.replace('-o kerrd.png', '-s -o -'), shell=True, capture_output=True, timeout=60)
+        self.assertEqual(answer.stdout[:8], b'\x89PNG\r\n\x1a\n', command)
+        with page.expect_download() as download:
+            page.click('#save')
+        saved = pathlib.Path(download.value.path()).read_bytes()
+        self.assertEqual((saved[:4], saved[16:24]), (b'\x89PNG', (1280).to_bytes(4, 'big') + (720).to_bytes(4, 'big')))
+
+    def test_what_is_saved_is_what_is_seen(self):
+        page = self.open('lang=en&preset=gargantua', FINE)
+        self.open_groups(page)
+        differ, all_of_them = page.evaluate("""async () => {
+            const [a, b] = await Promise.all([document.getElementById('picture').src, document.getElementById('save').href].map(async src => {
+                const image = new Image();
+                image.src = src;
+                await image.decode();
+                const context = new OffscreenCanvas(image.naturalWidth, image.naturalHeight).getContext('2d');
+                context.drawImage(image, 0, 0);
+                return context.getImageData(0, 0, image.naturalWidth, image.naturalHeight).data;
+            }));
+            return [a.length === b.length ? a.filter((v, i) => Math.abs(v - b[i]) > 2).length : Infinity, a.length];
+        }""")
+        self.assertLess(differ, all_of_them / 1000)
+
+    def test_overlays_are_the_numbers_of_the_server(self):
+        page = self.open('lang=en&spacetime.spin=0.9&camera.inclination_deg=60&camera.field_m=30&over=shadow,photons,isco,ergosphere,orders,flamm')
+        page.wait_for_selector('#overlay .over-flamm path', state='attached')
+        box = page.evaluate('() => { const b = document.querySelector("#overlay .over-shadow path").getBBox(); return [b.width, b.height]; }')
+        shadow = self.physics('shadow', spin=0.9, inclination_deg=60)
+        per_m = page.locator('#stage').bounding_box()['width'] / 30
+        for got, name in zip(box, ('width', 'height')):
+            self.assertAlmostEqual(got / (shadow[name] * per_m), 1, delta=2e-3)
+        for name, lines in (('photons', 2), ('isco', 1), ('ergosphere', 1), ('orders', 4)):
+            self.assertEqual(page.locator(f'#overlay .over-{name} path').count(), lines, name)
+        self.assertIn('r = 2.321 M', page.inner_text('#over-isco-words'))
+        self.shot(page, 'overlays')
+
+    def test_the_shadow_line_lies_on_the_shadow(self):
+        """With nothing but a sky behind, the picture is black inside the line and not outside."""
+        page = self.open('lang=en&disk.model=none&sky.model=grid&sky.grid_deg=1&sky.brightness=1&style.exposure=3&spacetime.spin=0.95'
+                         '&camera.field_m=16&camera.inclination_deg=80&camera.roll_deg=25&over=shadow', FINE)
+        page.wait_for_selector('#overlay .over-shadow path', state='attached')
+        bright = page.evaluate('''async () => {
+            const image = document.getElementById('picture'), stage = document.getElementById('stage');
+            const canvas = new OffscreenCanvas(stage.clientWidth, stage.clientHeight), context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0, canvas.width, canvas.height);
+            const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+            const line = document.querySelector('#overlay .over-shadow path'), box = line.getBBox(), count = { inside: 0, outside: 0, lit_inside: 0, lit_outside: 0 };
+            const middle = [box.x + box.width / 2, box.y + box.height / 2], point = stage.querySelector('svg').createSVGPoint();
+            for (let y = 0; y < canvas.height; y += 3) for (let x = 0; x < canvas.width; x += 3) {
+                const at = f => { point.x = middle[0] + (x - middle[0]) * f; point.y = middle[1] + (y - middle[1]) * f; return line.isPointInFill(point); };
+                const lit = data[4 * (y * canvas.width + x)] > 8;
+                if (at(1.03)) count.inside++, count.lit_inside += lit;
+                else if (!at(0.97) && at(0.8)) count.outside++, count.lit_outside += lit;
+            }
+            return count;
+        }''')
+        self.assertGreater(min(bright['inside'], bright['outside']), 1000)
+        self.assertLess(bright['lit_inside'] / bright['inside'], 0.002, bright)
+        self.assertGreater(bright['lit_outside'] / bright['outside'], 0.3, bright)
+
+    def test_lines_of_a_near_camera_lie_on_the_disk(self):
+        """Between the direct images of its edges the picture is lit; outside all images of its outer edge it is black."""
+        page = self.open('lang=en&spacetime.spin=0.9&camera.r=40&camera.fov_deg=60&camera.inclination_deg=70&camera.yaw_deg=4&camera.roll_deg=15'
+                         '&disk.outer=14&disk.taper=0&accuracy.orders=2&style.exposure=9&over=orders,isco', FINE)
+        page.wait_for_selector('#overlay .over-orders path', state='attached')
+        seen = page.evaluate('''async () => {
+            const image = document.getElementById('picture'), stage = document.getElementById('stage'), point = document.getElementById('overlay').createSVGPoint();
+            const canvas = new OffscreenCanvas(stage.clientWidth, stage.clientHeight), context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0, canvas.width, canvas.height);
+            const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+            const [inner, inner_1, outer, outer_1] = document.querySelectorAll('.over-orders path'), count = { on: 0, off: 0, lit_on: 0, lit_off: 0 };
+            for (const line of [inner, inner_1, outer, outer_1]) line.style.strokeWidth = 6;
+            for (let y = 0; y < canvas.height; y += 2) for (let x = 0; x < canvas.width; x += 2) {
+                point.x = x + 0.5, point.y = y + 0.5;
+                if ([inner, inner_1, outer, outer_1].some(line => line.isPointInStroke(point))) continue;
+                const lit = data[4 * (y * canvas.width + x)] > 8, inside = line => line.isPointInFill(point);
+                if (inside(outer) && !inside(inner)) count.on++, count.lit_on += lit;
+                else if (!inside(outer) && !inside(outer_1)) count.off++, count.lit_off += lit;
+            }
+            return count;
+        }''')
+        self.assertGreater(min(seen['on'], seen['off']), 3000, seen)
+        self.assertGreater(seen['lit_on'] / seen['on'], 0.998, seen)
+        self.assertLess(seen['lit_off'] / seen['off'], 0.002, seen)
+        self.shot(page, 'overlays-near')
+        self.expected = '422'
+        self.open_groups(page)
+        page.fill('[data-path="disk.outer"] input[type=number]', '60')
+        page.keyboard.press('Enter')
+        page.wait_for_selector('#over-orders-words:has-text("drawn for cameras well outside it")')
+        self.assertEqual(page.locator('#overlay .over-isco path').count(), 1)
+
+    def test_what_a_link_or_a_hand_gets_wrong(self):
+        page = self.open('lang=en&foo=1&camera.roll=2&spacetime.spin=x&orbit.p=7')
+        self.assertEqual(page.inner_text('#link-fault'), 'Of the link this was not understood: spacetime.spin, foo, camera.roll.')
+        self.open_groups(page)
+        page.fill('[data-path="spacetime.spin"] input[type=number]', '2')
+        page.keyboard.press('Enter')
+        page.wait_for_timeout(300)
+        self.assertEqual((self.field(page, 'spacetime.spin'), page.locator('[data-path="spacetime.spin"] input:invalid').count()), ('2', 1))
+
+        page = self.open('lang=en&camera.r=&time=1e400&disk.slow_light=yes&spacetime.spin=0.5')
+        self.assertEqual(page.inner_text('#link-fault'), 'Of the link this was not understood: camera.r, disk.slow_light, time.')
+        self.assertEqual(self.field(page, 'spacetime.spin'), '0.5')
+
+    def test_a_link_to_no_preset(self):
+        self.expected = '404'
+        page = self.open('lang=en&preset=nosuch')
+        self.assertEqual(page.inner_text('#link-fault'), 'Of the link this was not understood: preset.')
+        self.assertEqual(page.input_value('#preset'), '')
+        self.assertFalse(page.get_attribute('#status', 'data-wrong'))
+
+    def test_a_refused_link_says_why(self):
+        self.expected = '422'
+        page = self.open('lang=en&disk.inner=1', '#status[data-wrong]')
+        self.assertIn('disk.inner', page.inner_text('#status'))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,169 @@
+"""Time that goes on: particles, spots, a struck hole: living.py KERRD FOLDER (browser.py)."""
+import json
+import pathlib
+
+from browser import FINE, Browser, main, value
+import daemon
+
+
+class Living(Browser):
+    def test_a_scene_that_goes_on(self):
+        page = self.open('lang=en&sky.model=grid&motion.azimuth_rate_deg=30', '#stage[data-final]') # it may never be at rest
+        seen = set()
+        self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 5, 20))
+        self.assertIn('pictures a second', page.inner_text('#status'))
+
+    def test_time_goes_on_and_stands(self):
+        page = self.open('lang=en&preset=living-disk', '#stage[data-final]')
+        self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and self.clock(page) > 1, 20))
+        seen = set()
+        self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen) > 3, 20))
+        self.assertRegex(page.inner_text('#clock'), r'^t = [\d.,]+ M = [\d.]+ (minutes|hours)$')
+        self.assertEqual(page.get_attribute('#status', 'aria-live'), 'off', 'thirty captions a second are not for reading aloud')
+        page.click('#play')
+        page.wait_for_selector(FINE)
+        self.assertEqual(page.get_attribute('#status', 'aria-live'), 'polite')
+        stood, picture, before = self.clock(page), self.pixels(page), len(self.requests)
+        page.wait_for_timeout(1000)
+        self.assertEqual((self.clock(page), self.pixels(page), len(self.requests), page.inner_text('#play')), (stood, picture, before, 'Play'))
+        self.assertIn('pause=1', page.url)
+        self.assertAlmostEqual(float(self.field(page, 'time')), stood, delta=0.06)
+        self.assertEqual(page.input_value('#preset'), 'living-disk')
+        self.assertAlmostEqual(json.loads(page.input_value('#scene-text'))['time'], stood, delta=0.06)
+        self.assertRegex(page.get_attribute('#save', 'href'), f'time={int(stood)}')
+        page.focus('#stage')
+        page.keyboard.press('Space')
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > stood))
+        self.assertLess(self.clock(page), stood + 40, 'it went on from where it stood')
+        page.fill('[data-path="time"] input[type=number]', '0')
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) < stood))
+        page.fill('[data-path="motion.time_rate"] input[type=number]', '-50')
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock').startswith('t = −')))
+        self.shot(page, 'living-disk')
+
+    def test_other_particles_and_a_spot(self):
+        page = self.open('lang=en&camera.inclination_deg=60')
+        self.assertFalse(page.is_visible('#play'))
+        page.click('#as-particles')
+        page.wait_for_selector('#play:has-text("Pause")')
+        page.click('#play')
+        page.wait_for_selector(FINE)
+        before = self.pixels(page)
+        page.click('#new-seed')
+        page.wait_for_selector(FINE)
+        other = self.pixels(page)
+        self.assertNotEqual(other, before)
+        page.click('#spot')
+        page.wait_for_selector(FINE)
+        self.assertNotEqual(self.pixels(page), other)
+        self.open_groups(page)
+        self.assertTrue(page.is_visible('[data-path="spot1.r"]'))
+        self.assertFalse(page.is_visible('[data-path="spot2.r"]'))
+        self.assertIn('spots: ', page.inner_text('#approximations'))
+        page.click('#spot')
+        page.wait_for_selector(FINE)
+        self.assertEqual(self.pixels(page), other)
+        page.click('#as-particles')
+        page.wait_for_selector(FINE)
+        self.assertEqual((page.get_attribute('#as-particles', 'aria-pressed'), page.is_visible('#new-seed')), ('false', False))
+
+    def test_the_light_of_a_spot(self):
+        page = self.open('lang=en&preset=hot-spot', '#light canvas')
+        page.fill('[data-path="motion.time_rate"] input[type=number]', '60')
+        page.keyboard.press('Enter')
+        start = self.clock(page)
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > start + 200, 30))
+        self.assertGreater(self.drawn(page, '#light canvas')['coloured'], 100)
+        page.click('#light summary >> nth=0')
+        page.wait_for_selector('#light tbody tr >> nth=5')
+        rows = [[value(cell) for cell in row.split('\t')] for row in page.locator('#light tbody tr').all_inner_texts()]
+        times, everything, spots = zip(*rows)
+        self.assertEqual(sorted(times), list(times))
+        self.assertGreater(max(spots), 1.5 * min(spots))
+        self.assertTrue(all(a > s > 0 for a, s in zip(everything, spots)))
+        self.assertGreater(len(page.get_attribute('#light .track', 'd')), 100)
+        page.click('#strike')
+        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.evaluate('location.hash')))
+        struck = self.clock(page)
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > struck + 60, 20))
+        for _ in range(2):
+            page.click('#light summary >> nth=0')
+        page.wait_for_selector('#light tbody tr >> nth=5')
+        self.assertEqual(value(page.locator('#light tbody th').first.inner_text()), times[0], 'the curve goes on over a strike')
+        with page.expect_download() as download:
+            page.click('#light a >> nth=0')
+        lines = pathlib.Path(download.value.path()).read_text().splitlines()
+        self.assertEqual((lines[0], len(lines) > 60), ('"time t / M","all","spots"', True))
+        latest = max(float(line.split(',')[0]) for line in lines[1:])
+        self.assertTrue(daemon.eventually(lambda:
+                                          max(value(x) for x in page.locator('#light figure:first-child tbody th').all_inner_texts()) > latest))
+        page.click('#play')
+        self.shot(page, 'hot-spot')
+        page.click('#spot')
+        page.wait_for_selector('#light', state='hidden')
+        page.wait_for_selector(FINE)
+        before = len(self.requests)
+        page.wait_for_timeout(800)
+        self.assertEqual(len(self.requests), before)
+
+    def test_no_light_curve_of_a_ring(self):
+        page = self.open('lang=en&preset=photon-rings', '#stage[data-final]')
+        page.click('#spot')
+        page.wait_for_selector('#light >> text=no light curve')
+        self.assertFalse(page.is_visible('#light figure'))
+
+    def test_a_struck_hole_rings(self):
+        page = self.open('lang=en&camera.inclination_deg=30', FINE)
+        before = self.pixels(page)
+        page.click('#strike')
+        seen = set()
+        self.assertTrue(daemon.eventually(lambda: seen.add(self.pixels(page)) or len(seen - {before}) > 2, 20))
+        self.assertEqual({p.split()[0] for p in seen}, {before.split()[0]}, 'nothing moves: the picture keeps its size')
+        self.assertEqual([r.method for r in self.requests if r.url.endswith('/ringdown')], ['POST'])
+        self.assertIn('ringdown: an illustration', page.inner_text('#approximations'))
+        self.assertTrue(daemon.eventually(lambda: 'style.ringdown=1' in page.evaluate('location.hash')))
+        with page.expect_response('**/v1/physics/qnm*format=wav') as answer:
+            page.click('#hear')
+        self.assertIn('spin=0.7&mass_msun=100000000', answer.value.url)
+        self.assertRegex(page.inner_text('#heard'), r'fading stretched [\d,]+ times, .* 21 octaves higher, and faster, than the hole rings\.$')
+        self.assertEqual(page.get_attribute('body', 'data-view'), 'lensing')
+        page.click('#wave')
+        page.wait_for_selector('#curve-qnm >> text=/octaves higher/')
+        self.assertTrue(daemon.eventually(lambda: page.locator('#curve-qnm').bounding_box()['y'] < 300))
+        self.assertEqual((page.input_value('#in-qnm-spin'), page.input_value('#in-qnm-mass_msun')), ('0.7', '100000000'))
+        page.click('[data-view=lensing]')
+        self.open_groups(page)
+        page.fill('[data-path="accuracy.orders"] input[type=number]', '1')
+        page.keyboard.press('Enter')
+        self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
+
+    def test_when_the_rings_have_faded(self):
+        page = self.open('lang=en&motion.time_rate=60')
+        page.click('#strike')
+        self.assertTrue(daemon.eventually(lambda: 'at rest' in page.inner_text('#clock'), 30))
+        before, asked = self.clock(page), len(self.requests)
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > before + 90))
+        self.assertEqual([r.url for r in self.requests[asked:] if '/v1/' in r.url], [])
+        link = dict(pair.split('=') for pair in page.url.split('#')[1].split('&'))
+        self.assertGreater(float(link['time']), float(link['style.ringdown_time']) + 60, 'a link from here does not strike again')
+
+    def test_a_strike_that_is_refused(self):
+        page = self.open('lang=en&spacetime.spin=0.99995')
+        self.expected = '422'
+        page.click('#strike')
+        page.wait_for_selector('#strike-fault >> text=beyond 0.9999')
+        page.wait_for_timeout(600)
+        self.assertIn('beyond 0.9999', page.inner_text('#strike-fault'), 'no picture takes it away')
+
+    def test_reduced_motion_holds_time(self):
+        for fragment, motion in (('pause=1', 'no-preference'), ('', 'reduce')):
+            page = self.open('lang=en&preset=living-disk&' + fragment, FINE, reduced_motion=motion)
+            self.assertEqual((self.clock(page), page.inner_text('#play')), (0, 'Play'))
+        page.click('#play')
+        self.assertTrue(daemon.eventually(lambda: self.clock(page) > 1))
+
+
+if __name__ == '__main__':
+    main()

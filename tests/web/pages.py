@@ -1,0 +1,113 @@
+"""What all views share: two languages, small windows, Back, who reads by ear: pages.py KERRD FOLDER (browser.py)."""
+import json
+
+from browser import AT_REST, FINE, READY, VIEWS, Browser, main
+
+
+class Pages(Browser):
+    def test_both_languages(self):
+        english, italian = self.open(), self.open('lang=it')
+        self.assertEqual([p.get_attribute('html', 'lang') for p in (english, italian)], ['en', 'it'])
+        self.assertEqual(english.inner_text('nav [aria-current]'), 'Lensing')
+        self.assertEqual(italian.inner_text('nav [aria-current]'), 'Lente')
+        self.open_groups(italian)
+        self.assertIn('doppia precisione', italian.inner_text('#accuracy-words'))
+        left = italian.locator('#lensing [lang=en]').all_inner_texts()
+        self.assertEqual(left, [], 'what the server says and it.js does not translate')
+        labels = [p.locator('#fields .field > label').all_inner_texts() for p in (english, italian)]
+        self.assertGreater(len(set(labels[1]) - set(labels[0])), 25)
+        italian.click('[data-lang=en]')
+        italian.wait_for_selector('html[lang=en]')
+        self.shot(self.open('lang=it&over=shadow,flamm&camera.inclination_deg=75', FINE), 'lensing-it')
+
+    def test_refusals_are_told_in_italian(self):
+        page = self.open('lang=it')
+        wrong = ('disk.inner=1', 'camera.r=1.5', 'spacetime.spin=2', 'spacetime.spin=abc', 'disk.outer=3', 'disk.model=foo', 'camera.projection=pinhole',
+                 'camera.projection=ring&camera.r=50', 'camera.r=40&camera.projection=plane', 'spot1.brightness=1&spot1.r=2', 'disk.particles=1e10',
+                 'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'accuracy.steps=7',
+                 'disk.mdot_edd=1e9&disk.colour=accretion', 'camera.inclination_deg=200', 'spacetime.mass_msun=0')
+        answers = []
+        for query in [f'render?{q}' for q in wrong] + ['physics/qnm?l=2&m=3', 'physics/redshift?r=1.2&spin=0.5', 'physics/ring-image?r=1&spin=0.5', 'physics/kerr?spin=2']:
+            answers.append(self.daemon.request('GET', '/v1/' + query))
+        for spin, p, e in ((2, 6, 0), (0.9, 6, 1), (0.9, 2, 0.5)):
+            answers.append(self.daemon.request('POST', '/v1/orbits', json.dumps({'spin': spin, 'orbit': {'p': p, 'e': e}})))
+        for answer in answers:
+            self.assertEqual(answer.status, 422)
+            detail = answer.json()['detail']
+            told = page.evaluate('async detail => (await import("./web/it.js")).refusal(detail)', detail)
+            self.assertNotRegex(told or 'allowed', r'allowed|\{|undefined| is | of |degrees|masses', detail)
+        self.assertEqual(page.evaluate('async () => (await import("./web/it.js")).refusal("what is this, allowed are none")'), None)
+
+    def test_phone(self):
+        phone = {'viewport': {'width': 390, 'height': 844}, 'device_scale_factor': 2, 'has_touch': True, 'is_mobile': True}
+        for view in VIEWS:
+            with self.subTest(view):
+                page = self.open(f'lang=it&view={view}', READY[view], **phone)
+                self.open_groups(page)
+                self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 390)
+                small = page.evaluate('''() => [...document.querySelectorAll('button, a.button, select, summary, input:not([type=range]):not([type=checkbox])')]
+                    .filter(n => n.offsetParent && Math.min(n.offsetWidth, n.offsetHeight) < 24).map(n => n.outerHTML.slice(0, 80))''')
+                self.assertEqual(small, [])
+                self.shot(page, 'phone-' + view)
+
+    def test_narrow(self):
+        for view in ('lensing', 'physics', 'orbits'):
+            page = self.open(f'lang=it&view={view}', READY[view], viewport={'width': 320, 'height': 640})
+            self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), 320, view)
+
+    def test_low(self):
+        page = self.open(viewport={'width': 1100, 'height': 420})
+        self.open_groups(page)
+        self.assertEqual(page.evaluate('() => document.documentElement.scrollHeight'), 420, 'the panel scrolls, the page does not')
+        page = self.open(viewport={'width': 500, 'height': 320}, device_scale_factor=2)  # a small window, and twice the size
+        box = page.locator('#stage').bounding_box()
+        self.assertLess(box['y'] + box['height'], 300)
+        page = self.open('lang=it', viewport={'width': 844, 'height': 390}, has_touch=True)
+        self.assertLess(page.locator('header').bounding_box()['height'], 60)
+        box = page.locator('#stage').bounding_box()
+        self.assertLess(box['y'] + box['height'], 320, 'there is room beside the picture to scroll by')
+
+    def test_back_goes_from_view_to_view(self):
+        page = self.open()
+        for view in ('physics', 'scale'):
+            page.click(f'nav [data-view={view}]')
+        loaded = len([r for r in self.requests if r.url.endswith('/app.js')])
+        self.assertIn('view=scale', page.url)
+        page.go_back()
+        page.wait_for_selector('body[data-view=physics]')
+        page.fill('#in-qnm-spin', '0.9')
+        page.keyboard.press('Tab')
+        page.go_back()
+        page.wait_for_selector('body[data-view=lensing]')
+        page.wait_for_timeout(300)
+        self.assertNotIn('view=', page.url)
+        self.assertIn('qnm.spin=0.9', page.url, 'what was changed stays')
+        page.go_forward()
+        page.wait_for_selector('body[data-view=physics]')
+        self.assertEqual(page.input_value('#in-qnm-spin'), '0.9')
+        self.assertEqual(len([r for r in self.requests if r.url.endswith('/app.js')]), loaded, 'without a new load')
+        page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # as if typed
+        page.wait_for_selector('html[lang=it] ' + AT_REST)
+        self.assertEqual(self.field(page, 'spacetime.spin'), '0.5')
+        page.go_back()
+        page.wait_for_selector('html[lang=en] body[data-view=physics]')
+
+    def test_axe(self):
+        try:
+            from axe_playwright_python.sync_playwright import Axe
+        except ImportError:
+            self.skipTest('axe-playwright-python is not installed')
+        scenes = [(view, f'view={view}&over=shadow', READY[view]) for view in VIEWS] + [('spot', 'preset=hot-spot&pause=1', '#light .track')]
+        for view, fragment, there in scenes:
+            for lang in ('en', 'it'):
+                with self.subTest(view=view, lang=lang):
+                    page = self.open(f'lang={lang}&{fragment}', there)
+                    self.open_groups(page)
+                    results = Axe().run(page, options={'runOnly': ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
+                    self.assertGreater(len(results.response['passes']), 15)
+                    found = [f'{v["id"]}: {v["help"]}: {[n["html"][:120] for n in v["nodes"]][:3]}' for v in results.response['violations']]
+                    self.assertEqual(found, [])
+
+
+if __name__ == '__main__':
+    main()

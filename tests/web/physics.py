@@ -1,0 +1,103 @@
+"""The curves, the sound of a ringdown, and the view of real scale: physics.py KERRD FOLDER (browser.py)."""
+import pathlib
+import re
+
+from browser import READY, Browser, main
+
+
+class Physics(Browser):
+    def test_physics(self):
+        page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
+        cards = page.locator('.card')
+        self.assertGreaterEqual(cards.count(), 9)
+        for i in range(cards.count()):
+            name = cards.nth(i).get_attribute('id')
+            self.assertGreater(self.drawn(page, f'#{name} canvas')['coloured'], 300, name)
+            page.click(f'#{name} summary >> nth=0')
+            page.wait_for_selector(f'#{name} tbody tr', timeout=2000)
+            self.assertGreater(page.locator(f'#{name} tbody tr').count(), 10, name)
+            self.assertEqual(cards.nth(i).locator('.fault').inner_text(), '')
+            self.assertEqual(cards.nth(i).locator('math').count(), 1)
+        self.shot(page, 'physics', full_page=True)
+        last = page.locator('#curve-kerr tbody tr').first.inner_text().split()
+        self.assertEqual(last, ['0', '3', '3', '6', '6', '2'])
+        before = self.drawn(page, '#curve-qnm canvas')
+        page.fill('#in-qnm-spin', '0.95')
+        page.keyboard.press('Tab')
+        page.wait_for_timeout(800)
+        self.assertNotEqual(self.drawn(page, '#curve-qnm canvas')['hash'], before['hash'])
+        self.assertIn('qnm.spin=0.95', page.url)
+
+    def test_a_ringdown_is_heard(self):
+        page = self.open('lang=en&view=physics&qnm.mass_msun=4e6', '#curve-qnm a[href*=wav]')
+        self.assertIn('16 octaves higher', page.inner_text('#curve-qnm'))
+        self.assertEqual(page.input_value('#in-qnm-octaves'), '16', 'the field shows those in force')
+        for button, stretched in (('Hear it', True), ('As short as it is', False)):
+            with page.expect_response('**/v1/physics/qnm*format=wav') as answer:
+                page.click(f'#curve-qnm button:has-text("{button}")')
+            answer = answer.value
+            self.assertEqual((answer.status, answer.headers['content-type']), (206 if 'content-range' in answer.headers else 200, 'audio/wav'))
+            self.assertEqual(float(re.search('stretch=([^&]*)', answer.url)[1]) > 50, stretched)
+        self.assertRegex(page.inner_text('#curve-qnm'), r'fading stretched [\d,]+ times, by e in [45]\d\d ms')
+        page.fill('#in-qnm-mass_msun', '60')
+        page.keyboard.press('Tab')
+        page.wait_for_function('() => document.getElementById("in-qnm-octaves").value === "0"')
+        self.assertNotIn('octaves', page.url.split('#')[1])
+        with page.expect_download() as download:
+            page.click('#curve-qnm a[href*=wav]')
+        self.assertEqual(pathlib.Path(download.value.path()).read_bytes()[:4], b'RIFF')
+
+    def test_a_ringdown_is_shifted_by_hand(self):
+        page = self.open('lang=en&view=physics&qnm.octaves=-3', '#curve-qnm a[href*=wav]')
+        self.assertIn('3 octaves lower', page.inner_text('#curve-qnm'))
+        self.assertIn('shift_octaves=-3', page.get_attribute('#curve-qnm a[href*=wav]', 'href'))
+        page.fill('#in-qnm-octaves', '-6')
+        page.keyboard.press('Tab')
+        page.wait_for_selector('#curve-qnm >> text=/No ear hears 4.48 Hz/')
+        self.assertEqual(page.locator('#curve-qnm a[href*=wav]').count(), 0)
+
+    def test_plots_are_read_by_keyboard(self):
+        page = self.open('lang=en&view=physics', '#curves .card:last-child canvas')
+        chart = page.locator('#curve-kerr .chart')
+        chart.focus()
+        page.keyboard.press('Home')
+        self.assertEqual(page.locator('#curve-kerr .legend b').all_inner_texts(), ['3', '3', '6', '6', '2'])
+        self.assertTrue(chart.get_attribute('aria-valuetext').startswith('spin a / M: 0; photon, with the spin: 3;'))
+        page.keyboard.press('ArrowRight')
+        page.keyboard.press('PageUp')
+        self.assertAlmostEqual(float(chart.get_attribute('aria-valuenow')), 11 * 0.999 / 111, places=12)
+        before = self.drawn(page, '#curve-kerr canvas')
+        button = page.locator('#curve-kerr .legend button').first
+        button.focus()
+        page.keyboard.press('Space')
+        self.assertEqual(button.get_attribute('aria-pressed'), 'false')
+        self.assertLess(self.drawn(page, '#curve-kerr canvas')['coloured'], before['coloured'] - 200)
+
+    def test_a_browser_that_has_no_language(self):
+        """WebKit under LANG=C says "c", which Intl refuses."""
+        for view in ('physics', 'orbits'):
+            context = self.context()
+            context.add_init_script('Object.defineProperty(Navigator.prototype, "language", { get: () => "c" })')
+            page = self.page(context)
+            page.goto(f'{self.base}#view={view}')
+            page.wait_for_selector(READY[view])
+            self.assertRaises(Exception, page.evaluate, 'new Intl.NumberFormat("c")')
+
+    def test_real_scale(self):
+        page = self.open('lang=en&view=scale', '#scale-rows tr')
+        self.assertIn('42 µas', page.inner_text('#scale-rows'))
+        self.assertEqual(page.locator('#scale math').count(), 3)
+        self.shot(page, 'scale')
+        self.assertEqual(page.title(), 'Real scale: M87* – kerrd')
+        self.assertIn('the measured ring 42 µas across', page.get_attribute('#scale-picture', 'aria-label'))
+        page.select_option('#in-scale-hole', 'sgra')
+        page.wait_for_selector('#scale-rows >> text=51.8 µas')
+        page.select_option('#in-scale-hole', 'none')
+        page.fill('#in-scale-mass_msun', '1e9')
+        page.keyboard.press('Tab')
+        page.wait_for_timeout(500)
+        self.assertNotIn('measured', page.inner_text('#scale-rows'))
+
+
+if __name__ == '__main__':
+    main()

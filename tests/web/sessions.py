@@ -1,0 +1,109 @@
+"""Sessions and servers that come and go: sessions.py KERRD FOLDER (browser.py)."""
+import json
+
+from browser import AT_REST, FINE, READY, Browser, main
+import daemon
+
+
+class Sessions(Browser):
+    def test_a_server_that_is_full_or_gone(self):
+        full = dict(status=503, content_type='application/problem+json', body='{"status":503,"detail":"16 sessions are open, as many as may"}')
+        for lang, answer, told in (('it', lambda r: r.fulfill(**full), 'sono aperte 16 sessioni, quante se ne possono aprire – si riprova'),
+                                   ('en', lambda r: r.abort(), 'The server does not answer – trying again')):
+            context = self.browser.new_context(viewport={'width': 1000, 'height': 640})
+            self.contexts.append(context)
+            page = context.new_page()
+            page.route('**/v1/sessions', answer)
+            page.goto(self.base + '#lang=' + lang)
+            page.wait_for_selector('#status[data-wrong]')
+            self.assertEqual(page.inner_text('#status'), told)
+            page.unroute('**/v1/sessions')
+            page.wait_for_selector(AT_REST)
+            self.assertIsNone(page.get_attribute('#status', 'data-wrong'))
+
+    def test_a_session_that_has_ended_is_opened_anew(self):
+        page = self.open()
+        self.expected = '404'
+        gone = []
+
+        def answer(route):
+            if gone:
+                return route.continue_()
+            gone.append(route.request.url)
+            route.fulfill(status=404, content_type='application/problem+json', body='{"status":404,"detail":"the session has ended"}')
+
+        page.route('**/frame.png*', answer)
+        page.focus('#stage')
+        page.keyboard.press('Shift+ArrowUp')
+        opened = lambda: page.evaluate('0') or [r for r in self.requests if r.url.endswith('/v1/sessions')]
+        self.assertTrue(daemon.eventually(lambda: len(opened()) == 2))
+        page.wait_for_selector(AT_REST)
+        before = self.pixels(page)
+        page.keyboard.press('Shift+ArrowUp')
+        self.assertTrue(daemon.eventually(lambda: self.pixels(page) != before))
+        self.assertEqual((len(gone), len(opened())), (1, 2))
+
+    def test_a_session_that_ends_while_nobody_looks(self):
+        """It is opened anew when somebody does, of the size that the window then has."""
+        page = self.open()
+        self.expected = '404'
+        own = next(r.response().json() for r in self.requests if r.url.endswith('/v1/sessions'))
+        page.click('nav [data-view=physics]')
+        page.wait_for_selector(READY['physics'])
+        self.daemon.request('DELETE', '/v1/sessions/' + own['id'], headers={'Authorization': 'Bearer ' + own['token']})
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('0') or any('404' in c for c in self.complaints)))
+        page.wait_for_timeout(300)
+        page.click('nav [data-view=lensing]')
+        page.wait_for_selector(AT_REST)
+        page.focus('#stage')
+        page.keyboard.press('Shift+ArrowUp')
+        page.wait_for_selector(FINE)
+        sizes = [json.loads(r.post_data)['image'] for r in self.requests if r.url.endswith('/v1/sessions')]
+        self.assertEqual(len(sizes), 2)
+        self.assertEqual(sizes[1]['width'], sizes[0]['width'])
+        self.assertGreater(page.evaluate('document.getElementById("picture").naturalWidth'), 500)
+
+    def test_a_view_whose_first_load_fails(self):
+        for view, fails, told in (('orbits', '**/v1/orbits', '#orbit-fault'), ('orbits', '**/web/orbits.js', '#orbits > .fault'),
+                                  ('physics', '**/v1/physics', '#physics > .fault'), ('scale', '**/v1/physics/scale*', '#scale-fault'),
+                                  ('lensing', '**/v1/schema', '#status')):
+            with self.subTest(view=view, fails=fails):
+                context = self.context()
+                page = context.new_page()
+                page.route(fails, lambda route: route.abort())
+                page.goto(f'{self.base}#lang=en&view={view}')
+                page.wait_for_selector(f'{told} >> text=The server does not answer – trying again')
+                page.unroute(fails)
+                if view != 'physics':  # that one goes by itself
+                    page.click(f'{told} button:has-text("Try again")')
+                page.wait_for_selector(READY[view])
+                self.assertEqual(page.locator(f'{told} button').count(), 0)
+                context.close()
+
+    def test_what_is_not_seen_is_not_asked_for(self):
+        page = self.open('lang=en&preset=living-disk', '#stage[data-final]')
+        pictures = lambda: page.evaluate('0') or len([r for r in self.requests if '/frame.png' in r.url])
+        hide = '''hidden => {
+            Object.defineProperty(document, 'hidden', { configurable: true, get: () => hidden });
+            document.dispatchEvent(new Event('visibilitychange'));
+        }'''
+        for away, back in ((lambda: page.click('nav [data-view=physics]'), lambda: page.go_back()),
+                           (lambda: page.evaluate(hide, True), lambda: page.evaluate(hide, False))):
+            away()
+            page.wait_for_timeout(300)
+            before = pictures()
+            page.wait_for_timeout(1000)
+            self.assertEqual(pictures(), before)
+            back()
+            self.assertTrue(daemon.eventually(lambda: pictures() > before + 5))
+
+    def test_a_page_that_is_closed_ends_its_session(self):
+        page = self.open()
+        own = next(r.response().json() for r in self.requests if r.url.endswith('/v1/sessions'))
+        self.assertEqual(self.daemon.get('/v1/sessions/' + own['id']).status, 200)
+        page.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/sessions/' + own['id']).status == 404, 5))
+
+
+if __name__ == '__main__':
+    main()
