@@ -127,8 +127,11 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
     bool wide = frame->bit_depth == 16;
     size_t pixel_bytes = wide ? 6 : 3;
     const uint32_t constants[] = { scene->style.tone_map == KD_TONE_ACES, wide };
-    enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, constants, 2, &post, j->error);
+    enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
+        status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, constants, 2, &post, j->error);
+        if (status)
+            break;
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
         uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
@@ -175,15 +178,39 @@ static enum kd_status glance(struct kd_frame_job *j)
     return status;
 }
 
+/* The device's times since the last reset, added to the picture's own. */
+static void keep_times(struct kd_frame_job *j)
+{
+    struct kd_vk_time now[KD_VK_MAX_PASSES];
+    for (size_t i = 0, n = kd_vk_times(j->r->vk, now); i < n; i++) {
+        size_t k = 0;
+        while (k < j->n_times && strcmp(j->times[k].pass, now[i].pass))
+            k++;
+        if (k == j->n_times && k < KD_VK_MAX_PASSES)
+            j->times[j->n_times++] = (struct kd_vk_time) { .pass = now[i].pass };
+        if (k < j->n_times) {
+            j->times[k].ms += now[i].ms;
+            j->times[k].dispatches += now[i].dispatches;
+        }
+    }
+}
+
 enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 {
     j->done += j->looking ? 0 : rows; /* none of the picture's own */
-    if (j->aside) { /* what others measure must not hold what is under way here */
+    if (j->aside) { /* who comes next need not wait, or measure, what is under way here */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
+        keep_times(j);
     }
-    if (j->progress && !j->progress(j->user, fmin(j->done / j->weight, 1)))
+    double left = kd_render_now_ms();
+    bool go_on = !j->progress || j->progress(j->user, fmin(j->done / j->weight, 1));
+    if (j->aside) {
+        j->away_ms += kd_render_now_ms() - left;
+        kd_vk_times_reset(j->r->vk);
+    }
+    if (!go_on)
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
     bool part = j->glance && !j->looking && j->lit && j->lit < j->plan->height;
     return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
@@ -198,16 +225,15 @@ static void add_timing(struct kd_frame *frame, const char *name, double ms)
     t->ms = ms;
 }
 
-static void collect_timings(const struct kd_frame_job *j, struct kd_frame *frame, double total_ms)
+static void collect_timings(struct kd_frame_job *j, struct kd_frame *frame, double total_ms)
 {
-    struct kd_vk_time times[KD_VK_MAX_PASSES];
-    size_t n = kd_vk_times(j->r->vk, times);
+    keep_times(j);
     if (j->listed_ms > 0)
         add_timing(frame, "trace", j->listed_ms);
     if (j->audit_ms > 0)
         add_timing(frame, "audit", j->audit_ms);
-    for (size_t i = 0; i < n; i++)
-        add_timing(frame, times[i].pass, times[i].ms);
+    for (size_t i = 0; i < j->n_times; i++)
+        add_timing(frame, j->times[i].pass, j->times[i].ms);
     add_timing(frame, "total", total_ms);
 }
 
@@ -218,7 +244,8 @@ static enum kd_status run(struct kd_frame_job *j)
     struct kd_capacity c;
     bool reused = false;
     kd_renderer_capacity(r, &c);
-    j->store->memory_bytes = j->aside ? c.memory_bytes / 2 : c.memory_bytes; /* what is kept makes way where less is left than was */
+    /* Beside what is rendered aside there is a quarter to keep; of those each keeps its own lens map. */
+    j->store->memory_bytes = j->aside ? j->plan->device_bytes : c.memory_bytes / 4;
     enum kd_status status = kd_store_lens_map(j->store, j->plan, &j->lens, &reused, j->error);
     if (!status)
         status = kd_store_frame(j->store, j->plan, frame->bit_depth, j->error);
@@ -282,36 +309,88 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
     return status;
 }
 
+static enum kd_status run_timed(struct kd_frame_job *job, struct kd_frame *out)
+{
+    double start = kd_render_now_ms();
+    kd_vk_times_reset(job->r->vk);
+    job->camera = kd_camera_push(job->scene);
+    enum kd_status status = render(job, out);
+    if (status)
+        return status;
+    collect_timings(job, out, kd_render_now_ms() - start - job->away_ms);
+    kd_renderer_learn(job->r, job->plan, out);
+    return KD_OK;
+}
+
+/* An aside that nobody is in and that has the plan's lens map; NULL: none. */
+static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *plan)
+{
+    for (size_t i = 0; i < KD_ASIDES; i++)
+        if (!r->asides[i].busy && kd_store_has(&r->asides[i].store, plan))
+            return &r->asides[i];
+    return NULL;
+}
+
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
-    double start = kd_render_now_ms();
+    struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
     struct kd_frame_job job = {
-        .r = renderer, .store = &renderer->store, .particles = &renderer->particles, .scene = scene, .plan = plan,
-        .camera = kd_camera_push(scene), .progress = progress, .user = user, .error = error,
+        .r = renderer, .store = found ? &found->store : &renderer->store,
+        .particles = found ? &found->particles : &renderer->particles, .scene = scene, .plan = plan,
+        .progress = progress, .user = user, .error = error,
     };
-    kd_vk_times_reset(renderer->vk);
-    enum kd_status status = render(&job, out);
-    if (status)
-        return status;
-    collect_timings(&job, out, kd_render_now_ms() - start);
-    kd_renderer_learn(renderer, plan, out);
-    return KD_OK;
+    return run_timed(&job, out);
+}
+
+/* What idle ones hold is given up, the oldest first, until so much fits beside what is in use. */
+static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(r, &c);
+    for (;;) {
+        struct kd_aside *oldest = NULL;
+        uint64_t held = bytes;
+        for (size_t i = 0; i < KD_ASIDES; i++) {
+            struct kd_aside *a = &r->asides[i];
+            uint64_t own = kd_store_bytes(&a->store);
+            held += own;
+            if (!a->busy && own && (!oldest || a->used < oldest->used))
+                oldest = a;
+        }
+        if (held <= c.memory_bytes / 2 || !oldest)
+            return;
+        kd_store_empty(&oldest->store);
+    }
+}
+
+static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan *plan)
+{
+    struct kd_aside *a = aside_with(r, plan);
+    for (size_t i = 0; i < KD_ASIDES && (!a || !kd_store_has(&a->store, plan)); i++)
+        if (!r->asides[i].busy && (!a || r->asides[i].used < a->used))
+            a = &r->asides[i];
+    if (!a)
+        return NULL;
+    a->busy = true;
+    a->used = ++r->asides_used;
+    make_room_aside(r, plan->device_bytes);
+    return a;
 }
 
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                                kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
                                struct kd_error *error)
 {
-    double start = kd_render_now_ms();
+    struct kd_aside *a = enter_aside(renderer, plan);
+    if (!a)
+        return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be", KD_ASIDES);
     struct kd_frame_job job = {
-        .r = renderer, .store = &renderer->aside, .particles = &renderer->particles_aside, .aside = true,
-        .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .progress = progress, .glance = glance, .user = user,
-        .error = error,
+        .r = renderer, .store = &a->store, .particles = &a->particles, .aside = true, .scene = scene, .plan = plan,
+        .progress = progress, .glance = glance, .user = user, .error = error,
     };
-    enum kd_status status = render(&job, out);
-    if (!status)
-        add_timing(out, "total", kd_render_now_ms() - start);
+    enum kd_status status = run_timed(&job, out);
+    a->busy = false;
     return status;
 }
 

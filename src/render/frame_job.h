@@ -9,6 +9,9 @@ struct kd_frame_job {
     struct kd_store *store;
     struct kd_particles *particles;
     bool aside; /* progress may render */
+    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* of an aside: of what is done, */
+    size_t n_times;
+    double away_ms; /* and what its progress took */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     struct kd_camera_push camera;

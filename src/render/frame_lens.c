@@ -16,6 +16,8 @@ static struct kd_vk_buffer *lens_buffer(const struct kd_frame_job *j, uint32_t b
 
 static const struct kd_critical_lattice on_grid; /* none */
 
+/* Kernels are looked up for each slice: while others had the device theirs may have taken their places. */
+
 /* Rows of pixels that one submission takes, given nanoseconds a row. */
 static uint32_t slice_rows(double ns_per_row, uint32_t rows)
 {
@@ -118,10 +120,24 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
     };
 }
 
-/* A band, slice by slice, so that what is done of a long picture can be looked at. trace: NULL if the lens map is reused, or of
- * trace_kernel; ns: of a ray. */
-static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, const struct kd_vk_pipeline *trace,
-                                 const struct kd_vk_pipeline *transfer, double ns)
+/* Record and submit. needed: the lens map as well. */
+static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s, bool needed)
+{
+    const struct kd_vk_pipeline *trace = NULL, *transfer;
+    enum kd_status status = needed ? trace_kernel(j, &on_grid, &trace) : KD_OK;
+    if (!status && needed)
+        status = trace_slice(j, s, trace);
+    if (!status)
+        status = transfer_kernel(j, &on_grid, &transfer);
+    if (status)
+        return status;
+    struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band);
+    status = record(j, s, &d, false);
+    return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
+}
+
+/* A band, slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
+static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
 {
     const struct kd_plan *p = j->plan;
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
@@ -129,13 +145,7 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
     enum kd_status status = KD_OK;
     for (uint32_t done = 0; done < rows && !status; done += step) {
         const struct slice s = { band, first + done, rows - done < step ? rows - done : step };
-        struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, band), band);
-        if (needed)
-            status = trace_slice(j, &s, trace);
-        if (!status)
-            status = record(j, &s, &d, false);
-        if (!status)
-            status = kd_vk_submit(j->r->vk, NULL, j->error);
+        status = light_slice(j, &s, needed);
         j->lit = s.first + s.count;
         if (!status)
             status = kd_frame_report(j, needed ? 2 * s.count : s.count);
@@ -162,10 +172,12 @@ static struct part part_of(const struct kd_frame_job *j, uint32_t number)
     return part;
 }
 
-/* Run a kernel over pixels `from` to `to` of a part in slices. rays: an invocation a ray, not a pixel. */
+/* Run a kernel over pixels `from` to `to` of a part in slices. rays: the one that traces them, an invocation a ray; else the one
+ * that lights pixels. base: the dispatch but for its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, uint64_t from, uint64_t to,
                                const struct kd_vk_dispatch *base, bool rays, double ns_per_ray)
 {
+    const struct kd_critical_lattice lattice = kd_critical_lattice(j->plan->critical);
     uint32_t step = slice_rows(ns_per_ray * j->plan->critical, (uint32_t)part->n);
     enum kd_status status = KD_OK;
     for (; from < to && !status; from += step) {
@@ -176,7 +188,9 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, 
         d.push = &push;
         d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * j->plan->critical : push.rows);
         d.groups[1] = 1;
-        status = kd_vk_dispatch(j->r->vk, &d, j->error);
+        status = (rays ? trace_kernel : transfer_kernel)(j, &lattice, &d.pipeline);
+        if (!status)
+            status = kd_vk_dispatch(j->r->vk, &d, j->error);
         if (!status)
             status = kd_vk_submit(j->r->vk, NULL, j->error);
         if (!status)
@@ -221,19 +235,19 @@ static enum kd_status list_part(struct kd_frame_job *j, const struct part *part)
     return status;
 }
 
-static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part, const struct kd_vk_pipeline *pipeline)
+static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part)
 {
     enum kd_status status = upload_pixels(j, part);
     if (status || j->plan->path == KD_LENS_LISTED)
         return status ? status : list_part(j, part);
-    struct kd_vk_dispatch d = { "trace", pipeline, { { part->lens, 0, 0, true } }, NULL, { 0 } };
+    struct kd_vk_dispatch d = { "trace", NULL, { { part->lens, 0, 0, true } }, NULL, { 0 } };
     if (j->plan->path == KD_LENS_MAP)
         d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
     return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
 }
 
 /* A pixel's light is written anew. */
-static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, const struct kd_vk_pipeline *pipeline, double ns)
+static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, double ns)
 {
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
@@ -242,7 +256,7 @@ static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, c
         uint64_t to = kd_critical_pixels_above(&j->lens->pixels, row + kd_frame_band_rows(j, band));
         from = from > first ? from - first : 0;
         to = to < first ? 0 : to - first < part->n ? to - first : part->n;
-        const struct kd_vk_dispatch d = transfer_dispatch(j, pipeline, part->lens, band);
+        const struct kd_vk_dispatch d = transfer_dispatch(j, NULL, part->lens, band);
         part->push.band0 = row;
         status = run_part(j, part, from, to, &d, false, ns);
     }
@@ -253,21 +267,17 @@ static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, c
 static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;
-    const struct kd_vk_pipeline *trace = NULL, *transfer;
-    const struct kd_critical_lattice lattice = kd_critical_lattice(p->critical);
-    enum kd_status status = needed ? trace_kernel(j, &lattice, &trace) : KD_OK;
-    if (!status)
-        status = transfer_kernel(j, &lattice, &transfer);
-    if (!status && needed) {
+    enum kd_status status = KD_OK;
+    if (needed) {
         kd_critical_pixels_finish(&j->lens->pixels);
         status = kd_critical_pixels_of(j->scene, &j->lens->pixels, j->error);
     }
     for (uint32_t k = 0; k < kd_plan_critical_parts(p) && !status; k++) {
         struct part part = part_of(j, k);
         if (needed)
-            status = trace_part(j, &part, trace);
+            status = trace_part(j, &part);
         if (!status)
-            status = transfer_part(j, &part, transfer, transfer_ns);
+            status = transfer_part(j, &part, transfer_ns);
     }
     return status;
 }
@@ -282,16 +292,11 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     struct kd_capacity c;
     kd_renderer_capacity(j->r, &c);
     const struct kd_plan *p = j->plan;
-    const struct kd_vk_pipeline *trace = NULL, *transfer;
     bool needed = !reused && p->planes;
     double ns = c.ns_per_sample_transfer + (needed ? p->trace_ns : 0);
     enum kd_status status = needed ? forget_undecided(j) : KD_OK;
-    if (!status && needed)
-        status = trace_kernel(j, &on_grid, &trace);
-    if (!status)
-        status = transfer_kernel(j, &on_grid, &transfer);
     for (uint32_t band = 0; band < p->bands && !status; band++)
-        status = light_band(j, band, needed, trace, transfer, ns);
+        status = light_band(j, band, needed, ns);
     if (!status && p->critical)
         status = light_at_curve(j, needed, c.ns_per_sample_transfer);
     return status;

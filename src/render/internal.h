@@ -18,11 +18,21 @@ struct kd_particles {
     double time;        /* at this time: slices of a list, and frames that refine, find it there */
 };
 
+/* What one kd_render_aside works in. Its lens maps are kept for whoever can use them, until their memory is needed. */
+struct kd_aside {
+    struct kd_store store;
+    struct kd_particles particles;
+    bool busy;
+    uint64_t used; /* the larger, the later */
+};
+
 struct kd_renderer {
     struct kd_vk *vk;
     struct kd_kernels kernels;
-    struct kd_store store, aside; /* aside: kd_render_aside's */
-    struct kd_particles particles, particles_aside;
+    struct kd_store store;
+    struct kd_particles particles;
+    struct kd_aside asides[KD_ASIDES];
+    uint64_t asides_used;
     struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays_device.c's, kept for the next list */
     struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
     struct kd_transfer_data *tables; /* staging; its colour table is filled once */

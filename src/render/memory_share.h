@@ -5,8 +5,9 @@
 #include "base/memory_limit.h"
 #include "render/plan.h"
 
-/* Of what pictures may take in all, two thirds are for the picture at hand and one is for what is rendered aside (kd_render_aside has
- * half of a capacity). Pure. */
+/* Of what pictures may take in all, two thirds are what one may be planned with, its capacity. Large ones that are rendered side by
+ * side have no more than that between them; a third is for small ones, and for what is kept from earlier ones (server/render_queue.h,
+ * frame.c). Pure. */
 static inline uint64_t kd_memory_main(uint64_t all) { return all / 3 * 2; }
 
 /* Narrows a capacity to what the host leaves. Where the device's memory is the host's, pictures get three quarters of it, and frames

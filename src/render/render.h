@@ -1,5 +1,5 @@
-/* Scenes to pictures on one device. One thread (the render thread) owns a struct kd_renderer; the only
- * call allowed from others is kd_renderer_capacity. */
+/* Scenes to pictures on one device. One thread at a time has a struct kd_renderer, and hands it on with a lock; the only
+ * call allowed from others meanwhile is kd_renderer_capacity. */
 #ifndef KD_RENDER_RENDER_H
 #define KD_RENDER_RENDER_H
 
@@ -73,9 +73,11 @@ struct kd_glance {
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 
-/* The same with buffers of its own, at most half of the memory: plan must be made with a capacity of that. progress, called at least
- * every 100 ms or so, may use the renderer for anything but this, and the picture stays the same to the byte. Of timings only "total",
- * with what progress took; the capacity learns nothing from it. glance: NULL, or both functions, with the same user. */
+/* The same with buffers of its own. progress, called at least every 100 ms or so, may let other threads use the renderer before it
+ * returns, for anything that this header has, and the picture stays the same to the byte. At most KD_ASIDES are under way at once, and
+ * what they hold between them, their plans' device_bytes, is the callers' to bound: lens maps that earlier ones left make room.
+ * Timings are without what progress took. glance: NULL, or both functions, with the same user. */
+#define KD_ASIDES 8
 enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                                kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
                                struct kd_error *error);

@@ -79,7 +79,9 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     }
     const struct kd_vk_info *info = kd_vk_info(r->vk);
     r->capacity = guess(info, params->memory_bytes);
-    r->store.vk = r->aside.vk = r->vk;
+    r->store.vk = r->vk;
+    for (size_t i = 0; i < KD_ASIDES; i++)
+        r->asides[i].store.vk = r->vk;
     load_accuracy(r);
     if (!r->capacity.accuracy) {
         kd_renderer_destroy(r);
@@ -98,9 +100,11 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
         kd_vk_wait(renderer->vk, 0, NULL);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);
-        kd_store_finish(&renderer->aside);
         kd_particles_finish(&renderer->particles, renderer->vk);
-        kd_particles_finish(&renderer->particles_aside, renderer->vk);
+        for (size_t i = 0; i < KD_ASIDES; i++) {
+            kd_store_finish(&renderer->asides[i].store);
+            kd_particles_finish(&renderer->asides[i].particles, renderer->vk);
+        }
         for (size_t i = 0; i < sizeof renderer->rays / sizeof **renderer->rays; i++)
             kd_vk_buffer_destroy(renderer->vk, renderer->rays[i / 3][i % 3]);
         kd_vk_destroy(renderer->vk);

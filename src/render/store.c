@@ -63,16 +63,34 @@ static void make_room(struct kd_store *store, const struct kd_plan *plan, const 
     }
 }
 
+static uint64_t lens_band_bytes(const struct kd_plan *plan)
+{
+    return 4ull * plan->planes * plan->width * plan->side * plan->side * plan->band_rows + 16;
+}
+
+static bool is_of(const struct kd_lens_map *map, const struct kd_plan *plan)
+{
+    return plan->cacheable && !strcmp(map->key, plan->lens_key) && map->bands.count == plan->bands &&
+           map->bands.band_bytes == lens_band_bytes(plan);
+}
+
+bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
+{
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        if (is_of(&store->maps[i], plan))
+            return true;
+    return false;
+}
+
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error)
 {
     struct kd_lens_map *oldest = &store->maps[0];
-    uint64_t row = 4ull * plan->planes * plan->width * plan->side * plan->side, bytes = row * plan->band_rows + 16;
+    uint64_t bytes = lens_band_bytes(plan);
     *reused = false;
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
         struct kd_lens_map *m = &store->maps[i];
-        if (plan->cacheable && !strcmp(m->key, plan->lens_key) && m->bands.count == plan->bands &&
-            m->bands.band_bytes == bytes) {
+        if (is_of(m, plan)) {
             m->used = ++store->clock;
             *out = m;
             *reused = true;
@@ -161,6 +179,23 @@ enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_da
     }
     store->sent_whole = !status;
     return status;
+}
+
+static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->count * bands->band_bytes; }
+static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
+
+uint64_t kd_store_bytes(const struct kd_store *store)
+{
+    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
+    return sum + bytes_of(store->light) + bytes_of(store->light_host);
+}
+
+void kd_store_empty(struct kd_store *store)
+{
+    kd_store_finish(store);
+    *store = (struct kd_store) { .vk = store->vk, .memory_bytes = store->memory_bytes };
 }
 
 void kd_store_finish(struct kd_store *store)

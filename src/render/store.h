@@ -57,6 +57,12 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
 /* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. A frame
  * that is given up afterwards says so by sent_whole = false. */
 enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error);
+/* Bytes that it holds of the device's memory, about. */
+uint64_t kd_store_bytes(const struct kd_store *store);
+/* Whether kd_store_lens_map would find the plan's lens map. */
+bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
+/* As it was made. */
+void kd_store_empty(struct kd_store *store);
 void kd_store_finish(struct kd_store *store);
 
 #endif

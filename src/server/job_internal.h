@@ -35,7 +35,7 @@ struct kd_job {
     unsigned finished_here;
     uint64_t bytes;
     unsigned revision; /* of what its status says */
-    char client[48];
+    char client[KD_CLIENT]; /* "": nobody knows any more */
     bool listed;
     struct kd_job_glance glance;
     struct kd_job_watcher *watchers;

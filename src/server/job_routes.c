@@ -8,8 +8,6 @@
 
 #include <limits.h>
 #include <math.h>
-#include <netdb.h>
-#include <netinet/in.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,16 +74,6 @@ static enum MHD_Result answer(struct kd_request *request, struct kd_job *job, bo
     return kd_reply_send(request, MHD_HTTP_ACCEPTED, response);
 }
 
-/* "" where it cannot be told. */
-static void client_of(struct kd_request *request, char *out, size_t size)
-{
-    const union MHD_ConnectionInfo *info = MHD_get_connection_info(request->mhd, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
-    const struct sockaddr *address = info ? info->client_addr : NULL;
-    socklen_t length = address && address->sa_family == AF_INET6 ? sizeof(struct sockaddr_in6) : sizeof(struct sockaddr_in);
-    if (!address || getnameinfo(address, length, out, (socklen_t)size, NULL, 0, NI_NUMERICHOST))
-        *out = 0;
-}
-
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool quota)
 {
     struct kd_problem problem = kd_problem_from(error);
@@ -104,7 +92,6 @@ struct draft {
     struct kd_task task; /* first */
     struct kd_job_draft draft;
     bool read, quota;
-    char client[48];
     struct kd_job *job; /* a reference */
 };
 
@@ -131,7 +118,7 @@ static enum kd_turn work(struct kd_task *task, double until_ms)
     if (!status && d->draft.checked < d->draft.spec.frames)
         return KD_TURN_MORE;
     if (!status)
-        status = kd_jobs_open(jobs, &d->draft, text, body->size, d->client, &d->quota, &d->job, &error);
+        status = kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &d->quota, &d->job, &error);
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
 }
@@ -163,7 +150,6 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     d->task.work = work;
     d->task.free = destroy;
     snprintf(d->draft.preset, sizeof d->draft.preset, "%s", preset ? preset : "");
-    client_of(request, d->client, sizeof d->client);
     request->task = &d->task;
     return kd_task_submit(&d->task);
 }

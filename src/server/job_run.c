@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define BEHIND_MAX 2      /* frames rendered and not yet in their files: one is rendered while one is encoded */
 #define COMPRESSION 6     /* files that stay: smaller, and nobody waits */
@@ -19,13 +20,6 @@ struct kd_job_frame {
 static void rendered(struct kd_render_job *render);
 static void done(struct kd_render_job *render);
 static void progress(struct kd_render_job *render, double fraction);
-
-/* The other half of the memory is for those who are rendered in between: kd_render_aside. */
-static void capacity_of(const struct kd_jobs *all, struct kd_capacity *out)
-{
-    kd_render_queue_capacity(all->params.renders, out);
-    out->memory_bytes /= 2;
-}
 
 static enum kd_status plan_picture(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *plan,
                                    struct kd_error *error)
@@ -86,7 +80,7 @@ static bool begin(struct kd_job *job)
     if (job->next == job->frames)
         return false;
     struct kd_job_frame *frame = calloc(1, sizeof *frame);
-    capacity_of(all, &capacity);
+    kd_render_queue_capacity(all->params.renders, &capacity);
     enum kd_status status = frame ? plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)
                                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
     if (status) {
@@ -101,7 +95,8 @@ static bool begin(struct kd_job *job)
         job->struck = true;
         kd_job_write(job);
     }
-    frame->render.background = true;
+    frame->render.claim.class = KD_CLASS_JOB;
+    memcpy(frame->render.claim.client, job->client, sizeof job->client);
     frame->render.compression = COMPRESSION;
     frame->render.encode = job->spec.curve ? encode_row : NULL;
     frame->render.socket = -1;
@@ -230,7 +225,7 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
-    capacity_of(all, &capacity);
+    kd_render_queue_capacity(all->params.renders, &capacity);
     do {
         enum kd_status status = plan_frame(all, spec, draft->checked, &capacity, &scene, &plan, error);
         if (status)

@@ -94,9 +94,11 @@ static int choose_format(struct kd_request *request)
     return npy > json ? KD_RAYS_NPY : json ? KD_RAYS_JSON : -1;
 }
 
-static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed)
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed, bool quota)
 {
     struct kd_problem problem = kd_problem_from(error);
+    if (quota)
+        problem.type = KD_PROBLEM_QUOTA;
     if (error->status == KD_EINVAL)
         problem.type = malformed ? KD_PROBLEM_MALFORMED_JSON : KD_PROBLEM_INVALID_RAYS;
     return kd_reply_problem(request, &problem);
@@ -108,7 +110,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (job->task.status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
     if (job->task.status)
-        return refuse(request, &job->task.error, job->malformed);
+        return refuse(request, &job->task.error, job->malformed, job->quota);
     enum kd_rays_format format = (enum kd_rays_format)choose_format(request);
     struct outgoing *out = take_answer(request, format);
     if (!out)
@@ -158,7 +160,7 @@ enum MHD_Result kd_handle_rays(struct kd_request *request)
     bool npy = kd_media_type_is(request->header.content_type, KD_NPY_TYPE);
     kd_rays_request_init(&rays);
     if (read_query(&request->target, npy, &rays, &error))
-        return refuse(request, &error, false);
+        return refuse(request, &error, false, false);
     if (!kd_task_admit(request, request->server->rays, "requests for rays", &refused))
         return refused;
     struct kd_rays_job *job = kd_rays_job_create(request);

@@ -4,8 +4,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SLICE 4096 /* rays: some 35 ms of one core */
+
+/* Rays of a turn with the device: few at first, then as many as take TURN_MS. From the fastest engine to the dearest, from a GPU to
+ * one core, a ray's cost varies by a factor of a million. */
+#define FIRST_TURN 256
+#define TURN_MS 40.0
 
 static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
 {
@@ -32,14 +38,20 @@ static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
     return kd_rays_answer_init(&job->answer, &request->params, alpha_beta, request->n, error);
 }
 
-/* On the render thread. */
+/* With the device. */
 static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_renderer *renderer,
                                       kd_progress_fn progress, void *progress_user)
 {
     struct kd_rays_job *job = device->user;
     struct kd_rays_answer *answer = &job->answer;
-    enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings,
-                                          answer->ends, progress, progress_user, &device->error);
+    size_t first = job->traced, left = answer->n - first, n = left < job->turn ? left : job->turn;
+    double begun = kd_clock_ms();
+    enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
+                                          answer->crossings + first * answer->params.orders, answer->ends + first, progress,
+                                          progress_user, &device->error);
+    job->traced += n;
+    job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
+    device->more = job->traced < answer->n;
     /* A device without double precision is not a lost one. */
     return status == KD_EDEVICE && *device->error.pointer ? KD_EINVAL : status;
 }
@@ -55,13 +67,15 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
 {
     struct kd_render_queue *renders = job->task.request->server->renders;
     struct kd_capacity capacity;
-    enum kd_status status = kd_render_queue_admit(renders, error);
+    enum kd_status status = kd_render_queue_admit(renders, job->task.request->client, &job->quota, error);
     if (status)
         return status;
     kd_render_queue_capacity(renders, &capacity);
     job->device = (struct kd_render_job) {
-        .run = trace_on_device, .socket = kd_connection_socket(job->task.request->connection), .done = device_done, .user = job,
+        .claim.class = KD_CLASS_RAYS, .run = trace_on_device, .socket = kd_connection_socket(job->task.request->connection), .done = device_done, .user = job,
     };
+    memcpy(job->device.claim.client, job->task.request->client, sizeof job->device.claim.client);
+    job->turn = FIRST_TURN;
     job->device.plan.estimate_ms = (double)job->answer.n * job->answer.params.orders * capacity.ns_per_ray_full * 1e-6;
     kd_render_queue_push(renders, &job->device);
     return KD_OK;

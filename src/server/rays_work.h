@@ -1,5 +1,5 @@
-/* A request for rays on its way through the workers: read, traced in slices by as many as are free, or by the device in the render
- * queue's turn, and summed up. */
+/* A request for rays on its way through the workers: read, traced in slices by as many as are free, or by the device, some at each turn
+ * that the render queue gives it, and summed up. */
 #ifndef KD_SERVER_RAYS_WORK_H
 #define KD_SERVER_RAYS_WORK_H
 
@@ -21,6 +21,8 @@ struct kd_rays_job {
     double traced_from_ms;
     _Atomic size_t begun; /* rays handed to workers */
     struct kd_render_job device;
+    size_t traced, turn; /* rays, on the device: so far, and those of the next turn */
+    bool quota; /* KD_EBUSY because the client has its share */
 };
 
 /* To be submitted, and then filled in: `request`, `npy`. NULL: no memory. */

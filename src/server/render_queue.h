@@ -1,6 +1,14 @@
-/* The bounded queue in front of the renderer, the thread that owns the renderer, and the encoders behind it.
+/* What wants the device: the bounded queue in front of it, who has it when, and the encoders behind it.
  *
- * waiting (bounded) -> render thread -> encoders (bounded by the bytes of their frames) -> done()
+ * waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
+ *
+ * Whose turn it is says shares.h: by client, then by class. A work that is short has the device until it is done. A picture that is
+ * estimated to take longer than KD_MOMENT_MS, or that nobody waits for, has a lane, a thread with buffers of its own, and goes on in slices of some 40 ms between
+ * which others have the device; a list of rays is cut up by whoever submits it (`more`). So nobody waits for more than a slice, or a
+ * short work, of each client that has had less of the device.
+ *
+ * Each client has one lane for each class, and two more for what takes a few seconds at most, so that no client can have them all;
+ * and long pictures begin when there is memory for their buffers beside those of the others. Until then they wait.
  *
  * Pictures are submitted by one thread, which makes kd_render_queue_admit's answer hold until kd_render_queue_push; other
  * work may come from others, and exceed the limit by as many of them as there are. */
@@ -9,39 +17,35 @@
 
 #include "base/buffer.h"
 #include "render/render.h"
+#include "server/shares.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
 
 struct kd_render_queue;
 
-#define KD_ENCODERS 2 /* one of which is for what is not in the background */
-#define KD_BACKGROUND_MS 1000.0
+#define KD_ENCODERS 2      /* one of which is for frames that do not take long */
+#define KD_MOMENT_MS 100.0 /* of device time, that others may be made to wait */
 
 struct kd_render_job {
     /* filled in by the submitter */
+    struct kd_claim claim; /* client and class; what is left is by the plan */
     struct kd_scene scene;
     struct kd_plan plan;
     int compression;
-    /* NULL: a picture is rendered and encoded. Else this is called instead, on the render thread. */
+    /* NULL: a picture is rendered and encoded. Else this is called instead, with the device; if it sets `more` it is called again at
+     * the next turn, and so on. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
-    bool live; /* before all that is not, and not counted among what may wait */
-    /* Behind all that is not, which also goes between its slices; but it begins after KD_BACKGROUND_MS at the latest, and has a tenth of the
-     * time: others cannot stop it for good. A picture, and not counted either. */
-    bool background;
-    /* Of a live one that is long and that nobody drags: as `background`, but before that. While something in the background is under
-     * way it goes between its slices instead, unless there are other live ones, and is KD_ECANCELLED when one comes. plan: for half
-     * of the memory. */
-    bool patient;
-    bool sliced; /* a part of what comes in many: has its tenth of the time as well, that frames of sessions leave it none */
-    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; on the render thread */
-    const struct kd_glance *glance; /* of one in the background or a patient one; may be NULL; user: the job. On the render thread */
+    bool more;
+    bool whole; /* never in slices, whatever its plan says: whoever submits it knows better */
+    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; of a picture in slices, with the device */
+    const struct kd_glance *glance; /* of a picture in slices; may be NULL; user: the job. With the device */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
     enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
     _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */
     int socket;                                  /* of the client; once it hangs up the job is dropped; -1: none */
-    void (*rendered)(struct kd_render_job *job); /* may be NULL; on the render thread, before the frame is encoded */
+    void (*rendered)(struct kd_render_job *job); /* may be NULL; with the device, before the frame is encoded */
     void (*done)(struct kd_render_job *job);     /* on a thread of the queue; may free the job */
     void *user;
     /* the outcome: KD_ECANCELLED when dropped */
@@ -49,16 +53,16 @@ struct kd_render_job {
     struct kd_error error;
     struct kd_buffer png;
     struct kd_frame frame; /* without its pixels */
-    double queue_ms, encode_ms;
-    bool aside; /* others went between its slices: kd_render_aside */
+    double queue_ms, encode_ms; /* queue_ms: in which others had the device, before it began and between its slices */
     /* the queue's own */
     struct kd_render_job *next;
     struct kd_render_queue *queue;
-    double submitted_ms;
+    bool begun, sliced, large; /* large: its buffers are counted */
+    double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
 };
 
-/* Returns when the device is open, or with the error. */
-enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit,
+/* Returns when the device is open, or with the error. client_limit: of those that may wait, how many one client may have. */
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
                                       struct kd_render_queue **out, struct kd_error *error);
 /* Cancels what is left and calls its done(). A lost device is left as it is. Accepts NULL. */
 void kd_render_queue_destroy(struct kd_render_queue *queue);
@@ -73,13 +77,15 @@ enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue
                                              struct kd_error *error);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
-double kd_render_queue_backlog_ms(struct kd_render_queue *queue); /* estimated, of all that is accepted */
+/* Estimated, of all that clients wait for: not of frames of sessions and jobs. */
+double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
-/* Whether one more fits: KD_EBUSY, KD_EDEVICE, or KD_OK. The submitting thread. */
-enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, struct kd_error *error);
+/* Whether one more of this client fits: KD_EBUSY, KD_EDEVICE, or KD_OK. *quota: it has as many waiting as one client may. The
+ * submitting thread. */
+enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error);
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);
 
-/* Drop waiting jobs whose clients have gone. Any thread. */
+/* Drop jobs whose clients have gone. Any thread. */
 void kd_render_queue_sweep(struct kd_render_queue *queue);
 /* Drop everything, what is running as soon as it can be stopped. Any thread. */
 void kd_render_queue_cancel(struct kd_render_queue *queue);

@@ -168,12 +168,15 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
                                          .detail = "the server is stopping and takes no new renders" };
         return false;
     }
-    enum kd_status status = kd_render_queue_admit(server->renders, error);
+    bool quota;
+    enum kd_status status = kd_render_queue_admit(server->renders, request->client, &quota, error);
     if (!status && atomic_load(&server->reply_bytes) > KD_REPLIES_MAX)
         status = kd_error_set(error, KD_EBUSY, "too many pictures wait for their clients to take them");
     if (!status)
         return true;
     *problem = kd_problem_from(error);
+    if (quota)
+        problem->type = KD_PROBLEM_QUOTA;
     if (status == KD_EBUSY)
         problem->retry_after = retry_after(server);
     return false;
@@ -188,6 +191,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
+    job->claim.class = KD_CLASS_PICTURE;
+    memcpy(job->claim.client, request->client, sizeof job->claim.client);
     job->scene = *scene;
     job->plan = *plan;
     job->compression = KD_PNG_COMPRESSION;

@@ -66,6 +66,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->mhd = mhd;
     request->connection = connection_of(mhd);
     request->close = kd_connection_is_health(request->connection); /* its next request may be anything, and is for the other daemon */
+    kd_client_of(mhd, request->client);
     request->raw = strdup(uri);
     hide_pairs(uri);
     request->start_ms = kd_clock_ms();

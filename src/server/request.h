@@ -2,6 +2,7 @@
 #ifndef KD_SERVER_REQUEST_H
 #define KD_SERVER_REQUEST_H
 
+#include "server/client.h"
 #include "server/guard.h"
 #include "server/routes.h"
 #include "server/service.h"
@@ -14,6 +15,7 @@ struct kd_request {
     struct kd_server *server;
     struct MHD_Connection *mhd;
     struct kd_connection *connection;
+    char client[KD_CLIENT]; /* who it is from */
     char *raw; /* the target as received */
     struct kd_target target;
     struct kd_header header;

@@ -127,7 +127,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         status = kd_listen_open(address, &server->port, &fd, error);
     if (!status)
         status =
-            kd_render_queue_create(&params->renderer, or_default(params->queue, 16), &server->renders, error);
+            kd_render_queue_create(&params->renderer, or_default(params->queue, 16), or_default(params->queue, 16), &server->renders,
+                                        error);
     if (status) {
         if (fd >= 0)
             close(fd);

@@ -15,6 +15,7 @@ struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
+    char client[KD_CLIENT];
     struct kd_scene scene; /* as at since_ms */
     double since_ms, used_ms;
     char lens_key[65]; /* of the scene as asked */

@@ -1,5 +1,5 @@
-/* GET /v1/sessions/ID/particles: where the particles of a session are, as numbers. The render thread lists them a slice at a time,
- * between which frames go before. */
+/* GET /v1/sessions/ID/particles: where the particles of a session are, as numbers. They are listed a slice at a time,
+ * between which others have the device. */
 #include "scene/number.h"
 #include "server/clock.h"
 #include "server/reply.h"
@@ -40,7 +40,7 @@ static size_t slice_of(const struct kd_particles_job *job)
     return left < KD_PARTICLE_LIST_SLICE ? left : KD_PARTICLE_LIST_SLICE;
 }
 
-/* On the render thread. */
+/* With the device. */
 static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress, void *user)
 {
     struct kd_particles_job *job = (struct kd_particles_job *)device;
@@ -48,20 +48,16 @@ static enum kd_status list_slice(struct kd_render_job *device, struct kd_rendere
     double start = kd_clock_ms();
     (void)progress, (void)user;
     enum kd_status status = kd_particle_list_fill(renderer, &job->list, job->done, slice_of(job), to, &device->error);
-    device->plan.estimate_ms = kd_clock_ms() - start; /* of the next one */
-    job->spent_ms += device->plan.estimate_ms;
+    job->spent_ms += kd_clock_ms() - start;
+    job->done += status ? 0 : slice_of(job);
+    device->more = job->done < job->list.n;
     return status;
 }
 
-/* On the render thread. */
-static void slice_done(struct kd_render_job *device)
+static void done(struct kd_render_job *device)
 {
     struct kd_particles_job *job = (struct kd_particles_job *)device;
-    job->done += device->status ? 0 : slice_of(job);
-    if (!device->status && job->done < job->list.n)
-        kd_render_queue_push(job->request->server->renders, device);
-    else
-        MHD_resume_connection(job->request->mhd);
+    MHD_resume_connection(job->request->mhd);
 }
 
 static void describe(struct MHD_Response *response, const struct kd_particle_list *list)
@@ -77,11 +73,13 @@ static void describe(struct MHD_Response *response, const struct kd_particle_lis
     MHD_add_response_header(response, "Kerrd-Time", text);
 }
 
-static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool quota)
 {
     struct kd_problem problem = kd_problem_from(error);
     if (error->status == KD_EINVAL)
         problem.type = KD_PROBLEM_INVALID_PARAMETERS;
+    if (quota)
+        problem.type = KD_PROBLEM_QUOTA;
     if (error->status == KD_EBUSY)
         problem.retry_after = 1;
     return kd_reply_problem(request, &problem);
@@ -95,7 +93,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return MHD_NO; /* nobody listens */
     if (job->device.status) {
         job->device.error.status = job->device.status;
-        return refuse(request, &job->device.error);
+        return refuse(request, &job->device.error, false);
     }
     request->reply_bytes = job->rows.size;
     struct MHD_Response *response = kd_reply_take(&job->rows, TYPE); /* stays counted as held while the request lives */
@@ -136,17 +134,19 @@ static enum MHD_Result submit(struct kd_request *request)
     struct kd_server *server = request->server;
     struct kd_error error = { 0 };
     struct kd_capacity capacity;
+    bool quota;
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
                                                                 .detail = "the server is stopping and begins nothing long" });
-    if (kd_render_queue_admit(server->renders, &error) || allocate(job, &error))
-        return refuse(request, &error);
+    if (kd_render_queue_admit(server->renders, request->client, &quota, &error) || allocate(job, &error))
+        return refuse(request, &error, quota);
     kd_render_queue_capacity(server->renders, &capacity);
     job->begun_ms = kd_clock_ms();
     job->device = (struct kd_render_job) {
-        .run = list_slice, .sliced = true, .socket = kd_connection_socket(request->connection), .done = slice_done,
+        .claim.class = KD_CLASS_RAYS, .run = list_slice, .socket = kd_connection_socket(request->connection), .done = done,
     };
-    job->device.plan.estimate_ms = (double)slice_of(job) * capacity.ns_per_particle * 1e-6;
+    memcpy(job->device.claim.client, request->client, sizeof request->client);
+    job->device.plan.estimate_ms = (double)job->list.n * capacity.ns_per_particle * 1e-6;
     /* First: it may be done before push returns. Suspended, the request and its socket outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
@@ -174,7 +174,7 @@ enum MHD_Result kd_handle_session_particles(struct kd_request *request)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = error.pointer,
                                                                 .detail = error.message });
     if (read_query(&request->target, &job->list, &error))
-        return refuse(request, &error);
+        return refuse(request, &error, false);
     if (!request->head)
         return submit(request);
     struct MHD_Response *response = kd_reply_empty(TYPE);

@@ -7,10 +7,6 @@
 #include <string.h>
 
 #define EXPOSURE_MS 2000.0 /* in which 63 % of a change of brightness is followed */
-/* A refinement that takes more makes way to others: if there are any, or, as nothing but its total time is known of it then, if
- * it takes much more. */
-#define LONG_MS 500.0
-#define VERY_LONG_MS 5000.0
 #define ENCODING_MAX 2 /* frames of a session behind the renderer: one is traced while one is encoded */
 
 struct kd_session_frame {
@@ -44,36 +40,6 @@ static void follow_exposure(const struct kd_session *s, double now, struct kd_pl
     plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
 }
 
-static bool others_watch(const struct kd_session *s)
-{
-    for (const struct kd_session *other = s->all->first; other; other = other->next)
-        if (other != s && other->viewers)
-            return true;
-    return false;
-}
-
-static void let_others_pass(const struct kd_session *s, struct kd_render_job *job, const struct kd_capacity *capacity)
-{
-    struct kd_capacity half = *capacity;
-    struct kd_plan plan;
-    half.memory_bytes /= 2;
-    if (job->plan.estimate_ms <= (others_watch(s) ? LONG_MS : VERY_LONG_MS))
-        return;
-    if (kd_plan_make(&job->scene, &half, &plan, NULL))
-        return;
-    job->plan = plan;
-    job->patient = true;
-}
-
-/* Those that refine, and thought themselves alone, begin that step again. */
-static void pass_others(const struct kd_session *s)
-{
-    for (struct kd_session *other = s->all->first; other; other = other->next)
-        if (other != s && other->rendering && !other->rendering->job.patient &&
-            other->rendering->job.plan.estimate_ms > LONG_MS)
-            kd_session_drop_refinement(other);
-}
-
 /* What the queue is to render. NULL: *error says why not. */
 static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene, const struct kd_turn *turn,
                                            double now, struct kd_error *error)
@@ -87,7 +53,12 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->session = s;
     live->turn = *turn;
     live->begun_ms = now;
-    live->job = (struct kd_render_job) { .live = true, .socket = -1, .encode = encode, .rendered = rendered, .done = done };
+    /* While the scene changes the governor knows better than the plan what a frame takes: its lens map may be there already. */
+    live->job = (struct kd_render_job) {
+        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .whole = !turn->refining, .socket = -1,
+        .encode = encode, .rendered = rendered, .done = done,
+    };
+    memcpy(live->job.claim.client, s->client, sizeof s->client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
@@ -95,9 +66,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         free(live);
         return NULL;
     }
-    if (turn->refining)
-        let_others_pass(s, &live->job, &capacity);
-    else if (s->exposed_revision == s->revision && kd_scene_moves(scene))
+    if (!turn->refining && s->exposed_revision == s->revision && kd_scene_moves(scene))
         follow_exposure(s, now, &live->job.plan);
     return live;
 }
@@ -125,8 +94,6 @@ void kd_session_pump(struct kd_session *s)
     live->revision = s->revision;
     s->rendering = live;
     s->references++;
-    if (!turn.refining)
-        pass_others(s);
     kd_render_queue_push(s->all->params.renders, &live->job);
 }
 
@@ -162,13 +129,12 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
         cost->total_ms = ms;
 }
 
-/* Encoding is left out: it overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). Where others went
- * between its slices, what it took is not known. */
+/* Encoding is left out: it overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_render_job *job)
 {
     const struct kd_frame *frame = &job->frame;
-    struct kd_frame_cost cost = { .lens_reused = frame->lens_reused, .total_ms = NAN };
-    for (size_t i = 0; i < frame->n_timings && !job->aside; i++)
+    struct kd_frame_cost cost = { .lens_reused = frame->lens_reused };
+    for (size_t i = 0; i < frame->n_timings; i++)
         add_cost(&cost, frame->timings[i].name, frame->timings[i].ms);
     return cost;
 }

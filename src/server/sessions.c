@@ -1,6 +1,7 @@
 #include "server/clock.h"
 #include "server/session_internal.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,7 +75,7 @@ static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *
     return status ? status : kd_sessions_takes(all, plan, error);
 }
 
-enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
                                 struct kd_session **out, struct kd_error *error)
 {
     struct kd_session *s = calloc(1, sizeof *s);
@@ -84,6 +85,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     }
     s->all = all;
     s->references = 2; /* the list's and the caller's */
+    snprintf(s->client, sizeof s->client, "%s", client);
     s->scene = *scene;
     s->revision = 1;
     s->since_ms = s->used_ms = kd_clock_ms();

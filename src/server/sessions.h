@@ -27,8 +27,9 @@ void kd_sessions_destroy(struct kd_sessions *all);
 /* KD_ETOOBIG where a frame would take too long. */
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
-/* A valid scene with its plan, to a new session, of which the caller holds a reference. KD_EBUSY: as many as may. */
-enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
+/* A valid scene with its plan, to a new session, of which the caller holds a reference; whose frames are from the
+ * client's share. KD_EBUSY: as many as may. */
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
                                 struct kd_session **out, struct kd_error *error);
 /* A reference to the session of this id, or NULL. Counts as being asked. */
 struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);

@@ -1,0 +1,251 @@
+/* Shares of the device, by a clock that is simulated: what is served in which order, and how much of it. */
+#include "server/shares.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SLICE 40.0
+
+struct work {
+    struct kd_claim claim; /* first */
+    double left, came, began, ended, served;
+    bool here, barred;
+};
+
+struct bench {
+    struct kd_shares shares;
+    struct work works[600];
+    unsigned n;
+    double now;
+};
+
+static struct work *come(struct bench *b, const char *client, enum kd_class class, double ms)
+{
+    struct work *w = &b->works[b->n++];
+    *w = (struct work) { .claim = { .class = class, .left_ms = ms }, .left = ms, .came = b->now, .began = NAN, .ended = NAN, .here = true };
+    snprintf(w->claim.client, sizeof w->claim.client, "%s", client);
+    kd_shares_add(&b->shares, &w->claim);
+    return w;
+}
+
+static bool may(const struct kd_claim *claim, void *user)
+{
+    (void)user;
+    return !((const struct work *)claim)->barred;
+}
+
+/* One turn: short works whole, others a slice. NULL: idle. */
+static struct work *turn(struct bench *b)
+{
+    struct work *w = (struct work *)kd_shares_next(&b->shares, may, NULL);
+    if (!w)
+        return NULL;
+    double ms = fmin(w->left, w->left <= 100 ? 100 : SLICE);
+    if (isnan(w->began))
+        w->began = b->now;
+    b->now += ms;
+    w->left -= ms;
+    w->served += ms;
+    kd_shares_charge(&b->shares, &w->claim, ms);
+    if (w->left <= 0) {
+        w->ended = b->now;
+        w->here = false;
+        kd_shares_remove(&b->shares, &w->claim);
+    }
+    return w;
+}
+
+static void run(struct bench *b, double until)
+{
+    while (b->now < until && turn(b))
+        ;
+}
+
+/* Whoever has less to do than its share waits for one slice of each other client at most, whatever those want. */
+static void a_small_one_beside_any_load(void **state)
+{
+    (void)state;
+    static struct bench b;
+    for (unsigned others = 1; others <= 3; others++)
+        for (unsigned each = 1; each <= 40; each *= 3) {
+            char name[16];
+            memset(&b, 0, sizeof b);
+            for (unsigned i = 0; i < others; i++)
+                for (unsigned k = 0; k < each; k++) {
+                    snprintf(name, sizeof name, "other %u", i);
+                    come(&b, name, k % KD_N_CLASSES, 60000);
+                }
+            run(&b, 100000);
+            struct work *small = come(&b, "small", KD_CLASS_PICTURE, 60);
+            run(&b, b.now + 1000);
+            if (!(small->ended - small->came <= 60 + others * SLICE))
+                fail_msg("%u clients with %u works each: %g ms", others, each, small->ended - small->came);
+        }
+}
+
+/* Two clients have half each, one work or thirty; and three a third. */
+static void shares_are_by_client(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *one = come(&b, "one", KD_CLASS_PICTURE, 1e9);
+    for (int i = 0; i < 30; i++)
+        come(&b, "many", KD_CLASS_PICTURE, 1e9);
+    run(&b, 100000);
+    assert_true(fabs(one->served - 50000) <= 2 * SLICE);
+    struct work *third = come(&b, "third", KD_CLASS_JOB, 1e9);
+    run(&b, 160000);
+    assert_true(fabs(third->served - 20000) <= 2 * SLICE);
+}
+
+/* By their weights. Sources: the table in shares.h. */
+static void classes_of_a_client(void **state)
+{
+    (void)state;
+    static const double weight[KD_N_CLASSES] = { 8, 4, 4, 2, 1 };
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *w[KD_N_CLASSES];
+    for (unsigned i = 0; i < KD_N_CLASSES; i++)
+        w[i] = come(&b, "one", i, 1e9);
+    run(&b, 190000);
+    for (unsigned i = 0; i < KD_N_CLASSES; i++)
+        assert_true(fabs(w[i]->served - 10000 * weight[i]) <= 8 * SLICE);
+}
+
+/* Two living sessions that want all there is: a picture of the same client has its turn, and they go on. */
+static void a_picture_beside_living_sessions(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *live[2] = { NULL, NULL }, *long_one = NULL;
+    unsigned frames = 0, pictures = 0;
+    double worst = 0, live_worst = 0;
+    for (unsigned i = 0; i < 200; i++) {
+        for (int k = 0; k < 2; k++)
+            if (!live[k] || !live[k]->here) {
+                if (live[k]) {
+                    frames++;
+                    live_worst = fmax(live_worst, live[k]->ended - live[k]->came);
+                    live[k]->here = false;
+                }
+                live[k] = come(&b, "one", KD_CLASS_LIVE, 33);
+            }
+        if (!long_one || !long_one->here) {
+            if (long_one) {
+                pictures++;
+                worst = fmax(worst, long_one->ended - long_one->came);
+            }
+            long_one = come(&b, "one", KD_CLASS_PICTURE, 60);
+        }
+        assert_non_null(turn(&b));
+    }
+    assert_true(pictures > 20 && frames > 100);
+    assert_true(worst <= 300 && live_worst <= 200);
+}
+
+/* Of one client and class: the short before the long, but not for ever. */
+static void short_first(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *long_one = come(&b, "one", KD_CLASS_PICTURE, 5000), *short_one = come(&b, "one", KD_CLASS_PICTURE, 50);
+    run(&b, 50);
+    assert_true(short_one->ended <= 50);
+    while (b.n < 590 && isnan(long_one->began)) { /* more of them than there is time for: three always wait */
+        while (b.n - 2 < 2 + b.now / 50)
+            come(&b, "one", KD_CLASS_PICTURE, 50);
+        turn(&b);
+    }
+    assert_false(isnan(long_one->began));
+    assert_true(long_one->began >= 5000 && long_one->began <= 4 * 5000); /* not before its length, nor after that of four */
+}
+
+/* Nobody saves time up, neither by being away nor by being barred, and nobody pays for having been alone. */
+static void no_savings_and_no_debts(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *alone = come(&b, "alone", KD_CLASS_PICTURE, 1e9), *barred = come(&b, "barred", KD_CLASS_PICTURE, 1e9);
+    barred->barred = true;
+    run(&b, 600000);
+    struct work *late = come(&b, "late", KD_CLASS_PICTURE, 1e9);
+    double before = alone->served;
+    run(&b, 602000);
+    assert_true(fabs(late->served - 1000) <= 2 * SLICE && fabs(alone->served - before - 1000) <= 2 * SLICE);
+    barred->barred = false;
+    before = late->served;
+    run(&b, 605000);
+    assert_true(barred->served <= 1000 + 200 + 2 * SLICE); /* it draws level by 200 ms at most */
+    assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
+}
+
+/* One who comes and goes, each time with a new work, has no more than its share. */
+static void coming_and_going(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *steady = come(&b, "steady", KD_CLASS_PICTURE, 1e9), *w = NULL;
+    double taken = 0;
+    while (b.now < 20000) {
+        if (!w || !w->here) {
+            b.n = 1;
+            w = come(&b, "fickle", KD_CLASS_LIVE, 90);
+        }
+        double before = b.now;
+        if (turn(&b) == w)
+            taken += b.now - before;
+    }
+    assert_true(taken <= 10000 + 100 && steady->served >= 10000 - 100);
+}
+
+/* More clients than are told apart share places, and are all served. */
+static void more_clients_than_places(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    for (unsigned i = 0; i < 3 * KD_SHARE_CLIENTS; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%u", i);
+        come(&b, name, i % KD_N_CLASSES, 30);
+    }
+    run(&b, 1e9);
+    for (unsigned i = 0; i < b.n; i++)
+        assert_false(b.works[i].here);
+    assert_true(fabs(b.now - 30.0 * b.n) < 1e-6);
+}
+
+/* Estimates that are wrong change the order, not the shares. */
+static void wrong_estimates(void **state)
+{
+    (void)state;
+    static struct bench b;
+    memset(&b, 0, sizeof b);
+    struct work *liar = come(&b, "liar", KD_CLASS_PICTURE, 1), *honest = come(&b, "honest", KD_CLASS_PICTURE, 1e9);
+    liar->left = 1e9;
+    run(&b, 10000);
+    assert_true(fabs(liar->served - honest->served) <= 2 * SLICE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_small_one_beside_any_load), cmocka_unit_test(shares_are_by_client), cmocka_unit_test(classes_of_a_client),
+        cmocka_unit_test(a_picture_beside_living_sessions), cmocka_unit_test(short_first), cmocka_unit_test(no_savings_and_no_debts),
+        cmocka_unit_test(coming_and_going), cmocka_unit_test(more_clients_than_places), cmocka_unit_test(wrong_estimates),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
