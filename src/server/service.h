@@ -1,7 +1,7 @@
 /* What the parts of the HTTP service share. Private to src/server.
  *
  * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health routes, another
- * every other handler ("the HTTP thread"); the render queue has its render thread and
+ * every other handler ("the HTTP thread"); the render queue has its render threads and
  * encoders, those who take turns (turns.h) their workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
 #ifndef KD_SERVER_SERVICE_H
 #define KD_SERVER_SERVICE_H

@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""What one client may make another one wait: pictures, frames and /healthz beside each load that an address can put on a server.
+
+    bench/fairness.py            about four minutes, on a machine that does nothing else
+    bench/fairness.py --only "a job of 1000 frames" --seconds 5
+
+A server of its own. The loads come from 127.0.0.1; who is measured is 127.0.0.2, another client, who asks for one 320 x 180 picture
+after the other, each with a lens map of its own, watches a session of his own, and asks for /healthz. Writes
+bench/results/DATE-DEVICE-fairness.{json,md}.
+"""
+import contextlib
+import http.client
+import json
+import os
+import random
+import re
+import statistics
+import subprocess
+import tempfile
+import threading
+import time
+
+import measure
+
+PICTURE = '/v1/render?image.width=320&image.height=180&camera.inclination_deg=%.6f'
+LIVING = {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}, 'motion': {'time_rate': 10}}
+FRAME = {'image': {'width': 640, 'height': 360}}
+
+
+class Server:
+    def __init__(self, path, *options):
+        self.process = subprocess.Popen([path, 'serve', '--port', '0', *options], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.port = int(re.search(r':(\d+)/', self.process.stdout.readline())[1])
+
+    def connect(self, source, timeout=120):
+        return http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout, source_address=(source, 0))
+
+    def ask(self, source, method, target, body=None, token=None, connection=None):
+        own = connection or self.connect(source)
+        headers = {'Content-Type': 'application/json'} if body is not None else {}
+        if token:
+            headers['Authorization'] = 'Bearer ' + token
+        own.request(method, target, json.dumps(body) if isinstance(body, dict) else body, headers)
+        answer = own.getresponse()
+        data = answer.read()
+        if not connection:
+            own.close()
+        return answer, data
+
+    def stop(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Load:
+    """Threads that go on until it is over; what they meet in the end is nobody's business."""
+
+    def __init__(self, server, source='127.0.0.1'):
+        self.server, self.source, self.over, self.threads, self.counts = server, source, threading.Event(), [], {}
+        self.connections = []
+
+    def loop(self, name, step):
+        connection = self.server.connect(self.source)
+        self.connections.append(connection)
+
+        def run():
+            while not self.over.is_set():
+                try:
+                    answer = step(connection)
+                    key = f'{name}: {answer.status}'
+                    self.counts[key] = self.counts.get(key, 0) + 1
+                    if answer.status in (429, 503):
+                        time.sleep(0.2)
+                except (OSError, http.client.HTTPException, ValueError):
+                    connection.close()
+                    if not self.over.is_set():
+                        time.sleep(0.05)
+        thread = threading.Thread(target=run, daemon=True)
+        thread.start()
+        self.threads.append(thread)
+
+    def repeat(self, name, n, method, target, body=None):
+        for _ in range(n):
+            self.loop(name, lambda c: self.server.ask(self.source, method, target, body, connection=c)[0])
+
+    def session(self, name, scene, drag=None):
+        session = json.loads(self.server.ask(self.source, 'POST', '/v1/sessions', scene)[1])
+        at, frame = '/v1/sessions/' + session['id'], [0]
+
+        def pull(connection):
+            answer, _ = self.server.ask(self.source, 'GET', f'{at}/frame.png?after={frame[0]}', connection=connection)
+            frame[0] = int(answer.headers['Kerrd-Frame'])
+            return answer
+
+        def patch(connection):
+            time.sleep(0.033)
+            return self.server.ask(self.source, 'PATCH', at, drag(), session['token'], connection)[0]
+        self.loop(name, pull)
+        if drag:
+            self.loop(name + ', patches', patch)
+
+    def end(self):
+        self.over.set()
+        for connection in self.connections:
+            with contextlib.suppress(OSError, AttributeError):
+                connection.sock.shutdown(2)
+        for thread in self.threads:
+            thread.join(10)
+
+
+def inclination():
+    return {'camera': {'inclination_deg': round(random.uniform(40, 85), 4)}}
+
+
+def watched(load):
+    for _ in range(2):
+        load.session('watched', LIVING)
+
+
+def dragged(load):
+    for _ in range(8):
+        load.session('dragged', FRAME, inclination)
+
+
+def large(load):
+    load.repeat('4K x 64 rays', 1, 'POST', '/v1/render', {'image': {'width': 3840, 'height': 2160, 'samples': 8}})
+
+
+def job(load):
+    load.server.ask(load.source, 'POST', '/v1/jobs', {'keyframes': [
+        {'frame': 0, 'scene': {'image': {'width': 1280, 'height': 720}}}, {'frame': 999, 'scene': {'camera': {'inclination_deg': 85}}}],
+        'frames': 1000})
+
+
+def rays(load, n=1000000):
+    body = json.dumps({'spin': 0.9, 'observer': {'inclination_deg': 70}, 'accuracy': {'engine': 'mino-rkn6', 'precision': 'f64'},
+                       'rays': [[-10 + 20 * (i % 1000) / 1000, -10 + 20 * (i // 1000) / (n / 1000)] for i in range(n)]})
+    load.repeat('rays', 1, 'POST', '/v1/rays', body)
+
+
+def plans(load):
+    load.repeat('huge plans', 20, 'POST', '/v1/plan', {'image': {'width': 32768, 'height': 32768}})
+
+
+LOADS = {
+    'nothing': [], 'two watched sessions': [watched], 'eight dragged sessions': [dragged], 'a 4K picture of 64 rays a pixel': [large],
+    'a job of 1000 frames': [job], 'a million device rays': [rays], 'twenty loops of huge plans': [plans],
+    'all of these': [watched, dragged, large, job, rays, plans],
+}
+
+
+def repeat_for(seconds, at_least, step):
+    """Milliseconds of each step."""
+    took, until = [], time.monotonic() + seconds
+    while time.monotonic() < until or len(took) < at_least:
+        begun = time.monotonic()
+        step()
+        took.append(1e3 * (time.monotonic() - begun))
+    return took
+
+
+def look(server, seconds, at_least=3, source='127.0.0.2'):
+    """What a client meets who does nothing else: pictures, the frames of a session of his own, /healthz."""
+    out, viewer = {}, Load(server, source)
+    viewer.session('own', LIVING)
+    kept = server.connect(source)
+
+    def picture():
+        answer, _ = server.ask(source, 'GET', PICTURE % random.uniform(40, 80))
+        assert answer.status == 200, answer.status
+
+    def health():
+        server.ask(source, 'GET', '/healthz', connection=kept)
+        time.sleep(0.05)
+
+    def measure_health():
+        out['healthz_ms'] = [ms - 50 for ms in repeat_for(seconds, at_least, health)]
+    beside = threading.Thread(target=measure_health)
+    begun, frames = time.monotonic(), viewer.counts.get('own: 200', 0)
+    beside.start()
+    out['picture_ms'] = repeat_for(seconds, at_least, picture)
+    out['fps'] = (viewer.counts.get('own: 200', 0) - frames) / (time.monotonic() - begun)
+    beside.join()
+    viewer.end()
+    return out
+
+
+def run_one(path, name, seconds, options=()):
+    with tempfile.TemporaryDirectory() as state:
+        server = Server(path, '--state', state, *options)
+        try:
+            for _ in range(3):  # kernels are made, and the device is measured
+                server.ask('127.0.0.2', 'GET', PICTURE % random.uniform(40, 80))
+            server.ask('127.0.0.2', 'POST', '/v1/render', {'image': {'width': 640, 'height': 360}, 'disk': {'model': 'particles'}})
+            load = Load(server)
+            for begin in LOADS[name]:
+                begin(load)
+            time.sleep(2 if LOADS[name] else 0)
+            return {**look(server, seconds), 'load': load.counts}
+        finally:
+            server.stop()
+
+
+def main():
+    p = measure.parser(__doc__.splitlines()[0])
+    p.add_argument('--seconds', type=float, default=20, help='that each load is watched for (20)')
+    p.add_argument('--only', choices=LOADS, action='append', help='this load alone')
+    arguments, load = p.parse_args(), os.getloadavg()[0]
+    path = measure.binary(arguments.build, 'src/kerrd')
+    server = Server(path)
+    device = json.loads(server.ask('127.0.0.1', 'GET', '/v1/device')[1])
+    server.stop()
+    results = {}
+    for name in arguments.only or LOADS:
+        results[name] = run_one(path, name, arguments.seconds)
+        print(name, {k: round(statistics.median(v), 1) if isinstance(v, list) else v for k, v in results[name].items()}, flush=True)
+    rows = [[name, str(len(r['picture_ms'])), f"{statistics.median(r['picture_ms']):.0f} / {max(r['picture_ms']):.0f}", f"{r['fps']:.1f}",
+             f"{statistics.median(r['healthz_ms']):.1f} / {max(r['healthz_ms']):.0f}"] for name, r in results.items()]
+    h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
+    text = measure.head_markdown('What one client may make another one wait', h)
+    text += measure.table(['load of another client', 'pictures', '320 × 180 picture, ms: median / worst', 'frames/s of an own session',
+                           '/healthz, ms: median / worst'], rows)
+    if not arguments.only:
+        measure.save(arguments.out, 'fairness', h, {'loads': results}, text)
+    else:
+        print(text)
+
+
+if __name__ == '__main__':
+    main()
