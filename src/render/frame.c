@@ -375,6 +375,8 @@ static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan 
     a->busy = true;
     a->used = ++r->asides_used;
     make_room_aside(r, plan->device_bytes);
+    if (!kd_store_has(&a->store, plan))
+        kd_store_hand_over(&r->store, &a->store, plan);
     return a;
 }
 

@@ -121,6 +121,21 @@ void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const stru
         memcpy(map->key, plan->lens_key, sizeof map->key);
 }
 
+void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan)
+{
+    struct kd_lens_map *map = NULL, *oldest = &to->maps[0];
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+        map = is_of(&from->maps[i], plan) ? &from->maps[i] : map;
+        oldest = to->maps[i].used < oldest->used ? &to->maps[i] : oldest;
+    }
+    if (!map)
+        return;
+    map_finish(oldest, to->vk);
+    *oldest = *map;
+    oldest->used = ++to->clock;
+    *map = (struct kd_lens_map) { 0 };
+}
+
 enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
                                  const char *name, struct kd_error *error)
 {

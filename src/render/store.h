@@ -61,6 +61,8 @@ enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_da
 uint64_t kd_store_bytes(const struct kd_store *store);
 /* Whether kd_store_lens_map would find the plan's lens map. */
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
+/* The plan's lens map, if `from` has it, becomes one of `to`. */
+void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan);
 /* As it was made. */
 void kd_store_empty(struct kd_store *store);
 void kd_store_finish(struct kd_store *store);

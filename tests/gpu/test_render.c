@@ -271,11 +271,88 @@ static void test_glances(void **state)
             assert_true(plan.bands > 2);
         }
         plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+        plan.lens_key[0] = 'x';         /* the one that is there shall not be found */
         struct glances glances = { .want = isinf(scene.style.exposure) ? NULL : &whole };
         OK(kd_render_aside(renderer, &scene, &plan, NULL, &glance, &glances, &looked, &error));
         assert_in_range(glances.n, 12, 20);
         assert_same(&whole, &looked);
     }
+}
+
+static double timing_of(const struct kd_frame *frame, const char *pass)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, pass))
+            return frame->timings[i].ms;
+    return NAN;
+}
+
+struct others {
+    struct kd_scene scenes[2];
+    struct kd_plan plans[2];
+    struct kd_frame frames[2];
+    int calls;
+};
+
+/* In the middle of a picture: another long one, and a short one with many kernels of its own, one after the other. */
+static bool let_others(void *user, double fraction)
+{
+    struct others *o = user;
+    (void)fraction;
+    if (o->calls++ != 3)
+        return true;
+    OK(kd_render_aside(renderer, &o->scenes[0], &o->plans[0], NULL, NULL, NULL, &o->frames[0], &error));
+    OK(kd_render(renderer, &o->scenes[1], &o->plans[1], NULL, NULL, &o->frames[1], &error));
+    for (uint32_t orders = 1; orders <= 6; orders++)
+        for (int side = 1; side <= 8; side++) { /* 48 kernels: as many as are kept */
+            struct kd_scene scene = o->scenes[1];
+            scene.image.width = scene.image.height = 8;
+            scene.image.samples = side;
+            scene.accuracy.orders = (int32_t)orders;
+            struct kd_frame frame = render(&scene);
+            kd_frame_finish(&frame);
+        }
+    return true;
+}
+
+/* Pictures that others come between are the same as alone, and so are those others; their times are their own. */
+static void test_asides(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct others o = { .calls = 0 };
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame beside, alone;
+    scene.camera.inclination_deg = 51;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+    for (int i = 0; i < 2; i++) {
+        o.scenes[i] = small_scene();
+        o.scenes[i].camera.inclination_deg = 52 + i;
+        o.scenes[i].disk.model = i ? KD_DISK_PARTICLES : o.scenes[i].disk.model;
+        OK(kd_plan_make(&o.scenes[i], &c, &o.plans[i], &error));
+    }
+    OK(kd_render_aside(renderer, &scene, &plan, let_others, NULL, &o, &beside, &error));
+    assert_true(o.calls > 10 && !beside.lens_reused);
+    assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 && timing_of(&beside, "total") > 0);
+    assert_true(isnan(timing_of(&beside, "particles"))); /* those were the other's */
+
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &alone, &error));
+    assert_true(alone.lens_reused); /* it is found wherever it was made */
+    kd_frame_finish(&alone);
+    struct kd_renderer *fresh;
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto" }, &fresh, &error));
+    OK(kd_render(fresh, &scene, &plan, NULL, NULL, &alone, &error));
+    assert_same(&alone, &beside);
+    for (int i = 0; i < 2; i++) {
+        OK(kd_render(fresh, &o.scenes[i], &o.plans[i], NULL, NULL, &alone, &error));
+        assert_same(&alone, &o.frames[i]);
+    }
+    OK(kd_render_aside(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
+    assert_true(alone.lens_reused); /* and the other way round */
+    kd_frame_finish(&alone);
+    kd_renderer_destroy(fresh);
 }
 
 static void test_too_big(void **state)
@@ -364,7 +441,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reuse),    cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
         cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_glances), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_glances), cmocka_unit_test(test_asides), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
