@@ -94,7 +94,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .jobs = arguments->jobs,
         .client_jobs = arguments->client_jobs,
         .state = arguments->state,
-        .renderer = { .device = arguments->device, .memory_bytes = arguments->memory },
+        .renderer = { .device = arguments->device, .prove = true, .memory_bytes = arguments->memory },
     };
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)

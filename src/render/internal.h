@@ -2,6 +2,7 @@
 #ifndef KD_RENDER_INTERNAL_H
 #define KD_RENDER_INTERNAL_H
 
+#include "render/first_start.h"
 #include "render/kernels.h"
 #include "render/memory_share.h"
 #include "render/rays.h"
@@ -42,6 +43,9 @@ struct kd_renderer {
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
     struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
+    struct kd_first_start first_start;
+    struct kd_capacity kept; /* as it is in the file */
+    bool probing;            /* of what frames cost the least counts, not a mean */
     char name[800];
 };
 

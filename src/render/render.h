@@ -18,6 +18,7 @@ struct kd_renderer_params {
     const char *device;     /* as kd_vk_params */
     const char *cache_dir;  /* as kd_vk_params */
     bool validate;
+    bool prove;             /* a device that is met for the first time is tested: half a second (first_start.h) */
     uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
 };
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,

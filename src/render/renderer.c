@@ -3,6 +3,7 @@
 #include "base/json.h"
 #include "render/accuracy_store.h"
 
+#include <math.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,6 +89,12 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         return kd_error_set(error, KD_ENOMEM, "out of memory for the accuracy table");
     }
     snprintf(r->name, sizeof r->name, "%s, %s %s", info->name, info->driver, info->driver_info);
+    kd_first_start_recall(r);
+    status = params->prove ? kd_first_start(r, error) : KD_OK;
+    if (status) {
+        kd_renderer_destroy(r);
+        return status;
+    }
     *out = r;
     return KD_OK;
 }
@@ -97,7 +104,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     if (!renderer)
         return;
     if (renderer->vk) {
-        kd_vk_wait(renderer->vk, 0, NULL);
+        if (!kd_vk_wait(renderer->vk, 0, NULL))
+            kd_first_start_keep(renderer);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);
         kd_particles_finish(&renderer->particles, renderer->vk);
@@ -125,10 +133,11 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
     pthread_mutex_unlock(&renderer->lock);
 }
 
-static void smooth(double *figure, double ms, uint64_t items)
+static void smooth(double *figure, bool probing, double ms, uint64_t items)
 {
+    double ns = ms * 1e6 / (double)items;
     if (ms > 0 && items >= 4096) /* a small picture measures the overhead */
-        *figure += 0.3 * (ms * 1e6 / (double)items - *figure);
+        *figure = probing ? fmin(*figure, ns) : *figure + 0.3 * (ns - *figure);
 }
 
 static double timing(const struct kd_frame *frame, const char *pass)
@@ -143,12 +152,13 @@ void kd_renderer_learn(struct kd_renderer *renderer, const struct kd_plan *plan,
 {
     struct kd_capacity *c = &renderer->capacity;
     uint64_t pixels = (uint64_t)plan->width * plan->height;
+    const bool p = renderer->probing;
     pthread_mutex_lock(&renderer->lock);
     if (plan->path != KD_LENS_LISTED)
-        smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, timing(frame, "trace"), kd_plan_rays(plan));
-    smooth(&c->ns_per_sample_transfer, timing(frame, "transfer"), kd_plan_rays(plan));
-    smooth(&c->ns_per_pixel_post, timing(frame, "post"), pixels);
-    smooth(&c->ns_per_particle, timing(frame, "particles"), plan->particles.count);
+        smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, p, timing(frame, "trace"), kd_plan_rays(plan));
+    smooth(&c->ns_per_sample_transfer, p, timing(frame, "transfer"), kd_plan_rays(plan));
+    smooth(&c->ns_per_pixel_post, p, timing(frame, "post"), pixels);
+    smooth(&c->ns_per_particle, p, timing(frame, "particles"), plan->particles.count);
     c->measured = c->measured || pixels >= 4096;
     pthread_mutex_unlock(&renderer->lock);
 }
@@ -185,11 +195,25 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     kd_json_end(json);
     kd_json_bool(json, "float64_hardware", info->float64);
     kd_json_bool(json, "timestamps", info->timestamps);
+    const struct kd_first_start *tested = &renderer->first_start;
+    kd_json_object(json, "selftest");
+    kd_json_string(json, "result", kd_first_start_word(tested));
+    if (tested->verdict != KD_UNTESTED) {
+        kd_json_number(json, "checks", tested->checks);
+        kd_json_number(json, "failed", tested->failed);
+        kd_json_number(json, "seconds", tested->seconds);
+        kd_json_bool(json, "now", tested->now);
+    }
+    if (tested->failed)
+        kd_json_string(json, "first_failure", tested->worst);
+    kd_json_end(json);
     kd_json_object(json, "limits");
     kd_json_number(json, "heap_bytes", (double)info->heap_bytes);
     kd_json_number(json, "memory_bytes", (double)c.memory_bytes);
     kd_json_string(json, "memory_by", c.memory_by ? c.memory_by : "the device");
     kd_json_number(json, "binding_bytes", (double)info->max_binding_bytes);
+    kd_json_number(json, "allocation_bytes", (double)info->max_allocation_bytes);
+    kd_json_number(json, "workgroups", info->max_groups_x);
     kd_json_number(json, "subgroup_size", info->subgroup_size);
     kd_json_end(json);
     kd_json_object(json, "ns_per_item");
