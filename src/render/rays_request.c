@@ -9,6 +9,7 @@
 #include "scene/text.h"
 #include "scene/tree.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -231,8 +232,12 @@ static enum kd_status read_rest(struct document *d, const char *rest, size_t len
 {
     const char *end = rest;
     struct kd_number_locale locale = kd_number_locale_enter();
+    errno = 0;
     cJSON *root = cJSON_ParseWithLengthOpts(rest, length + 1, &end, 0);
+    bool starved = !root && errno == ENOMEM; /* as in scene/tree.c */
     kd_number_locale_leave(locale);
+    if (starved)
+        return kd_error_set(d->error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
     size_t at = (size_t)(end - rest), after = at + strspn(end, " \t\n\r");
     enum kd_status status = KD_OK;
     if (!root && at >= length)

@@ -3,6 +3,8 @@
 #include "scene/number.h"
 #include "scene/scan.h"
 
+#include <errno.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,8 +26,12 @@ static enum kd_status parse(const char *text, size_t length, cJSON **out, struct
 {
     const char *end = text;
     struct kd_number_locale locale = kd_number_locale_enter();
+    errno = 0;
     cJSON *root = cJSON_ParseWithLengthOpts(text, length + 1, &end, 0);
+    bool starved = !root && errno == ENOMEM; /* cJSON does not tell that from bad JSON; malloc does */
     kd_number_locale_leave(locale);
+    if (starved)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
     size_t at = (size_t)(end - text);
     if (!root && at >= length)
         return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes", length);

@@ -187,7 +187,7 @@ static enum MHD_Result send_png(struct kd_request *request, struct kd_job *job, 
     struct MHD_Response *response = MHD_create_response_from_fd64(size, fd);
     if (!response) {
         close(fd);
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     }
     MHD_add_response_header(response, "Content-Type", PNG_TYPE);
     request->reply_bytes = size;

@@ -128,7 +128,12 @@ static enum MHD_Result deliver(struct kd_request *request)
     const struct draft *d = (const struct draft *)request->task;
     if (d->task.status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
-    return d->task.status ? refuse(request, &d->task.error, d->quota) : answer(request, d->job, true);
+    if (d->task.status)
+        return refuse(request, &d->task.error, d->quota);
+    enum MHD_Result result = answer(request, d->job, true);
+    if (request->status != MHD_HTTP_ACCEPTED) /* nobody has been told of it */
+        kd_job_delete(d->job);
+    return result;
 }
 
 enum MHD_Result kd_handle_jobs(struct kd_request *request)
@@ -240,7 +245,7 @@ enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, cls, release);
     if (!response) {
         release(cls);
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     }
     MHD_add_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */

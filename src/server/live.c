@@ -46,7 +46,7 @@ static enum MHD_Result send_frame(struct kd_request *request, struct kd_live_fra
         MHD_create_response_from_buffer_with_free_callback_cls(frame->png.size, frame->png.data, release_frame, frame);
     if (!response) {
         kd_live_frame_release(frame);
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     }
     MHD_add_response_header(response, "Content-Type", PNG_TYPE);
     describe(response, frame);
@@ -216,7 +216,7 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, s, release_stream);
     if (!response) {
         release_stream(s);
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     }
     setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
     MHD_add_response_header(response, "Content-Type", type);

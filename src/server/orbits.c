@@ -283,7 +283,7 @@ static enum MHD_Result deliver(struct kd_request *request)
             kd_reply_file(request, KD_ATTACHMENT, job->format == KD_ORBIT_CSV ? "orbit.csv" : "orbit.npy");
     }
     if (!response)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     if (finished) {
         snprintf(timing, sizeof timing, "queue;dur=%.3f, integrate;dur=%.3f", job->queue_ms, job->run_ms);
         MHD_add_response_header(response, "Server-Timing", timing);

@@ -22,7 +22,7 @@ enum MHD_Result kd_handle_page(struct kd_request *request)
     bool same;
     struct MHD_Response *response = kd_reply_asset(request, asset, &same);
     if (!response)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     /* blob: is how a picture whose headers were read gets into an <img>. */
     MHD_add_response_header(response, "Content-Security-Policy",
                             "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'self'; "

@@ -135,7 +135,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     struct MHD_Response *response =
         job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE) : kd_reply_text(request, &job->text, type);
     if (!response)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     if (job->form != FORM_JSON)
         kd_reply_file(request, job->form == FORM_WAV ? KD_INLINE : KD_ATTACHMENT, "%s.%s", request->rest,
                       job->form == FORM_WAV ? "wav" : "csv");

@@ -114,7 +114,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum kd_rays_format format = (enum kd_rays_format)choose_format(request);
     struct outgoing *out = take_answer(request, format);
     if (!out)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     size_t size = kd_rays_stream_size(&out->stream);
     request->reply_bytes = out->held;
     if (!size)
@@ -123,7 +123,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         MHD_create_response_from_callback(size ? size : MHD_SIZE_UNKNOWN, BLOCK, produce, out, release);
     if (!response) {
         release(out);
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     }
     MHD_add_response_header(response, "Content-Type", format == KD_RAYS_NPY ? KD_NPY_TYPE : JSON_TYPE);
     if (format == KD_RAYS_NPY)

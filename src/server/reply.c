@@ -99,11 +99,34 @@ void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, 
     snprintf(request->file, sizeof request->file, "%s; filename=\"%s\"", disposition == KD_INLINE ? "inline" : "attachment", name);
 }
 
+/* Takes no memory of ours. */
+enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
+{
+    static const char text[] = "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran out\",\"status\":503,"
+                               "\"detail\":\"there is no memory, not even to say for what\"}\n";
+    struct MHD_Response *response = kd_reply_static(text, sizeof text - 1, "application/problem+json");
+    if (!response)
+        return MHD_NO;
+    MHD_add_response_header(response, "Retry-After", "5");
+    MHD_add_response_header(response, "Cache-Control", "no-store");
+    MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
+    MHD_add_response_header(response, "Connection", "close");
+    enum MHD_Result result = MHD_queue_response(mhd, MHD_HTTP_SERVICE_UNAVAILABLE, response);
+    MHD_destroy_response(response);
+    return result;
+}
+
+enum MHD_Result kd_reply_no_memory(struct kd_request *request)
+{
+    request->status = MHD_HTTP_SERVICE_UNAVAILABLE;
+    return kd_reply_bare(request->mhd);
+}
+
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
 {
     struct kd_server *server = request->server;
     if (!response)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
@@ -124,11 +147,11 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
     struct kd_buffer body = { 0 };
     if (kd_problem_to_json(problem, &body)) {
         kd_buffer_finish(&body);
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     }
     struct MHD_Response *response = kd_reply_take(&body, "application/problem+json");
     if (!response)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     if (problem->allow)
         MHD_add_response_header(response, "Allow", problem->allow);
     if (problem->retry_after) {

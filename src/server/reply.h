@@ -27,9 +27,12 @@ enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
 void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Queue the response and give up the reference; NULL: MHD_NO. */
+/* Queue the response and give up the reference; NULL: kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 
+/* 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first: without a request even. */
+enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
+enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
 /* kd_problem_from, sent. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);

@@ -217,8 +217,9 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     struct kd_problem problem;
     enum MHD_Result result;
 
-    if (!request->raw)
-        return MHD_NO;
+    if (!request->raw) {
+        return kd_reply_no_memory(request);
+    }
     if (!kd_guard_check(request->mhd, version, server->hosts, kd_route_is_health(request->raw),
                         &request->header, &problem)) {
         kd_connection_linger(request->connection);
@@ -264,9 +265,9 @@ enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const c
                                   const char *version, const char *data, size_t *size, void **state)
 {
     struct kd_request *request = *state;
-    (void)cls, (void)mhd, (void)url;
-    if (!request)
-        return MHD_NO; /* no memory for it */
+    (void)cls, (void)url;
+    if (!request) /* no memory for it */
+        return kd_reply_bare(mhd);
     if (!request->begun) {
         request->begun = true;
         request->method = method;

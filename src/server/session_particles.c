@@ -98,7 +98,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     request->reply_bytes = job->rows.size;
     struct MHD_Response *response = kd_reply_take(&job->rows, TYPE); /* stays counted as held while the request lives */
     if (!response)
-        return MHD_NO;
+        return kd_reply_no_memory(request);
     describe(response, &job->list);
     kd_reply_file(request, KD_ATTACHMENT, "particles.f32");
     double waited_ms = kd_clock_ms() - job->begun_ms - job->spent_ms;

@@ -86,6 +86,8 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     }
     kd_session_state(session, &state);
     result = answer(request, session, &state, true);
+    if (request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
+        kd_session_end(session);
     kd_session_release(session);
     return result;
 }
