@@ -70,8 +70,11 @@ static void on_signal(int number)
 static void set_signals(void (*handler)(int))
 {
     struct sigaction action = { .sa_handler = handler, .sa_flags = SA_RESTART };
+    struct sigaction hangup;
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
+    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* nohup wants it ignored */
+        sigaction(SIGHUP, &action, NULL);
 }
 
 static void announce(const char *address, uint16_t port, const char *const *own)
@@ -119,7 +122,7 @@ int kd_cli_serve(int argc, char **argv)
         .parser = parse,
         .doc =
             "Serve pictures over HTTP.\v"
-            "SIGTERM or SIGINT: /readyz fails at once, running and queued renders finish, then the exit code "
+            "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
             "is 0. It is 1 when the device was lost: start it again.",
         .children = children,
     };

@@ -41,6 +41,8 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
+    /* A socket that lingers stays open under another number, and would go on having events for a guest that is gone. */
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
     close(guest->socket);
     free(guest);

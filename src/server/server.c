@@ -1,6 +1,7 @@
 #include "server/server.h"
 
 #include "base/log.h"
+#include "server/descriptors.h"
 #include "server/keeper.h"
 #include "server/listen.h"
 #include "server/names.h"
@@ -108,7 +109,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
                             struct kd_error *error)
 {
     const char *address = params->listen ? params->listen : "127.0.0.1";
-    unsigned connections = or_default(params->connections, 512);
+    unsigned connections = kd_descriptors_for(or_default(params->connections, 512));
     int fd = -1;
 
     server->port = params->port;

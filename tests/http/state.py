@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+import unittest.mock
 import zipfile
 
 import daemon
@@ -97,6 +98,32 @@ class Stops(Case):
             begun = time.monotonic()
             self.assertEqual(server.stop(), 0)
             self.assertLess(time.monotonic() - begun, 8)  # it was 10 s of waiting alone
+
+
+class Descriptors(Case):
+    def limited(self, limits):
+        with unittest.mock.patch.object(daemon, 'COMMAND', ['prlimit', f'--nofile={limits}', *daemon.COMMAND]):
+            return self.start(state=False)
+
+    def test_the_soft_limit_is_raised(self):
+        server = self.limited('64:')
+        with open(f'/proc/{server.process.pid}/limits', encoding='ascii') as f:
+            soft, hard = next(line.split()[3:5] for line in f if line.startswith('Max open files'))
+        self.assertEqual(soft, hard if hard != 'unlimited' and int(hard) < 65536 else '65536')
+        self.assertEqual(server.stop(), 0)
+
+    def test_files_are_left_beside_many_connections(self):
+        server = self.limited('320:320')
+        held = [server.connect() for _ in range(300)]
+        for s in held:
+            s.sendall(b'GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n')
+        time.sleep(0.3)
+        self.assertLess(server.open_files(), 320 - 20)
+        for s in held:
+            daemon.vanish(s)
+        self.assertTrue(daemon.eventually(lambda: server.get('/v1/presets').status == 200))
+        self.until(self.make({'scene': SCENE}, server=server), 'done', server)
+        self.assertEqual(server.stop(), 0)
 
 
 class Foreign(Case):
