@@ -252,6 +252,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
         begin_anew(&g->paces[0]);
         g->rings = rings;
         g->paces[0].rung = at_most(g->paces[0].rung, last_rung(g, &g->paces[0]));
+        g->lens_at = -INFINITY; /* who strikes does not drag */
     }
     g->asked = *asked;
     g->revision++;
