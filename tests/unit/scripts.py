@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""What the scripts answer to a mistake: one sentence and exit code 2, never a traceback or a success of nothing. Builds nothing.
+
+scripts.py SCRIPTS BUILD
+"""
+import pathlib
+import subprocess
+import sys
+import unittest
+
+BUILD = sys.argv.pop()
+SCRIPTS = pathlib.Path(sys.argv.pop())
+
+
+def run(script, *arguments):
+    done = subprocess.run([SCRIPTS / script, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+    return done.returncode, done.stderr
+
+
+class Scripts(unittest.TestCase):
+    def known(self, *arguments):
+        return run('suite.py', 'known', BUILD, *arguments)
+
+    def test_known_names(self):
+        for arguments in ([], ['png_damage'], ['kerrd:png_damage', 'render'], ['--suite', 'unit', '-t', '4', '--repeat', '2'],
+                          ['--suite=kerrd:gpu', '--no-suite', 'source', '-v'], ['--timeout-multiplier=3', 'arrows'], ['--list']):
+            with self.subTest(arguments):
+                self.assertEqual(self.known(*arguments), (0, ''))
+
+    def test_unknown_names(self):
+        for arguments, words in ((['png_damge'], "there is no test 'png_damge'; near it: png_damage"), (['disk'], 'physics_disk'),
+                                 (['render', 'qqq'], "no test 'qqq'; `scripts/test --list` names them all"),
+                                 (['--suite', 'unti'], "no suite 'unti'; near it: unit"), (['--no-suite=x'], "no suite 'x'")):
+            with self.subTest(arguments):
+                code, text = self.known(*arguments)
+                self.assertEqual((code, text.count('\n')), (2, 1), text)
+                self.assertIn(words, text)
+
+    def test_unknown_arguments(self):
+        for command in (['setup', '--sanitise'], ['matrix', 'debian14'], ['chroot'], ['chroot', 'trixie']):
+            with self.subTest(command):
+                code, text = run(*command)
+                self.assertEqual((code, text.count('\n')), (2, 1), text)
+                self.assertTrue(text.startswith(f'scripts/{command[0]}: '), text)
+
+    def test_they_are_shell(self):
+        for script in ('setup', 'test', 'serve', 'matrix', 'chroot', 'cross'):
+            subprocess.run(['bash', '-n', SCRIPTS / script], check=True)
+
+
+if __name__ == '__main__':
+    unittest.main()
