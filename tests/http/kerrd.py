@@ -5,6 +5,7 @@ import json
 import math
 import random
 import re
+import signal
 import struct
 import subprocess
 import sys
@@ -27,6 +28,23 @@ def chunks(png):
 
 def pixels(png):
     return zlib.decompress(b''.join(data for kind, data in chunks(png) if kind == b'IDAT'))
+
+
+class Hangup(unittest.TestCase):
+    def test_a_terminal_that_closes_stops_it(self):
+        for ignored in (False, True):  # as nohup has it
+            with self.subTest(ignored=ignored):
+                before = signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL)
+                try:
+                    server = daemon.Daemon()
+                finally:
+                    signal.signal(signal.SIGHUP, before)
+                server.process.send_signal(signal.SIGHUP)
+                if ignored:
+                    time.sleep(0.3)
+                    self.assertEqual(server.get('/readyz').status, 200)
+                    server.terminate()
+                self.assertEqual(server.wait(), 0)
 
 
 class Kerrd(unittest.TestCase):
