@@ -47,9 +47,9 @@ kd_azimuth kd_azimuth_of(kd_motion m, kd_ray ray, kd_polar polar, float u, float
     float dp = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
     float root = sqrt(polar.b + m.energy2 * u * u);
     float cx = abs(u), sx = -(s * dp) / root;
-    float n = 1.0 / max(cx * cx + sx * sx, 1e-30);
+    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and no more */
     float c = polar.b + m.energy2, sc = sqrt(c);
-    float eu = m.energy2 / max(n, 1e-30); /* e U+ */
+    float eu = m.energy2 / n; /* e U+ */
     /* At x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends count half. */
     float j0 = 0.5 * kd_azimuth_rate(polar.b + eu, sc), j4 = 0.5 * kd_azimuth_rate(polar.b, sc);
     float j1 = kd_azimuth_rate(polar.b + 0.853553391 * eu, sc);

@@ -92,7 +92,7 @@ struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
 {
     const struct kd_camera_exact exact = kd_camera_exact(scene);
     struct kd_camera_push o = { 0 };
-#define F(name) o.name = (float)exact.name;
+#define F(name) o.name = (float)kd_lifted(exact.name);
 #define U(name) o.name = exact.name;
     KD_CAMERA_FIELDS_(F, U)
 #undef F

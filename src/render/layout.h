@@ -4,7 +4,13 @@
 
 #include "interface.h"
 
+#include <math.h>
 #include <stdint.h>
+
+/* What is told from 0 on the device must stay so as a float, for whether a ray lies in the plane or on the axis depends on it; and
+ * where denormal numbers count as zeros, so must its quotients and products with what else there is. */
+#define KD_LEAST_FLOAT 1e-20
+static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_FLOAT ? copysign(KD_LEAST_FLOAT, x) : x; }
 
 #define F(name) float name;
 #define U(name) uint32_t name;

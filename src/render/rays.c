@@ -80,6 +80,15 @@ static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct
     return status;
 }
 
+/* One rule for all engines: a ray without a crossing that does not escape tells no number, so there is none to be wrong, unless
+ * a crossing may be missing. */
+static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!ends[i].n_crossings && ends[i].fate != KD_RAY_ESCAPED && !(ends[i].error >= 1))
+            ends[i].error = NAN;
+}
+
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params,
                              const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
@@ -88,6 +97,10 @@ enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_
     if (status)
         return status;
     if (params->engine == KD_ENGINE_CLOSED)
-        return kd_rays_closed(params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, true, crossings, ends, progress, user, error);
-    return trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+        status = kd_rays_closed(params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, true, crossings, ends, progress, user, error);
+    else
+        status = trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+    if (!status)
+        drop_idle_errors(ends, n);
+    return status;
 }

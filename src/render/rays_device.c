@@ -5,6 +5,7 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "render/internal.h"
+#include "render/layout.h"
 #include "render/rays_start.h"
 
 #include <float.h>
@@ -34,14 +35,26 @@ struct work {
     struct kd_error *error;
 };
 
-/* What is too small for a float stays different from 0: whether a ray lies in the plane or on the axis depends on it. */
 static void put(const struct work *w, void *at, size_t i, double value)
 {
     if (w->wide)
         ((double *)at)[i] = value;
     else
-        ((float *)at)[i] = value != 0 && fabs(value) < FLT_MIN ? copysignf(FLT_MIN, (float)value) : (float)value;
+        ((float *)at)[i] = (float)value;
 }
+
+/* alpha and beta as the device is given them. Of two that are both tiny the azimuth knows the ratio: it stays, to rounding. */
+static void label(const struct work *w, const double *alpha_beta, double out[2])
+{
+    double larger = fmax(fabs(alpha_beta[0]), fabs(alpha_beta[1])), least = 1e8 * KD_LEAST_FLOAT;
+    bool small = !w->wide && larger > 0 && larger < least;
+    for (int k = 0; k < 2; k++) {
+        out[k] = small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* a quotient first: 1/larger may be infinite */
+        if (!w->wide)
+            out[k] = kd_lifted(out[k]);
+    }
+}
+
 static double get(const struct work *w, const void *at, size_t i)
 {
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
@@ -65,7 +78,9 @@ static void upload_states(const struct work *w, const struct set *set, const str
     put(w, at, 1, kd_kerr_horizon(p->spin));
     put(w, at, 2, escape(w));
     for (size_t i = 0; i < rays->n; i++) {
-        kd_rays_start(p->spin, p->r, u, s, rays->alpha_beta[2 * i], rays->alpha_beta[2 * i + 1],
+        double at_eye[2];
+        label(w, rays->alpha_beta + 2 * i, at_eye);
+        kd_rays_start(p->spin, p->r, u, s, at_eye[0], at_eye[1],
                       rays->outward && rays->outward[i], FAR, &start.origin);
         for (size_t k = 0; k < per_start; k++)
             put(w, at, 4 + per_start * i + k, start.numbers[k]);
@@ -82,10 +97,12 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
     };
     for (size_t i = 0; i < HEADER; i++)
-        put(w, at, i, header[i]);
+        put(w, at, i, w->wide ? header[i] : kd_lifted(header[i]));
     for (size_t i = 0; i < rays->n; i++) {
-        put(w, at, HEADER + 3 * i, rays->alpha_beta[2 * i]);
-        put(w, at, HEADER + 3 * i + 1, rays->alpha_beta[2 * i + 1]);
+        double at_eye[2];
+        label(w, rays->alpha_beta + 2 * i, at_eye);
+        put(w, at, HEADER + 3 * i, at_eye[0]);
+        put(w, at, HEADER + 3 * i + 1, at_eye[1]);
         put(w, at, HEADER + 3 * i + 2, rays->outward && rays->outward[i] ? -1 : 1);
     }
 }

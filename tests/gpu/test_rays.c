@@ -378,6 +378,51 @@ static void test_most_steps(void **state)
     }
 }
 
+/* A ray that leaves the plane by less than a float holds, on either side, is told where it crosses, by each engine: on a device that
+ * flushes denormal numbers too. beta = 1e-6 is as good a limit; of two tiny labels the ratio counts. */
+static void test_tiny_labels(void **state)
+{
+    (void)state;
+    static const double tiny[] = { 1e-38, -1e-38, 1e-41, -1e-310, 1e-25 };
+    for (int e = KD_ENGINE_MINO_RKN4; e <= KD_ENGINE_KS_TAO6; e++)
+        for (size_t k = 0; k < sizeof tiny / sizeof *tiny; k++) {
+            struct kd_rays_params params = { .r = INFINITY, .inclination_deg = 90, .orders = 1, .engine = (enum kd_engine)e };
+            const double rays[] = { 5.5, tiny[k], 5.5, copysign(1e-6, tiny[k]) };
+            struct kd_ray_crossing c[2];
+            struct kd_ray_end ends[2];
+            struct kd_error error = { 0 };
+            if (kd_rays_trace(renderer, &params, rays, 2, c, ends, NULL, NULL, &error))
+                fail_msg("%s", error.message);
+            double off = fabs(c[0].r / c[1].r - 1), phi = fabs(c[0].phi - c[1].phi);
+            if (ends[0].n_crossings != 1 || !(off < 2e-6) || !(phi < 4e-6))
+                fail_msg("%s, beta = %g: %u crossings, r off by %.2g, phi by %.2g", kd_engine_name(params.engine), tiny[k],
+                         ends[0].n_crossings, off, phi);
+        }
+}
+
+/* Light from the pole of a hole without spin that looks back at its centre falls in and crosses nothing. */
+static void test_nothing_to_be_wrong(void **state)
+{
+    (void)state;
+    const double rays[] = { 0.5, 0.25, 12, 0.25, 5.5, 3 };
+    for (int e = KD_ENGINE_CLOSED; e <= KD_ENGINE_KS_TAO6; e++) {
+        struct kd_rays_params params = { .r = INFINITY, .inclination_deg = 0, .orders = 1, .engine = (enum kd_engine)e,
+                                         .precision = e == KD_ENGINE_CLOSED ? KD_PRECISION_F64 : KD_PRECISION_F32 };
+        struct kd_ray_crossing c[3];
+        struct kd_ray_end ends[3];
+        struct kd_error error = { 0 };
+        if (kd_rays_trace(renderer, &params, rays, 3, c, ends, NULL, NULL, &error))
+            fail_msg("%s", error.message);
+        for (int k = 0; k < 3; k++) {
+            bool tells = ends[k].n_crossings || ends[k].fate == KD_RAY_ESCAPED;
+            if (tells == isnan(ends[k].error))
+                fail_msg("%s: ray %d has %u crossings, fate %d, error %g", kd_engine_name(params.engine), k, ends[k].n_crossings,
+                         ends[k].fate, ends[k].error);
+        }
+        assert_true(isnan(ends[0].error) && ends[1].error > 0);
+    }
+}
+
 int main(void)
 {
     int status = open_renderer();
@@ -387,6 +432,6 @@ int main(void)
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_single), cmocka_unit_test(test_double),
                                         cmocka_unit_test(test_estimate), cmocka_unit_test(test_orders),
                                         cmocka_unit_test(test_starts), cmocka_unit_test(test_kerr_schild_errors),
-                                        cmocka_unit_test(test_submissions_are_short), cmocka_unit_test(test_most_steps) };
+                                        cmocka_unit_test(test_tiny_labels), cmocka_unit_test(test_nothing_to_be_wrong), cmocka_unit_test(test_submissions_are_short), cmocka_unit_test(test_most_steps) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
