@@ -20,7 +20,7 @@ const specs = [
 ];
 
 const shown = [
-  ['shadow_uas', 'Shadow, a = 0', 'Ombra, a = 0'],
+  ['shadow_uas', 'Shadow, mean', 'Ombra, media'],
   ['ring_uas', 'Ring as measured', 'Anello misurato'],
   ['ring_error_uas', 'its error', 'suo errore'],
   ['ring_over_shadow', 'measured over computed', 'misurato su calcolato'],

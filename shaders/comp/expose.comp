@@ -17,7 +17,7 @@ void main()
     barrier();
     uint step_ = gl_NumWorkGroups.x * KD_GROUP_SIZE;
     for (uint i = gl_GlobalInvocationID.x * push.skip; i < push.pixels; i += step_ * push.skip) {
-        float y = 0.2126729 * radiance[3 * i] + 0.7151522 * radiance[3 * i + 1] + 0.0721750 * radiance[3 * i + 2];
+        float y = 0.2126 * radiance[3 * i] + 0.7152 * radiance[3 * i + 1] + 0.0722 * radiance[3 * i + 2];
         uint bin = 0;
         if (y > 0.0)
             bin = clamp(floatBitsToUint(y) >> 20, KD_HISTOGRAM_FIRST + 1, KD_HISTOGRAM_FIRST + KD_HISTOGRAM_BINS - 1) - KD_HISTOGRAM_FIRST;

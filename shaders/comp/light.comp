@@ -38,7 +38,7 @@ void main()
         float x = float(px) - push.middle_x, y = push.middle_y - float(push.row0 + row);
         float f = FINITE ? 1.0 / sqrt(1.0 + push.step_ * push.step_ * (x * x + y * y)) : 1.0;
         vec4 term = f * f * f * vec4(1.0, f, f * x, f * y);
-        float light = 0.2126729 * radiance[3 * o] + 0.7151522 * radiance[3 * o + 1] + 0.0721750 * radiance[3 * o + 2];
+        float light = 0.2126 * radiance[3 * o] + 0.7152 * radiance[3 * o + 1] + 0.0722 * radiance[3 * o + 2];
         all = add(all, light * term);
         if (SPOTS)
             spots = add(spots, radiance[push.spots + o] * term);

@@ -27,9 +27,9 @@ struct kd_colour_xyz kd_colour_blackbody(double temperature)
 struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz c)
 {
     return (struct kd_colour_rgb){
-        3.2404541621 * c.x - 1.5371385128 * c.y - 0.4985314096 * c.z,
-        -0.9692660305 * c.x + 1.8760108454 * c.y + 0.0415560175 * c.z,
-        0.0556434310 * c.x - 0.2040259135 * c.y + 1.0572251882 * c.z,
+        3.2406255 * c.x - 1.5372080 * c.y - 0.4986286 * c.z,
+        -0.9689307 * c.x + 1.8757561 * c.y + 0.0415175 * c.z,
+        0.0557101 * c.x - 0.2040211 * c.y + 1.0569959 * c.z,
     };
 }
 
@@ -42,7 +42,7 @@ struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
 {
     struct kd_colour_xyz xyz = kd_colour_blackbody(temperature);
     if (!(xyz.y > 0)) /* below about 60 K the visible light underflows: the limit is the deepest red of the gamut */
-        return (struct kd_colour_rgb){ 1 / 0.2126729, 0, 0 };
+        return (struct kd_colour_rgb){ 1 / 0.2126, 0, 0 };
     struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz){ xyz.x / xyz.y, 1, xyz.z / xyz.y });
     double low = fmin(c.r, fmin(c.g, c.b));
     if (low < 0) { /* grey of luminance 1 is (1, 1, 1): c + s (1 - c) with the least s that lifts `low` to 0 */

@@ -15,7 +15,10 @@ struct kd_colour_rgb { double r, g, b; };
  * T in K, > 0. */
 struct kd_colour_xyz kd_colour_blackbody(double temperature);
 
-/* Linear sRGB (IEC 61966-2-1 primaries, D65 white), not clipped: components can be negative. */
+/* Linear sRGB, not clipped: components can be negative. The matrix is that of IEC 61966-2-1:1999 with the digits of its amendment 1
+ * of 2003, the inverse of its four-digit one of RGB to XYZ, whose second row gives the luminance: 0.2126, 0.7152, 0.0722. (From the
+ * chromaticities of primaries and white follow numbers that differ from the fourth digit on: 3.2409699, or with another D65
+ * 3.2404542.) */
 struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
 
 /* The encoding of a component of linear sRGB in [0, 1] (IEC 61966-2-1). */

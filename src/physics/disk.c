@@ -2,6 +2,8 @@
 
 #include "physics/constants.h"
 #include "physics/kerr.h"
+#include "physics/quadrature.h"
+#include "physics/root.h"
 
 #include <math.h>
 
@@ -34,24 +36,57 @@ double kd_disk_flux_shakura_sunyaev(double a, double r)
     return r > r0 ? 3 / (8 * M_PI * r * r * r) * (1 - sqrt(r0 / r)) : 0;
 }
 
-double kd_disk_peak(kd_disk_flux_fn flux_of, double a, double *flux)
+/* The flux is B(x)/(x^4 (x^3 - 3x + 2a)) but for constants, with x = sqrt(r) = 1 + y, x0 = sqrt(r_isco), d = 1 - a and
+ *
+ *   B' = (x^4 - 6x^2 + 8ax - 3a^2)/(x (x^3 - 3x + 2a))      x^3 - 3x + 2a = y^2 (y + 3) - 2d
+ *
+ * (15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself has all digits. The
+ * numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, of which y - y0 is a factor. */
+struct rise {
+    double a, y0, gap; /* from x0 to the nearest root of x^3 - 3x + 2a, the photon orbit's */
+    double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth for a hole that is nearly extremal too */
+};
+
+static double below(double a, double y)
 {
-    const double golden = 0.6180339887498949;
-    double lo = kd_kerr_isco(a), hi = 4 * lo; /* both models peak below 2.1 r_isco */
-    double x1 = hi - golden * (hi - lo), x2 = lo + golden * (hi - lo), f1 = flux_of(a, x1), f2 = flux_of(a, x2);
-    while (hi - lo > 1e-9 * hi) {
-        if (f1 > f2) {
-            hi = x2, x2 = x1, f2 = f1;
-            x1 = hi - golden * (hi - lo), f1 = flux_of(a, x1);
-        } else {
-            lo = x1, x1 = x2, f1 = f2;
-            x2 = lo + golden * (hi - lo), f2 = flux_of(a, x2);
-        }
-    }
-    double r = 0.5 * (lo + hi);
-    if (flux)
-        *flux = flux_of(a, r);
-    return r;
+    return y * y * (y + 3) - 2 * (1 - a);
+}
+
+static double slope_of_bracket(double a, double y0, double beyond)
+{
+    double y = y0 + beyond, two = y * y + y0 * y0;
+    return beyond * (two * (y + y0) + 4 * (two + y * y0) - 8 * (1 - a)) / ((1 + y) * below(a, y));
+}
+
+static double share(double along, double left, const void *context)
+{
+    const struct rise *r = context;
+    double beyond = r->gap * expm1(r->turns * along);
+    (void)left;
+    return r->turns * (beyond + r->gap) * slope_of_bracket(r->a, r->y0, beyond);
+}
+
+/* Above 0 where the flux grows, at x0 + span. */
+static double growth(const void *user, double span)
+{
+    struct rise r = *(const struct rise *)user;
+    r.turns = log1p(span / r.gap);
+    double y = r.y0 + span, loss = 4 / (1 + y) + 3 * y * (2 + y) / below(r.a, y);
+    return slope_of_bracket(r.a, r.y0, span) - kd_quadrature(share, &r) * loss;
+}
+
+double kd_disk_peak_page_thorne(double a)
+{
+    double x0 = sqrt(kd_kerr_isco(a));
+    struct rise r = { .a = a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(a)) };
+    /* Below 2.1 r_isco for all spins, and for an extremal hole at the ISCO. */
+    double x = x0 + kd_root(growth, &r, 1e-7 * x0, 0.5 * x0);
+    return x * x;
+}
+
+double kd_disk_peak_shakura_sunyaev(double a)
+{
+    return 49. / 36 * kd_kerr_isco(a); /* where the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
 }
 
 double kd_disk_redshift(double a, double r, double lambda)

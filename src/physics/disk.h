@@ -14,9 +14,11 @@ double kd_disk_flux_page_thorne(double a, double r);
 /* Shakura & Sunyaev 1973 (Newtonian) with the inner edge at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */
 double kd_disk_flux_shakura_sunyaev(double a, double r);
 
-/* Radius of the largest flux, by golden section; *flux (may be NULL) is its value. */
 typedef double (*kd_disk_flux_fn)(double a, double r);
-double kd_disk_peak(kd_disk_flux_fn flux_of, double a, double *flux);
+
+/* Radius of the largest flux: the root of its derivative, to 1e-15 up to |a| = 0.9999, and to 1e-12 beyond, and in closed form. */
+double kd_disk_peak_page_thorne(double a);
+double kd_disk_peak_shakura_sunyaev(double a);
 
 /* Redshift factor g = nu_infinity / nu_emitted = 1 / (u^t (1 - Omega lambda)) of gas on a circular orbit at r >= ISCO,
  * for a photon of lambda = L/E. Cunningham 1975, ApJ 202, 788. */

@@ -23,7 +23,7 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 static const char *const sources[] = {
     "Planck's law; CODATA 2018",
     "CIE 1931 2 degree observer, ISO/CIE 11664-1, 360-830 nm in steps of 5 nm",
-    "IEC 61966-2-1 (sRGB)",
+    "sRGB: IEC 61966-2-1:1999 with its amendment 1 of 2003, whose matrix of XYZ to RGB begins 3.2406255",
     NULL,
 };
 static const char *const approximations[] = {

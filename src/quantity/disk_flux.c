@@ -43,10 +43,10 @@ static const char *const approximations[] = {
 
 static void fill_disk(const struct parameters *p, struct outputs *o)
 {
-    double peak, m_sun_kg = KD_GM_SUN_SI / KD_G_SI;
+    double m_sun_kg = KD_GM_SUN_SI / KD_G_SI;
     o->inner = kd_kerr_isco(p->spin);
-    o->r_peak = kd_disk_peak(kd_disk_flux_page_thorne, p->spin, &peak);
-    o->t_peak_k = kd_disk_temperature(peak, p->spin, p->mass_msun, p->mdot_edd);
+    o->r_peak = kd_disk_peak_page_thorne(p->spin);
+    o->t_peak_k = kd_disk_temperature(kd_disk_flux_page_thorne(p->spin, o->r_peak), p->spin, p->mass_msun, p->mdot_edd);
     o->efficiency = kd_kerr_efficiency(p->spin);
     o->efficiency_newton = 1 / (2 * o->inner);
     o->mdot_kg_s = kd_disk_rate(p->spin, p->mass_msun, p->mdot_edd);

@@ -21,7 +21,7 @@
     O(m_km, .unit = "km", .help = "M as a length, G m/c^2")                                                            \
     O(m_s, .unit = "s", .help = "M as a time, G m/c^3")                                                                \
     O(m_uas, .unit = "microarcseconds", .help = "M on the sky")                                                        \
-    O(shadow_uas, .unit = "microarcseconds", .help = "diameter of the shadow for a = 0, 2 sqrt(27) M")                 \
+    O(shadow_uas, .unit = "microarcseconds", .help = "mean diameter of the shadow for this spin and inclination; 2 sqrt(27) M for a = 0")                 \
     O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null for no hole")                  \
     O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma")                                       \
     O(ring_over_shadow, .unit = "1", .help = "measured over computed")                                                 \

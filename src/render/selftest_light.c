@@ -35,7 +35,7 @@ static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double bri
     return scene;
 }
 
-/* Luminance of the pixel, by the weights of the primaries of IEC 61966-2-1 (B. Lindbloom's digits). */
+/* Luminance of the pixel, by the weights of the primaries in IEC 61966-2-1. */
 static enum kd_status luminance(const struct kd_selftest *test, const struct kd_scene *scene, double *out)
 {
     struct kd_capacity capacity;
@@ -50,7 +50,7 @@ static enum kd_status luminance(const struct kd_selftest *test, const struct kd_
     if (status)
         return status;
     const uint16_t *rgb = frame.pixels;
-    *out = (0.2126729 * decode(rgb[0] / LEVELS) + 0.7151522 * decode(rgb[1] / LEVELS) + 0.0721750 * decode(rgb[2] / LEVELS)) *
+    *out = (0.2126 * decode(rgb[0] / LEVELS) + 0.7152 * decode(rgb[1] / LEVELS) + 0.0722 * decode(rgb[2] / LEVELS)) *
            exp2(-scene->style.exposure);
     kd_frame_finish(&frame);
     return KD_OK;

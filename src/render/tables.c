@@ -15,13 +15,19 @@ static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
     return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne;
 }
 
+static double largest_flux(const struct kd_scene *scene)
+{
+    double a = scene->spacetime.spin;
+    bool newton = scene->disk.model == KD_DISK_SHAKURA_SUNYAEV;
+    return flux_of(scene)(a, newton ? kd_disk_peak_shakura_sunyaev(a) : kd_disk_peak_page_thorne(a));
+}
+
 double kd_tables_peak_temperature(const struct kd_scene *scene)
 {
-    double a = scene->spacetime.spin, flux;
+    double a = scene->spacetime.spin;
     if (scene->disk.colour == KD_COLOUR_PEAK)
         return scene->disk.peak_temperature_k;
-    kd_disk_peak(flux_of(scene), a, &flux);
-    return kd_disk_temperature(flux, a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
+    return kd_disk_temperature(largest_flux(scene), a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
 /* T r^(3/4) is smooth and bounded in y = sqrt(1 - r_isco/r): linear at the ISCO, where the flux has a double zero, and
@@ -29,8 +35,7 @@ double kd_tables_peak_temperature(const struct kd_scene *scene)
 static void fill_disk(float *table, const struct kd_scene *scene)
 {
     kd_disk_flux_fn flux = flux_of(scene);
-    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak;
-    kd_disk_peak(flux, a, &peak);
+    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak = largest_flux(scene);
     for (int i = 0; i < KD_DISK_TABLE; i++) {
         double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
         table[i] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));

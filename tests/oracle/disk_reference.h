@@ -74,10 +74,11 @@ static const struct flux_reference flux_reference[] = {
 };
 
 static const struct peak_reference peak_reference[] = {
-    { -0x1.ccccccccccccdp-1, 14.0802183, 4.1663993378204766585e-6 },
-    { 0x0.0p+0, 9.55092807, 1.3678110819829864728e-5 },
-    { 0x1.ccccccccccccdp-1, 3.44184336, 3.3922862492261729252e-4 },
-    { 0x1.fef9db22d0e56p-1, 1.58118458, 4.7815906599863267089e-3 },
+    { -0x1.ccccccccccccdp-1, 14.080218282984223, 4.1663993378204766596e-6 },
+    { 0x0.0p+0, 9.5509280779438696, 1.3678110819829864742e-5 },
+    { 0x1.ccccccccccccdp-1, 3.4418433623575273, 3.3922862492261729253e-4 },
+    { 0x1.fef9db22d0e56p-1, 1.5811845813885384, 4.7815906599863267089e-3 },
+    { 0x1.fff2e48e8a71ep-1, 1.2555677191127331, 1.116382174599638225e-2 },
 };
 
 static const struct temperature_reference temperature_reference[] = {

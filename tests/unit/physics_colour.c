@@ -178,6 +178,19 @@ static void the_matrix_of_srgb(void **state)
     }
 }
 
+/* Its coefficients as the standard prints them in 1999, in four decimals; XYZ of one component each. */
+static void the_printed_matrix(void **state)
+{
+    (void)state;
+    static const double printed[3][3] = { { 3.2406, -0.9689, 0.0557 }, { -1.5372, 1.8758, -0.2040 }, { -0.4986, 0.0415, 1.0570 } };
+    for (int i = 0; i < 3; i++) {
+        struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { i == 0, i == 1, i == 2 });
+        near("red", 0, c.r, printed[i][0], 5.1e-5);
+        near("green", 0, c.g, printed[i][1], 5.1e-5);
+        near("blue", 0, c.b, printed[i][2], 5.1e-5);
+    }
+}
+
 /* Never outside the gamut, luminance 1, and redder the cooler. */
 static void unit_colours(void **state)
 {
@@ -187,7 +200,7 @@ static void unit_colours(void **state)
         struct kd_colour_rgb c = kd_colour_blackbody_unit(t);
         /* the rows of the two matrices are rounded to seven digits; a zero component may be a rounding below
          * zero */
-        near("luminance", t, 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b, 1, 2e-6);
+        near("luminance", t, 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b, 1, 2e-7);
         if (!(c.r >= -1e-15 && c.g >= -1e-15 && c.b >= -1e-15))
             fail_msg("%g K: (%g, %g, %g) is outside the gamut", t, c.r, c.g, c.b);
         /* below 890 K the light is all of the far red, whose chromaticity hardly changes, and the way into
@@ -233,7 +246,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_standard_observer), cmocka_unit_test(published_chromaticities),
         cmocka_unit_test(along_the_locus),       cmocka_unit_test(stefan_and_boltzmann),
-        cmocka_unit_test(luminous_efficacy),     cmocka_unit_test(the_matrix_of_srgb),
+        cmocka_unit_test(luminous_efficacy),     cmocka_unit_test(the_matrix_of_srgb), cmocka_unit_test(the_printed_matrix),
         cmocka_unit_test(unit_colours),          cmocka_unit_test(unit_colours_inside_the_gamut),
         cmocka_unit_test(encoding),
     };
