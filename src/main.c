@@ -1,7 +1,9 @@
 /* The command line: finds the subcommand and hands over. */
+#include "base/slip.h"
 #include "cli/cli.h"
 
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,21 +24,40 @@ static const struct command {
 struct choice {
     const struct command *command;
     int index; /* of its name in argv */
+    bool help; /* `kerrd help COMMAND` */
 };
+
+static const struct command *find(const char *name, struct argp_state *state)
+{
+    char known[200] = "";
+    struct kd_slip_best meant = { 0 };
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        size_t used = strlen(known);
+        if (!strcmp(name, commands[i].name))
+            return &commands[i];
+        kd_slip_offer(&meant, name, commands[i].name);
+        snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", commands[i].name);
+    }
+    if (meant.name)
+        argp_error(state, "there is no command \"%s\"; did you mean %s? Known are %s", name, meant.name, known);
+    else
+        argp_error(state, "there is no command \"%s\"; known are %s", name, known);
+    return NULL;
+}
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct choice *choice = state->input;
     switch (key) {
+    case 'h': argp_state_help(state, stdout, ARGP_HELP_STD_HELP); return 0;
     case ARGP_KEY_ARG:
-        for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-            if (strcmp(text, commands[i].name) == 0)
-                choice->command = &commands[i];
-        if (!choice->command)
-            argp_error(state,
-                       "there is no command \"%s\"; known are render, light-curve, particles, rays, orbit, physics, plan, scene, presets, serve, doctor, "
-                       "bench",
-                       text);
+        if (!strcmp(text, "help") && state->next == state->argc)
+            argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
+        if (!strcmp(text, "help")) {
+            choice->help = true;
+            text = state->argv[state->next++];
+        }
+        choice->command = find(text, state);
         choice->index = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
         return 0;
@@ -45,11 +66,17 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
+static const struct argp_option options[] = {
+    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* as --help, which argp itself gives -? */
+    { 0 },
+};
+
 static const struct argp argp = {
+    .options = options,
     .parser = parse,
     .args_doc = "COMMAND [OPTION...]",
     .doc = "Pictures of black holes: a Kerr renderer on a Vulkan device.\v"
-           "Commands (`kerrd COMMAND --help` says more):\n"
+           "Commands (`kerrd help COMMAND` says more):\n"
            "  render       a scene to a PNG file\n"
            "  light-curve  flux and centroid of a scene as its time goes on\n"
            "  particles    where the particles of a scene are, as an array\n"
@@ -73,12 +100,16 @@ int main(int argc, char **argv)
     char name[32];
 
     argp_err_exit_status = KD_EXIT_USAGE;
-    signal(SIGPIPE, SIG_IGN); /* a reader that left is an error with a message, and no end for a server */
+    signal(SIGPIPE, SIG_IGN); /* a reader that left is no end for a server; other commands: kd_cli_stdout_failed */
+    atexit(kd_cli_close_stdout);
     if (argc < 1)
         return KD_EXIT_USAGE;
     argv[0] = zero; /* as messages name the program, wherever it lies */
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
     snprintf(name, sizeof name, "kerrd %s", choice.command->name);
     argv[choice.index] = name;
+    char *help[] = { name, (char[]) { "--help" }, NULL };
+    if (choice.help)
+        return choice.command->run(2, help);
     return choice.command->run(argc - choice.index, argv + choice.index);
 }

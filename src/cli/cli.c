@@ -3,6 +3,8 @@
 #include "base/log.h"
 
 #include <errno.h>
+#include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +13,8 @@
 static error_t parse_log(int key, char *text, struct argp_state *state)
 {
     static const char *const levels[] = { "error", "warn", "info", "debug" };
+    if (key == 'h')
+        argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key != 'l')
         return ARGP_ERR_UNKNOWN;
     for (int i = 0; i < 4; i++)
@@ -24,6 +28,7 @@ static error_t parse_log(int key, char *text, struct argp_state *state)
 
 static const struct argp_option log_options[] = {
     { "log-level", 'l', "LEVEL", 0, "error, warn (the default), info or debug", 1 },
+    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 1 }, /* as --help, which argp itself gives -? */
     { 0 },
 };
 const struct argp kd_cli_log_argp = { .options = log_options, .parser = parse_log };
@@ -74,12 +79,34 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error)
     _exit(KD_EXIT_FAILURE);
 }
 
+void kd_cli_stdout_failed(int number)
+{
+    static bool told; /* once is enough: kd_cli_close_stdout comes after whoever saw it first */
+    if (number == EPIPE) {
+        signal(SIGPIPE, SIG_DFL);
+        raise(SIGPIPE);
+    }
+    if (!told)
+        fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(number));
+    told = true;
+}
+
 int kd_cli_print(const void *data, size_t size)
 {
-    if (fwrite(data, 1, size, stdout) == size && fflush(stdout) == 0)
+    errno = 0;
+    if (!ferror(stdout) && fwrite(data, 1, size, stdout) == size && fflush(stdout) == 0)
         return KD_EXIT_OK;
-    fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(errno));
+    kd_cli_stdout_failed(errno ? errno : EIO);
     return KD_EXIT_FAILURE;
+}
+
+void kd_cli_close_stdout(void)
+{
+    errno = 0;
+    if (!ferror(stdout) && fflush(stdout) == 0)
+        return;
+    kd_cli_stdout_failed(errno ? errno : EIO);
+    _exit(KD_EXIT_FAILURE);
 }
 
 unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,

@@ -38,8 +38,15 @@ enum kd_status kd_cli_prefix(struct kd_error *error, const char *name);
 /* A lost device cannot be torn down: report and leave at once, without destructors. */
 _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 
-/* Write to stdout and make sure that it arrived. */
+/* Write to stdout and make sure that it arrived, with what was printed before. */
 int kd_cli_print(const void *data, size_t size);
+
+/* What could not be written to stdout, by its errno. A reader that left, as in `kerrd plan | head`, ends the program by SIGPIPE
+ * without a word, as it does other tools; all else is said, once. */
+void kd_cli_stdout_failed(int number);
+
+/* At exit, whatever was printed: help and lists too must have arrived, or the exit code is 1. */
+void kd_cli_close_stdout(void);
 
 /* A size from an option's text, as 1536M or 2G (powers of 1024), at least 64M; or a usage error. */
 uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const char *text);

@@ -55,8 +55,8 @@ static void print_device(const struct kd_vk_info *info)
 {
     uint32_t v = info->api_version;
     printf("device %u: %s\n", info->index, info->name);
-    printf("  %s, Vulkan %u.%u.%u, driver %s %s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f,
-           v >> 12 & 0x3ff, v & 0xfff, info->driver, info->driver_info);
+    printf("  %s, Vulkan %u.%u.%u, driver %s%s%s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f,
+           v >> 12 & 0x3ff, v & 0xfff, info->driver, *info->driver_info ? " " : "", info->driver_info);
     printf("  memory %.0f MiB, one binding %.0f MiB, one allocation %.0f MiB\n", mib(info->heap_bytes),
            mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
     printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n",
@@ -195,9 +195,9 @@ static int examine(const char *device)
     if (!any)
         printf("to have a device that works on any machine: apt install mesa-vulkan-drivers\n");
     printf("verdict: %s\n", status ? "not usable" : "usable");
-    fflush(stdout);
     if (!status)
         return kd_cli_print("", 0);
+    fflush(stdout); /* before the complaint on stderr */
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }

@@ -1,5 +1,7 @@
 #include "cli/file.h"
 
+#include "cli/cli.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -176,10 +178,14 @@ enum kd_status kd_file_stream(const char *path, size_t (*read)(void *user, void 
                               struct kd_error *error)
 {
     const struct source data = { read, user };
-    if (strcmp(path, "-") == 0)
-        return write_all(STDOUT_FILENO, &data)
-                   ? KD_OK
-                   : kd_error_set(error, KD_EIO, "cannot write to standard output: %s", strerror(errno));
+    if (strcmp(path, "-") == 0) {
+        if (write_all(STDOUT_FILENO, &data))
+            return KD_OK;
+        int number = errno;
+        if (number == EPIPE)
+            kd_cli_stdout_failed(number);
+        return kd_error_set(error, KD_EIO, "cannot write to standard output: %s", strerror(number));
+    }
     struct target target;
     enum kd_status status = find_target(path, &target, error);
     if (status)

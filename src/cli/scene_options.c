@@ -5,16 +5,18 @@
 #include "render/picture.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define PICTURE_MAX ((size_t)1 << 30)
 
-enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f' };
+enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000 };
 
 static const struct argp_option options_table[] = {
     { "preset", KEY_PRESET, "NAME", 0, "start from a preset (`kerrd presets` lists them)", 0 },
     { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
+    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one", 0 },
     { "from", KEY_FROM, "PICTURE.png", 0, "take the scene from inside a picture that kerrd made", 0 },
     { 0 },
 };
@@ -26,6 +28,18 @@ static void add_set(struct kd_scene_options *options, const char *text, struct a
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--set");
     options->set = set;
     options->set[options->n_set++] = text;
+}
+
+/* "1920x1080" as the two fields that it means, in texts of the options' own. */
+static void add_size(struct kd_scene_options *options, const char *text, struct argp_state *state)
+{
+    size_t width = strspn(text, "0123456789"), height = text[width] ? strspn(text + width + 1, "0123456789") : 0;
+    if (!width || !height || !strchr("xX", text[width]) || text[width + 1 + height] || width > 9 || height > 9)
+        argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
+    snprintf(options->width, sizeof options->width, "image.width=%.*s", (int)width, text);
+    snprintf(options->height, sizeof options->height, "image.height=%s", text + width + 1);
+    add_set(options, options->width, state);
+    add_set(options, options->height, state);
 }
 
 static void check_sources(const struct kd_scene_options *options, struct argp_state *state)
@@ -41,6 +55,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     case KEY_PRESET: options->preset = text; return 0;
     case KEY_FROM: options->from = text; return 0;
+    case KEY_SIZE: add_size(options, text, state); return 0;
     case KEY_SET:
         if (!strchr(text, '=') || text[0] == '=')
             argp_error(state, "--set %s: it takes PATH=VALUE, as in camera.inclination_deg=60", text);

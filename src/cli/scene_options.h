@@ -1,7 +1,7 @@
 /* The options that choose a scene, the same for render, plan and scene. Main thread only.
  *
  * Merged in this order, each over what came before: the defaults or --preset; the document SCENE, or
- * the one inside the picture of --from; every --set as given. */
+ * the one inside the picture of --from; every --set and --size as given. */
 #ifndef KD_CLI_SCENE_OPTIONS_H
 #define KD_CLI_SCENE_OPTIONS_H
 
@@ -14,6 +14,7 @@ struct kd_scene_options {
     const char *preset, *from;
     const char **set; /* "path=value" */
     size_t n_set;
+    char width[32], height[32]; /* what --size is in that list */
 };
 
 #define KD_SCENE_ARGS_DOC "[SCENE.json|-]"

@@ -83,7 +83,10 @@ static void announce(const char *address, uint16_t port, const char *const *own)
     printf("kerrd: listening on http://%s%s%s:%u/\n", six ? "[" : "", address, six ? "]" : "", port);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reached at http://%s:%u/\n", *name, port);
-    fflush(stdout); /* whoever started us may be waiting for this line in a pipe */
+    /* Whoever started us may be waiting for this line in a pipe. A service goes on without one. */
+    if (fflush(stdout) || ferror(stdout))
+        fprintf(stderr, "kerrd: cannot write to standard output: %s\n", strerror(errno));
+    clearerr(stdout);
 }
 
 static enum kd_status serve(const struct arguments *arguments, struct kd_error *error)

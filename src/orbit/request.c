@@ -1,5 +1,6 @@
 #include "orbit/request.h"
 
+#include "base/slip.h"
 #include "orbit/cases.h"
 #include "orbit/fields.h"
 #include "physics/angle.h"
@@ -66,14 +67,20 @@ static enum kd_status unknown(const struct target *t, const char *section, const
                               struct kd_error *error)
 {
     char shown[60], known[240] = "";
+    struct kd_slip_best meant = { 0 };
     kd_text_clip(shown, sizeof shown, name);
     for (size_t i = 0; i < t->n; i++) {
         const struct kd_orbit_field *f = &t->fields[i];
         bool own = !strcmp(f->section, section), inner = !*section && *f->section && (!i || strcmp(f[-1].section, f->section));
         size_t used = strlen(known);
         if (own || inner)
+            kd_slip_offer(&meant, name, own ? f->name : f->section);
+        if (own || inner)
             snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", own ? f->name : f->section);
     }
+    if (meant.name)
+        return kd_error_field(error, pointer, "there is no field %s here; did you mean %s? Known are %s%s", shown, meant.name, known,
+                              *section ? "" : t->extra);
     return kd_error_field(error, pointer, "there is no field %s here; known are %s%s", shown, known, *section ? "" : t->extra);
 }
 

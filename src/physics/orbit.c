@@ -102,7 +102,7 @@ enum kd_status kd_orbit_check_spin(double a, struct kd_error *error)
 {
     if (fabs(a) < 1)
         return KD_OK;
-    return kd_error_field(error, "/spin", "spin is %.17g, allowed are numbers above -1 and below 1", a);
+    return kd_error_field(error, "/spin", "spin is %.16g, allowed are numbers above -1 and below 1", a);
 }
 
 /* E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
@@ -120,19 +120,19 @@ enum kd_status kd_orbit_from_constants(double a, double energy, double momentum,
         return status;
     if (!(carter >= 0))
         return kd_error_field(error, "/carter",
-                              "carter is %.17g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
+                              "carter is %.16g, allowed are 0 and above; a motion that never crosses the equator (Q < 0) is "
                               "given by position and velocity",
                               carter);
     if (!isnan(r) && !(r > kd_kerr_horizon(a)))
-        return kd_error_field(error, "/r", "r is %.17g, allowed is above the horizon at %.17g", r, kd_kerr_horizon(a));
+        return kd_error_field(error, "/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
     *o = (struct kd_orbit) {
         .a = a, .energy = energy, .binding = (1 - energy) * (1 + energy), .momentum = momentum, .carter = carter
     };
     kd_orbit_set_constants(o);
     if (!find_range(o, 1 / r) && !isnan(r))
-        return kd_error_field(error, "/r", "r is %.17g, where a particle of these constants cannot be", r);
+        return kd_error_field(error, "/r", "r is %.16g, where a particle of these constants cannot be", r);
     if (!(o->w_high > 0) || !to_the_future(o))
-        return kd_error_field(error, "/energy", "energy is %.17g: no particle outside the horizon has these constants", energy);
+        return kd_error_field(error, "/energy", "energy is %.16g: no particle outside the horizon has these constants", energy);
     set_fate(o);
     return KD_OK;
 }
@@ -203,15 +203,15 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
     if (status)
         return status;
     if (!(r > kd_kerr_horizon(a)) || !isfinite(r))
-        return kd_error_field(error, "/position/r", "r is %.17g, allowed is above the horizon at %.17g", r, kd_kerr_horizon(a));
+        return kd_error_field(error, "/position/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
     if (!(theta_deg >= 0 && theta_deg <= 180))
-        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.17g, allowed is 0 to 180", theta_deg);
+        return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g, allowed is 0 to 180", theta_deg);
     if (frame == KD_ORBIT_STATIC && !(r > kd_kerr_ergosphere(a, kd_cos_deg(theta_deg))))
         return kd_error_field(error, "/velocity/frame",
-                              "nothing is at rest at r = %.17g, inside the ergosphere, which ends at %.17g here: use \"zamo\"", r,
+                              "nothing is at rest at r = %.16g, inside the ergosphere, which ends at %.9g here: use \"zamo\"", r,
                               kd_kerr_ergosphere(a, kd_cos_deg(theta_deg)));
     if (!(speed < 1))
-        return kd_error_field(error, "/velocity", "the speed is %.17g, allowed is below 1, that of light", speed);
+        return kd_error_field(error, "/velocity", "the speed is %.16g, allowed is below 1, that of light", speed);
     return KD_OK;
 }
 
@@ -239,7 +239,7 @@ enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd
     if (!find_range(o, start->w)) { /* at rest at a turning point, and rounding puts it beyond */
         double near = v[0] == 0 ? start->w * (kd_orbit_radial_slope(o, start->w) > 0 ? 1 + 1e-12 : 1 - 1e-12) : start->w;
         if (!find_range(o, near))
-            return kd_error_field(error, "/position/r", "the motion from r = %.17g cannot be followed in double precision", r);
+            return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision", r);
     }
     if (v[0] == 0) { /* exactly at the turning point that is there */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);

@@ -1,6 +1,7 @@
 /* What is asked for: a parameter's value or range from text. */
 #include "quantity/quantity.h"
 
+#include "base/slip.h"
 #include "scene/number.h"
 #include "scene/text.h"
 
@@ -118,9 +119,15 @@ static enum kd_status unknown(const struct kd_quantity *quantity, const char *po
 {
     char given[64], known[300];
     size_t used = 0;
+    struct kd_slip_best meant = { 0 };
     kd_text_clip(given, sizeof given, name);
+    for (size_t i = 0; i < quantity->n_parameters; i++)
+        kd_slip_offer(&meant, name, quantity->parameters[i].name);
     for (size_t i = 0; i < quantity->n_parameters && used < sizeof known; i++)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", quantity->parameters[i].name);
+    if (meant.name)
+        return kd_error_field(error, pointer, "%s has no parameter \"%s\"; did you mean %s? Known are %s", quantity->name, given, meant.name,
+                              known);
     return kd_error_field(error, pointer, "%s has no parameter \"%s\"; known are %s", quantity->name, given, known);
 }
 

@@ -46,11 +46,11 @@ static enum kd_status make_frame(const struct parameters *p, struct memory *m, s
     if (isinf(p->observer_r))
         return KD_OK;
     if (!(p->observer_r > kd_kerr_horizon(p->spin)))
-        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.15g M",
+        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.9g M",
                                    kd_kerr_horizon(p->spin));
     if (p->observer == 0 && !(p->observer_r > edge))
         return kd_quantity_outside(error, "observer_r", p->observer_r,
-                                   "in the ergosphere, where nothing is at rest; allowed is outside %.15g M, or observer zamo", edge);
+                                   "in the ergosphere, where nothing is at rest; allowed is outside %.9g M, or observer zamo", edge);
     m->frame = (p->observer == 1 ? kd_tetrad_zamo : kd_tetrad_static)(p->spin, p->observer_r, u, s);
     return KD_OK;
 }

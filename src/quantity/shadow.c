@@ -47,11 +47,11 @@ static enum kd_status make_curve(const struct parameters *p, struct memory *m, s
     observer.cos_theta = kd_cos_deg(p->inclination_deg);
     observer.sin_theta = kd_sin_deg(p->inclination_deg);
     if (!(p->observer_r > horizon))
-        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.15g M", horizon);
+        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.9g M", horizon);
     m->curve = kd_critical_of(&observer);
     if (m->curve.status == KD_CRITICAL_IN_ERGOSPHERE)
         return kd_quantity_outside(error, "observer_r", p->observer_r,
-                                   "in the ergosphere, where nothing is at rest; allowed is outside %.15g M, or observer zamo",
+                                   "in the ergosphere, where nothing is at rest; allowed is outside %.9g M, or observer zamo",
                                    kd_kerr_ergosphere(p->spin, observer.cos_theta));
     if (m->curve.status)
         return kd_error_field(error, "/observer_r", "there is no critical curve for this observer");

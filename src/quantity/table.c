@@ -48,5 +48,5 @@ enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, dou
 enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error)
 {
     double horizon = kd_kerr_horizon(a);
-    return r >= horizon ? KD_OK : kd_quantity_outside(error, "r", r, "inside the horizon at %.15g M; allowed is outside", horizon);
+    return r >= horizon ? KD_OK : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; allowed is outside", horizon);
 }

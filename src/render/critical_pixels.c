@@ -122,7 +122,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     *out = (struct kd_critical_pixels) { 0 };
     w.curve = kd_critical_of(&observer);
     if (w.curve.status) /* not of a valid scene */
-        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.17g, camera.r %.17g", observer.spin, observer.radius);
+        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin, observer.radius);
     w.marks = calloc(((size_t)w.width * w.height + 63) / 64, sizeof *w.marks);
     if (!w.marks)
         return kd_error_set(error, KD_ENOMEM, "out of memory for marks of %u x %u pixels", w.width, w.height);

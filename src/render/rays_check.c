@@ -9,18 +9,18 @@
 static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_error *error)
 {
     if (!(fabs(p->spin) < 1))
-        return kd_error_field(error, "/spin", "spin is %.17g, allowed are numbers above -1 and below 1", p->spin);
+        return kd_error_field(error, "/spin", "spin is %.16g, allowed are numbers above -1 and below 1", p->spin);
     double horizon = kd_kerr_horizon(p->spin);
     if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
         return kd_error_field(error, "/observer/r",
-                              "r is %.17g, allowed are \"infinity\" and radii above that of the horizon, %.17g at this "
+                              "r is %.16g, allowed are \"infinity\" and radii above that of the horizon, %.9g at this "
                               "spin, up to %g",
                               p->r, horizon, KD_RAYS_FAR);
     if (!(p->r > 0))
         return kd_error_field(error, "/observer/r", "r is negative");
     if (!(p->inclination_deg >= 0 && p->inclination_deg <= 180))
         return kd_error_field(error, "/observer/inclination_deg",
-                              "inclination_deg is %.17g, allowed are 0 to 180 degrees", p->inclination_deg);
+                              "inclination_deg is %.16g, allowed are 0 to 180 degrees", p->inclination_deg);
     return KD_OK;
 }
 
@@ -48,7 +48,7 @@ static enum kd_status check_number(double value, size_t ray, int component, stru
     if (fabs(value) <= KD_RAYS_FAR)
         return KD_OK;
     snprintf(pointer, sizeof pointer, "/rays/%zu/%d", ray, component);
-    return kd_error_field(error, pointer, "%s of ray %zu is %.17g, allowed are -1e7 to 1e7 M",
+    return kd_error_field(error, pointer, "%s of ray %zu is %.16g, allowed are -1e7 to 1e7 M",
                           component ? "beta" : "alpha", ray, value);
 }
 

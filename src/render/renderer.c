@@ -88,7 +88,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         kd_renderer_destroy(r);
         return kd_error_set(error, KD_ENOMEM, "out of memory for the accuracy table");
     }
-    snprintf(r->name, sizeof r->name, "%s, %s %s", info->name, info->driver, info->driver_info);
+    snprintf(r->name, sizeof r->name, "%s, %s%s%s", info->name, info->driver, *info->driver_info ? " " : "", info->driver_info);
     kd_first_start_recall(r);
     status = params->prove ? kd_first_start(r, error) : KD_OK;
     if (status) {

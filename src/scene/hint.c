@@ -1,51 +1,13 @@
 #include "scene/hint.h"
 
+#include "base/slip.h"
 #include "scene/table.h"
 #include "scene/text.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_MAX_BYTES = 40, FAR = 1000, HINT_SIZE = 256 };
-
-static int least(int a, int b, int c)
-{
-    int m = a < b ? a : b;
-    return m < c ? m : c;
-}
-
-/* Edit distance (Levenshtein) to a name of ours, all lower case; FAR for names longer than any of ours. */
-static int distance(const char *given, const char *known)
-{
-    size_t na = strnlen(given, NAME_MAX_BYTES + 1), nb = strnlen(known, NAME_MAX_BYTES + 1);
-    int row[NAME_MAX_BYTES + 1];
-    if (na > NAME_MAX_BYTES || nb > NAME_MAX_BYTES)
-        return FAR;
-    for (size_t j = 0; j <= nb; j++)
-        row[j] = (int)j;
-    for (size_t i = 1; i <= na; i++) {
-        int diagonal = row[0];
-        row[0] = (int)i;
-        for (size_t j = 1; j <= nb; j++) {
-            int differs = tolower((unsigned char)given[i - 1]) != known[j - 1];
-            int here = least(row[j] + 1, row[j - 1] + 1, diagonal + differs);
-            diagonal = row[j];
-            row[j] = here;
-        }
-    }
-    return row[nb];
-}
-
-/* FAR unless near enough to be a slip: one edit in three letters, or the name without its unit. */
-static int slip(const char *given, const char *known)
-{
-    size_t n = strnlen(given, NAME_MAX_BYTES + 1);
-    int d = distance(given, known);
-    if (n >= 3 && n < strlen(known) && !strncmp(given, known, n) && known[n] == '_')
-        return 1;
-    return d <= (int)(n / 3) ? d : FAR;
-}
+enum { HINT_SIZE = 256 };
 
 static void known_names(const struct kd_section *section, char out[HINT_SIZE])
 {
@@ -62,27 +24,27 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
 /* "; did you mean camera.r?" or "; known are ..." */
 static void hint(const char *section, const char *name, char out[HINT_SIZE])
 {
-    int best = FAR;
+    int best = KD_SLIP_FAR;
     char meant[KD_PATH_SIZE] = "";
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
         /* Another section counts as one edit: the same name there is as near as a misspelt one here. */
-        int score = slip(name, field->name) + (strcmp(section, field->section) ? 1 : 0) +
-                    (distance(section, field->section) > 2 ? 1 : 0);
+        int score = kd_slip(name, field->name) + (strcmp(section, field->section) ? 1 : 0) +
+                    (kd_slip_distance(section, field->section) > 2 ? 1 : 0);
         if (score < best) {
             best = score;
             kd_field_path(field, meant);
         }
     }
     for (size_t i = 0; !*section && i + 1 < KD_SECTION_COUNT; i++) {
-        int score = slip(name, kd_sections[i].name);
+        int score = kd_slip(name, kd_sections[i].name);
         if (score < best) {
             best = score;
             snprintf(meant, sizeof meant, "%s", kd_sections[i].name);
         }
     }
     const struct kd_section *home = kd_section_find(section);
-    if (best < FAR)
+    if (best < KD_SLIP_FAR)
         snprintf(out, HINT_SIZE, "; did you mean %s?", meant);
     else
         known_names(home ? home : &kd_sections[KD_SECTION_COUNT - 1], out);

@@ -1,5 +1,6 @@
 #include "scene/presets.h"
 
+#include "base/slip.h"
 #include "scene/scene.h"
 #include "scene/text.h"
 
@@ -68,10 +69,15 @@ const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
 static enum kd_status unknown(const char *name, struct kd_error *error)
 {
     char known[240] = "", shown[48];
+    struct kd_slip_best meant = { 0 };
     kd_text_clip(shown, sizeof shown, name);
-    for (size_t i = 0, used = 0; i < kd_preset_count && used < sizeof known; i++)
+    for (size_t i = 0, used = 0; i < kd_preset_count && used < sizeof known; i++) {
+        kd_slip_offer(&meant, name, kd_presets[i].name);
         used +=
             (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_presets[i].name);
+    }
+    if (meant.name)
+        return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; did you mean %s? Known are %s", shown, meant.name, known);
     return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; known are %s", shown, known);
 }
 

@@ -22,7 +22,9 @@ struct scan {
 
 static enum kd_status fail(struct scan *s, size_t at, const char *what)
 {
-    return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu", what, at);
+    struct kd_text_place place = kd_text_place_of(s->text, at);
+    return kd_error_set(s->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu", what, at, place.line,
+                        place.column);
 }
 
 /* The escape after a backslash at s->at. */

@@ -71,3 +71,15 @@ void kd_text_pointer(char *pointer, size_t size, const char *token)
     }
     pointer[used] = 0;
 }
+
+struct kd_text_place kd_text_place_of(const char *text, size_t at)
+{
+    struct kd_text_place place = { 1, 1 };
+    for (size_t i = 0; i < at; i++) {
+        if (text[i] == '\n')
+            place = (struct kd_text_place) { place.line + 1, 1 };
+        else if (((unsigned char)text[i] & 0xc0) != 0x80) /* no second byte of a character */
+            place.column++;
+    }
+    return place;
+}

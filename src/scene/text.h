@@ -16,4 +16,8 @@ void kd_text_clip(char *out, size_t size, const char *text);
  * that the pointer still names its parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);
 
+/* Where a byte of a text is, both from 1; columns count characters. */
+struct kd_text_place { size_t line, column; };
+struct kd_text_place kd_text_place_of(const char *text, size_t at);
+
 #endif

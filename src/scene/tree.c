@@ -2,6 +2,7 @@
 
 #include "scene/number.h"
 #include "scene/scan.h"
+#include "scene/text.h"
 
 #include <errno.h>
 #include <stdbool.h>
@@ -33,14 +34,17 @@ static enum kd_status parse(const char *text, size_t length, cJSON **out, struct
     if (starved)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
     size_t at = (size_t)(end - text);
+    struct kd_text_place place = kd_text_place_of(text, at < length ? at : length);
     if (!root && at >= length)
-        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes", length);
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu",
+                            length, place.line);
     if (!root)
-        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu", at);
+        return kd_error_set(error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu", at, place.line, place.column);
     at += strspn(end, " \t\n\r");
     if (at < length) {
         cJSON_Delete(root);
-        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu", at);
+        place = kd_text_place_of(text, at);
+        return kd_error_set(error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", at, place.line, place.column);
     }
     *out = root;
     return KD_OK;

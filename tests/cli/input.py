@@ -1,7 +1,9 @@
 """Arguments and scenes, good and bad. Needs no device."""
 import json
+import os
+import signal
 
-from support import Case, main
+from support import Case, main, run
 
 COMMANDS = ["render", "particles", "rays", "plan", "scene", "presets", "serve", "doctor"]
 OPEN = '{"camera":'
@@ -14,6 +16,51 @@ class Usage(Case):
             self.assertRegex(self.good(*command, "--version"), rb"^kerrd \d+\.\d+\.\d+\n$")
         for command in COMMANDS:
             self.assertIn(command.encode(), self.good("--help"))
+
+    def test_help_by_other_names(self):
+        for command in COMMANDS:
+            said = self.good(command, "--help")
+            self.assertEqual(self.good("help", command), said)
+            self.assertEqual(self.good(command, "-h"), said)
+        self.assertEqual(self.good("help"), self.good("--help"))
+        self.assertEqual(self.good("-h"), self.good("--help"))
+        self.assertEqual(self.good("physics", "kerr", "-h"), self.good("physics", "kerr", "--help"))
+        self.bad(2, "did you mean plan?", "help", "plann")
+
+    def test_slips(self):
+        self.bad(2, "did you mean render?", "rendr")
+        self.bad(2, "did you mean gargantua?", "scene", "--preset", "gargantau")
+        self.bad(2, "did you mean redshift?", "physics", "redshft")
+        self.bad(2, "did you mean camera.inclination_deg?", "scene", "--set", "camera.inclination=60")
+        self.bad(2, "did you mean energy?", "orbit", self.write("slip.json", '{"orbit":{"enrgy":1,"angular_momentum":5}}'))
+
+    def test_size(self):
+        image = json.loads(self.good("scene", "--size", "1920x1080"))["image"]
+        self.assertEqual((image["width"], image["height"]), (1920, 1080))
+        image = json.loads(self.good("scene", "--size=1920x1080", "--set", "image.width=640"))["image"]
+        self.assertEqual((image["width"], image["height"]), (640, 1080))
+        for size in "1920", "x", "1920x", "x1080", "1920x1080x2", "1920 x 1080", "-1x5", "1920*1080":
+            self.bad(2, "as in 1920x1080", "scene", "--size", size)
+        self.bad(2, "image.width", "scene", "--size", "0x1080")
+
+    def test_places_in_a_document(self):
+        self.bad(2, "line 3, column 10", "scene", self.write("a.json", '{\n  "camera": {\n    "r": nil\n  }\n}'))
+        self.bad(2, "line 2, column 7", "scene", self.write("b.json", '{"time": 1,\n "é": \'x\'}'))
+        self.bad(2, "line 2", "scene", self.write("c.json", '{"time":\n'))
+
+    def test_numbers_as_they_were_given(self):
+        self.bad(2, "r is 1.2, allowed is above the horizon at 1.43588989", "orbit", "--spin", "0.9", "--energy", "0.9", "--angular-momentum", "4", "--r", "1.2")
+
+    def test_nowhere_to_write(self):
+        lists = ["presets"], ["physics"], ["scene"], ["physics", "kerr"], ["orbit", "--case", "isco"], ["--help"], ["--version"], ["plan", "--help"]
+        for command in lists:
+            with open("/dev/full", "wb") as full:
+                self.bad(1, "cannot write to standard output: No space left on device", *command, stdout=full)
+            reader, writer = os.pipe()
+            os.close(reader)
+            done = run(*command, stdout=writer)
+            os.close(writer)
+            self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""), command)
 
     def test_wrong_usage(self):
         self.bad(2, "a command is missing")

@@ -151,8 +151,24 @@ class Outputs(Case):
     def test_a_reader_that_leaves(self):
         reader, writer = os.pipe()
         os.close(reader)
-        self.bad(1, "Broken pipe", "render", *SMALL, "-o", "-", stdout=writer)
+        done = run("render", *SMALL, "-o", "-", stdout=writer)
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))  # as cat and the like
         os.close(writer)
+
+    def test_nowhere_to_write(self):
+        for command in ["doctor"], ["plan", *SMALL], ["rays", "--ray", "5,1"], ["render", *SMALL, "-o", "-"]:
+            with open("/dev/full", "wb") as full:
+                done = run(*command, stdout=full)
+            self.assertEqual(done.returncode, 1, command)
+            self.assertIn(b"cannot write to standard output", done.stderr)
+            reader, writer = os.pipe()
+            os.close(reader)
+            done = run(*command, stdout=writer)
+            os.close(writer)
+            self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""), command)
+
+    def test_names_end_where_they_end(self):
+        self.assertNotRegex(self.good("doctor"), rb"[ \t]\n")
 
     def test_interrupt(self):
         big = ["--set", "image.width=8000", "--set", "image.height=6000", "--set", "image.samples=2"]

@@ -20,7 +20,7 @@ MODULES = {
     "render": {"base", "physics", "scene", "image", "vk"},
     "server": {"base", "physics", "scene", "quantity", "orbit", "image", "render"},
     "cli": {"base", "physics", "scene", "quantity", "orbit", "image", "vk", "render", "server"},
-    "main.c": {"cli"},
+    "main.c": {"base", "cli"},
 }
 # Headers of other projects, and who may include them.
 FOREIGN = {

@@ -1,0 +1,49 @@
+#include "base/slip.h"
+
+#include <ctype.h>
+#include <string.h>
+
+enum { NAME_MAX_BYTES = 40 };
+
+static int least(int a, int b, int c)
+{
+    int m = a < b ? a : b;
+    return m < c ? m : c;
+}
+
+int kd_slip_distance(const char *given, const char *known)
+{
+    size_t na = strnlen(given, NAME_MAX_BYTES + 1), nb = strnlen(known, NAME_MAX_BYTES + 1);
+    int row[NAME_MAX_BYTES + 1];
+    if (na > NAME_MAX_BYTES || nb > NAME_MAX_BYTES)
+        return KD_SLIP_FAR;
+    for (size_t j = 0; j <= nb; j++)
+        row[j] = (int)j;
+    for (size_t i = 1; i <= na; i++) {
+        int diagonal = row[0];
+        row[0] = (int)i;
+        for (size_t j = 1; j <= nb; j++) {
+            int differs = tolower((unsigned char)given[i - 1]) != known[j - 1];
+            int here = least(row[j] + 1, row[j - 1] + 1, diagonal + differs);
+            diagonal = row[j];
+            row[j] = here;
+        }
+    }
+    return row[nb];
+}
+
+int kd_slip(const char *given, const char *known)
+{
+    size_t n = strnlen(given, NAME_MAX_BYTES + 1);
+    int d = kd_slip_distance(given, known);
+    if (n >= 3 && n < strlen(known) && !strncmp(given, known, n) && known[n] == '_')
+        return 1;
+    return d <= (int)(n / 3) ? d : KD_SLIP_FAR;
+}
+
+void kd_slip_offer(struct kd_slip_best *best, const char *given, const char *known)
+{
+    int score = kd_slip(given, known);
+    if (score < KD_SLIP_FAR && (!best->name || score < best->score))
+        *best = (struct kd_slip_best) { known, score };
+}
