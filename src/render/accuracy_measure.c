@@ -1,5 +1,6 @@
 #include "render/accuracy_measure.h"
 
+#include "physics/angle.h"
 #include "physics/disk.h"
 #include "physics/kerr.h"
 #include "physics/null_geodesic.h"
@@ -83,13 +84,13 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
 static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n, struct kd_ray_crossing *crossings,
                          struct kd_ray_end *ends, double *s)
 {
-    double i = view->inclination_deg * (M_PI / 180), begun = seconds_of(CLOCK_THREAD_CPUTIME_ID);
-    struct kd_null_ray ray = { .spin = view->spin, .radius = INFINITY, .cos_theta = view->inclination_deg == 90 ? 0 : cos(i),
-                               .sin_theta = sin(i), .orders = ORDERS };
+    double sine = kd_sin_deg(view->inclination_deg), begun = seconds_of(CLOCK_THREAD_CPUTIME_ID);
+    struct kd_null_ray ray = { .spin = view->spin, .radius = INFINITY, .cos_theta = kd_cos_deg(view->inclination_deg),
+                               .sin_theta = sine, .orders = ORDERS };
     for (size_t k = 0; k < n; k++) {
         ray.alpha = rays[2 * k];
         ray.beta = rays[2 * k + 1];
-        end_in_closed_form(&ray, sin(i), crossings + k * ORDERS, &ends[k]);
+        end_in_closed_form(&ray, sine, crossings + k * ORDERS, &ends[k]);
     }
     *s = seconds_of(CLOCK_THREAD_CPUTIME_ID) - begun;
 }

@@ -33,10 +33,8 @@ static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_
     if (!finite)
         return;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
-    double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi;
-    *out = (struct kd_camera_label) {
-        .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0,
-    };
+    double m_phi = -kz * n;
+    kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
 }
 
 /* As the map's own rays were made. */

@@ -109,8 +109,13 @@ void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, 
         return;
     }
     double kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
-    double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi;
-    *out = (struct kd_camera_label) {
-        .alpha = -(c->l0 + c->l1 * m_phi) / energy, .beta = -c->cp * ky * n / energy, .outward = kx > 0, .energy = energy,
-    };
+    double m_phi = -kz * n;
+    kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
+}
+
+/* Labels have no place for E = 0; a ray next to it is the same to 1e-12 of what the observer measures. */
+void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
+{
+    double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;
+    *out = (struct kd_camera_label) { .alpha = -momentum / e, .beta = up / fabs(e), .outward = outward, .energy = e };
 }

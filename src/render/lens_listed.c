@@ -71,10 +71,13 @@ static void fill_radii(const struct work *w, uint32_t order, float *to)
     }
 }
 
+/* A ray of negative energy goes round the other way (camera.h). */
 static void fill_azimuths(const struct work *w, uint32_t order, float *to)
 {
-    for (size_t i = 0; i < w->n; i++)
-        to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].phi : 0;
+    for (size_t i = 0; i < w->n; i++) {
+        double phi = order < w->ends[i].n_crossings ? w->crossings[i * w->plan->orders + order].phi : 0;
+        to[i] = (float)(w->energy[i] < 0 ? -phi : phi);
+    }
 }
 
 static void fill_delays(const struct work *w, uint32_t order, float *to)
@@ -92,7 +95,7 @@ static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint
         const struct kd_ray_end *end = &w->ends[i];
         double r = w->crossings[i * w->plan->orders + order].r;
         to[i] = order < end->n_crossings && r < isco
-                    ? (float)(w->energy[i] * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)) : 0;
+                    ? (float)(fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)) : 0;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "render/accuracy.h"
 #include "render/critical_pixels.h"
 #include "render/plunging.h"
+#include "render/sky_noise.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,6 +59,9 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
     say(plan, disk || plan->spots, "disk: image orders beyond accuracy.orders are left out");
     say(plan, disk || plan->spots, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
     say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
+    say(plan, plan->sky && kd_sky_is_noise(scene, plan->setting.precision),
+        "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads "
+        "more than 0.1 rad away");
     say(plan, (disk || plan->spots) && scene->style.ringdown > 0,
         "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time");
     say(plan, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4,
@@ -269,16 +273,18 @@ static double ergosphere(const struct kd_scene *scene)
     return kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(scene->camera.inclination_deg));
 }
 
-/* Whether listed rays can stand in for the camera's: they are labelled by L/E and Q/E^2, and E changes sign in the ergosphere. */
+/* Whether E is positive for each ray of the camera, as the device's engines take it to be where rays are listed. The closed form
+ * needs no more than L/E and Q/E^2. */
 static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
 
-static enum kd_status may_list(const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status may_list(const struct kd_scene *scene, const struct kd_setting *by, struct kd_error *error)
 {
-    if (outside(scene))
+    if (outside(scene) || by->engine == KD_ENGINE_CLOSED)
         return KD_OK;
-    return kd_error_field(error, "/accuracy",
-                          "only the Mino engines in f32 work inside the ergosphere, camera.r %.9g: give accuracy.engine, precision, "
-                          "profile or tolerance that come to it, or move the camera out of %.9g M", scene->camera.r, ergosphere(scene));
+    return kd_error_field(error, "/accuracy/engine",
+                          "accuracy.engine is \"%s\" in %s, allowed inside the ergosphere, camera.r %.9g, are \"auto\", \"closed\" and the Mino "
+                          "engines in f32; or move the camera out of %.9g M", kd_engine_name(by->engine), kd_precision_name(by->precision),
+                          scene->camera.r, ergosphere(scene));
 }
 
 /* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless an engine or steps are named,
@@ -328,13 +334,17 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         by->steps = 0;
         return KD_OK;
     }
+    if (!outside(scene) && by->precision == KD_PRECISION_F64 && wish.engine < 0 && !wish.steps) {
+        by->engine = KD_ENGINE_CLOSED;
+        by->steps = 0;
+    }
     bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32 &&
                !plan->delay; /* which only listed rays know */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
     if (plan->delay && !outside(scene))
         return kd_error_field(error, "/disk/slow_light", 
                               "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
-    return map ? KD_OK : may_list(scene, error);
+    return map ? KD_OK : may_list(scene, by, error);
 }
 
 /* All but what depends on the pixels at the critical curve. */
@@ -381,7 +391,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
         status = bands(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.audit = plan.cacheable && plan.orders && outside(scene);
+    plan.audit = plan.cacheable && plan.orders;
     passes(&plan, scene, capacity);
     approximations(&plan, scene);
     if (lens_key(&plan, scene))

@@ -34,7 +34,7 @@ const char *kd_renderer_device_name(const struct kd_renderer *renderer);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
 /* What an answer says of its own accuracy: errors of crossing radii, measured on a sample of the picture's rays against the
- * closed form in double. sampled is 0 where that cannot be: a picture too large to keep its lens map, a camera in the ergosphere. */
+ * closed form in double. sampled is 0 where that cannot be: a picture too large to keep its lens map, one without crossings. */
 struct kd_accuracy_report {
     uint64_t undecided;          /* rays of the whole picture that were given up: magenta in it */
     uint32_t sampled, crossings; /* rays traced again; crossings compared */
