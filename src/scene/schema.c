@@ -29,10 +29,11 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     case KD_FIELD_BOOL: kd_write(w, "\"type\":\"boolean\""); return;
     case KD_FIELD_ENUM: write_words(w, field); return;
     case KD_FIELD_WORD:
-        kd_write(w, "\"anyOf\":[{");
-        write_range(w, "number", field);
-        kd_write(w, "},{\"const\":");
+        /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a number. */
+        kd_write(w, "\"anyOf\":[{\"const\":");
         kd_write_string(w, field->words);
+        kd_write(w, "},{");
+        write_range(w, "number", field);
         kd_write(w, "}]");
         return;
     }

@@ -1,7 +1,9 @@
 /* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
  * table. */
 #include "server/openapi.h"
+#include "server/assets.h"
 #include "server/openapi_jobs.h"
+#include "server/openapi_media.h"
 #include "server/openapi_orbits.h"
 #include "server/openapi_physics.h"
 #include "server/openapi_rays.h"
@@ -41,13 +43,84 @@ static void begin_parameter(struct kd_json *json, const char *in, const char *na
     kd_json_string(json, "in", in);
 }
 
-static void add_text_parameter(struct kd_json *json, const char *in, const char *name)
+static void add_preset_schema(struct kd_json *json)
 {
-    begin_parameter(json, in, name);
-    if (!strcmp(in, "path"))
-        kd_json_bool(json, "required", true);
-    add_string_type(json, "schema");
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    for (size_t i = 0; i < kd_scene_preset_count(); i++)
+        kd_json_string(json, NULL, kd_scene_preset_name(i));
     kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_preset_parameter(struct kd_json *json)
+{
+    begin_parameter(json, "query", "preset");
+    add_preset_schema(json);
+    kd_json_end(json);
+}
+
+/* Files below the folder that the route names. */
+static void add_file_schema(struct kd_json *json, const char *path)
+{
+    size_t skip = strlen("/web/"), n = strcspn(path, "{") - skip;
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    for (size_t i = 0; i < kd_n_assets; i++)
+        if (!strncmp(kd_assets[i].name, path + skip, n) && !strchr(kd_assets[i].name + n, '/'))
+            kd_json_string(json, NULL, kd_assets[i].name + n);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_path_parameter(struct kd_json *json, const char *path)
+{
+    static const char id[] = "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{16}$\"}";
+    const char *brace = strchr(path, '{');
+    char name[20];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(brace + 1, "}"), brace + 1);
+    begin_parameter(json, "path", name);
+    kd_json_bool(json, "required", true);
+    if (!strcmp(name, "id"))
+        kd_json_raw(json, "schema", id, sizeof id - 1);
+    else if (!strncmp(path, "/web/", 5))
+        add_file_schema(json, path);
+    else
+        add_preset_schema(json);
+    kd_json_end(json);
+}
+
+#define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
+
+/* What the query may hold besides fields of a scene. */
+static const struct { const char *path, *name, *schema, *help; } queries[] = {
+    { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
+    { "/v1/jobs/{id}/result", "format", "{\"type\":\"string\",\"enum\":[\"zip\",\"png\",\"stream\",\"json\",\"csv\"]}",
+      "json and csv are those of a light curve, the others of pictures" },
+    { "/v1/jobs/{id}/result", "frame", WHOLE, "with format=png: which" },
+};
+
+static bool has_query(const struct kd_route *route)
+{
+    for (size_t i = 0; i < sizeof queries / sizeof *queries; i++)
+        if (!strcmp(queries[i].path, route->path))
+            return true;
+    return false;
+}
+
+static void add_query(struct kd_json *json, const struct kd_route *route)
+{
+    for (size_t i = 0; i < sizeof queries / sizeof *queries; i++) {
+        if (strcmp(queries[i].path, route->path))
+            continue;
+        begin_parameter(json, "query", queries[i].name);
+        kd_json_string(json, "description", queries[i].help);
+        kd_json_raw(json, "schema", queries[i].schema, strlen(queries[i].schema));
+        kd_json_end(json);
+    }
 }
 
 /* Every scalar of the schema by its dotted path. */
@@ -75,26 +148,22 @@ static void add_fields(struct kd_json *json, const cJSON *schema, const char *pr
 static bool has_parameters(const struct kd_route *route)
 {
     return strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
-           route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES;
+           route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
 }
 
 static void add_parameters(struct kd_json *json, const struct kd_route *route, bool post, const cJSON *schema)
 {
-    const char *brace = strchr(route->path, '{');
-
     kd_json_array(json, "parameters");
-    if (brace) {
-        char name[20];
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(brace + 1, "}"), brace + 1);
-        add_text_parameter(json, "path", name);
-    }
+    if (strchr(route->path, '{'))
+        add_path_parameter(json, route->path);
+    add_query(json, route);
     if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
-        add_text_parameter(json, "query", "preset");
+        add_preset_parameter(json);
         if (!post)
             add_fields(json, schema, "");
     }
     if (route->takes == KD_TAKES_JOB)
-        add_text_parameter(json, "query", "preset");
+        add_preset_parameter(json);
     if (route->takes == KD_TAKES_RAYS)
         kd_openapi_rays_parameters(json);
     if (route->takes == KD_TAKES_PARTICLES)
@@ -146,10 +215,12 @@ static void add_answer(struct kd_json *json, const struct kd_route *route)
     case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
     case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_answer(json); break;
-    default:
-        kd_json_object(json, type);
-        kd_json_raw(json, "schema", "{}", 2);
-        kd_json_end(json);
+    default: kd_openapi_media(json, type, "", 0);
+    }
+    for (const char *also = route->also; also && *also; also += strspn(also, " ")) {
+        snprintf(type, sizeof type, "%.*s", (int)strcspn(also, " "), also);
+        kd_openapi_media(json, type, "", 0);
+        also += strlen(type);
     }
     kd_json_end(json);
 }
@@ -172,8 +243,13 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, un
 static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const cJSON *schema)
 {
     bool body = method == KD_POST || method == KD_PATCH;
+    char id[80];
+    kd_openapi_operation_id(id, sizeof id, name, route->path);
     kd_json_object(json, name);
+    kd_json_string(json, "operationId", id);
     kd_json_string(json, "summary", route->summary);
+    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE)
+        kd_json_raw(json, "security", "[{\"token\":[]}]", strlen("[{\"token\":[]}]"));
     if (has_parameters(route))
         add_parameters(json, route, body, schema);
     add_body(json, route, method);
@@ -198,7 +274,9 @@ static void add_problem_schema(struct kd_json *json)
 
 static void add_components(struct kd_json *json, const struct kd_buffer *schema)
 {
+    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session or job\"}}";
     kd_json_object(json, "components");
+    kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
     add_problem_schema(json);

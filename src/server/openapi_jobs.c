@@ -12,7 +12,7 @@
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" SCENE ",\"keyframes\":{\"type\":\"array\",\"minItems\":1,"
     "\"maxItems\":1000,\"items\":" OBJECT "\"required\":[\"frame\",\"scene\"],\"properties\":{\"frame\":{\"type\":\"integer\",\"minimum\":0,"
-    "\"maximum\":9999},\"scene\":{\"type\":\"object\"}}}},\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
+    "\"maximum\":9999},\"scene\":" SCENE "}}},\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
     "\"interpolation\":{\"enum\":[\"linear\",\"smooth\"]}," OUTPUT "}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
     "\"minItems\":1,\"maxItems\":10000,\"items\":" SCENE "}," OUTPUT "}}]}";
 

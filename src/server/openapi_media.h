@@ -4,13 +4,36 @@
 
 #include "base/json.h"
 
-/* A member of a "content": schema is JSON text; size 0: nothing is said of what it carries. */
+#include <stdbool.h>
+#include <string.h>
+
+/* What is known of a body by its media type alone. */
+static inline const char *kd_openapi_schema_of(const char *type)
+{
+    if (strstr(type, "json") && !strstr(type, "ndjson"))
+        return "{\"type\":\"object\"}";
+    bool text = !strncmp(type, "text/", 5) || strstr(type, "ndjson");
+    return text ? "{\"type\":\"string\"}" : "{\"type\":\"string\",\"format\":\"binary\"}";
+}
+
+/* A member of a "content": schema is JSON text; size 0: no more is said than the media type does. */
 static inline void kd_openapi_media(struct kd_json *json, const char *type, const char *schema, size_t size)
 {
+    const char *plain = kd_openapi_schema_of(type);
     kd_json_object(json, type);
-    if (size)
-        kd_json_raw(json, "schema", schema, size);
+    kd_json_raw(json, "schema", size ? schema : plain, size ? size : strlen(plain));
     kd_json_end(json);
+}
+
+/* "get_sessions_id_frame_png" of GET /v1/sessions/{id}/frame.png: an identifier in any language. */
+static inline void kd_openapi_operation_id(char *out, size_t size, const char *method, const char *path)
+{
+    size_t n = strlen(strncpy(out, method, size - 1));
+    path += !strncmp(path, "/v1/", 4) ? 3 : 0;
+    for (const char *p = strcmp(path, "/") ? path : "/page"; *p && n + 1 < size; p++)
+        if (*p != '{' && *p != '}')
+            out[n++] = (*p >= 'a' && *p <= 'z') || (*p >= '0' && *p <= '9') ? *p : '_';
+    out[n] = 0;
 }
 
 /* A requestBody that must be there, as JSON of this schema; other: a second media type, NULL for none. */

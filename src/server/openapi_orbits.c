@@ -33,7 +33,7 @@ static const char answer[] =
     ",\"constants\":{\"type\":\"object\"},\"turning_points\":{\"type\":\"object\"},\"shape\":{\"type\":\"object\"}"
     ",\"frequencies\":{\"type\":\"object\"},\"advance\":{\"type\":\"object\"},\"series\":{\"type\":\"object\",\"properties\":{"
     "\"columns\":{\"type\":\"array\",\"items\":{\"type\":\"string\"}},\"rows\":{\"type\":\"array\",\"items\":{\"type\":\"array\","
-    "\"items\":{\"type\":[\"number\",\"null\"]}}}}},\"result\":{\"type\":\"object\"},\"orbits\":{\"type\":\"array\"}}}";
+    "\"items\":{\"type\":[\"number\",\"null\"]}}}}},\"result\":{\"type\":\"object\"},\"orbits\":{\"type\":\"array\",\"items\":{\"type\":\"object\"}}}}";
 
 _Static_assert(KD_ORBITS_MAX == 10000 && KD_ORBIT_SAMPLES_MAX == 200000, "openapi.json says so");
 

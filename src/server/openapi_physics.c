@@ -3,10 +3,15 @@
 #include "quantity/quantity.h"
 #include "server/openapi_media.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
+
+#define DECIMAL "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
+#define RANGE "^" DECIMAL ":" DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 
 static void add_words(struct kd_json *json, const char *text)
 {
@@ -36,19 +41,25 @@ static void add_schema(struct kd_json *json, const struct kd_parameter *p)
         add_words(json, p->words);
     } else {
         kd_json_array(json, "anyOf");
-        add_number(json, p);
-        kd_json_object(json, NULL);
-        kd_json_string(json, "type", "string");
-        kd_json_string(json, "pattern", "^[^:]+:[^:]+:[0-9]+$");
-        kd_json_end(json);
-        if (p->word) {
+        if (p->word) { /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
             kd_json_object(json, NULL);
+            kd_json_string(json, "type", "string");
             kd_json_string(json, "const", p->word);
             kd_json_end(json);
         }
+        add_number(json, p);
+        kd_json_object(json, NULL);
+        kd_json_string(json, "type", "string");
+        kd_json_string(json, "pattern", RANGE);
+        kd_json_end(json);
         kd_json_end(json);
     }
-    kd_json_string(json, "default", p->initial);
+    char *end;
+    double number = strtod(p->initial, &end);
+    if (*end || p->words || !isfinite(number)) /* "infinity" is a word here */
+        kd_json_string(json, "default", p->initial);
+    else
+        kd_json_number(json, "default", number);
     kd_json_end(json);
 }
 
@@ -133,7 +144,10 @@ void kd_openapi_physics_paths(struct kd_json *json)
         char path[80];
         snprintf(path, sizeof path, "/v1/physics/%s", kd_quantities[i]->name);
         kd_json_object(json, path);
+        char id[80];
+        kd_openapi_operation_id(id, sizeof id, "get", path);
         kd_json_object(json, "get");
+        kd_json_string(json, "operationId", id);
         kd_json_string(json, "summary", kd_quantities[i]->summary);
         add_parameters(json, kd_quantities[i]);
         add_responses(json, kd_quantities[i]);

@@ -30,6 +30,7 @@ struct kd_route {
     enum MHD_Result (*handle)(struct kd_request *request);
     const char *answer, *summary; /* media type, and a sentence for openapi.json */
     enum kd_takes takes;
+    const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
     unsigned status[2]; /* of an answer that is none of a problem; { 0 }: 200; what DELETE ends is 204 */
 };
 
