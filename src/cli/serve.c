@@ -12,7 +12,8 @@ struct arguments {
     const char *device, *listen;
     const char *state;
     uint64_t memory;
-    unsigned port, queue, sessions, jobs, client_jobs;
+    unsigned port, queue, sessions, jobs, client_jobs, client_share;
+    bool cross_site;
     const char **hosts; /* NULL-terminated once there is one */
     size_t n_hosts;
 };
@@ -23,7 +24,9 @@ static const struct argp_option table[] = {
     { "queue", 'q', "N", 0, "renders that may wait for the device (default 16)", 0 },
     { "sessions", 's', "N", 0, "live sessions at once (default 16)", 0 },
     { "jobs", 'j', "N", 0, "unfinished jobs at once (default 16)", 0 },
-    { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one address (default: as many as any)", 0 },
+    { "client-share", 'C', "PERCENT", 0, "of each of these that one client, an address, may have (default 75)", 0 },
+    { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one client (default: by --client-share)", 0 },
+    { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
     { "state", 'S', "DIR", 0, "keep jobs and their frames there, so that they survive a restart", 0 },
     KD_CLI_MEMORY,
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
@@ -51,6 +54,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 's': arguments->sessions = kd_cli_number(state, "--sessions", text, 1, 10000); return 0;
     case 'j': arguments->jobs = kd_cli_number(state, "--jobs", text, 1, 1000); return 0;
     case 'J': arguments->client_jobs = kd_cli_number(state, "--jobs-per-client", text, 1, 1000); return 0;
+    case 'C': arguments->client_share = kd_cli_number(state, "--client-share", text, 1, 100); return 0;
+    case 'X': arguments->cross_site = true; return 0;
     case 'S': arguments->state = text; return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case 'H': add_host(arguments, text, state); return 0;
@@ -99,6 +104,8 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .sessions = arguments->sessions,
         .jobs = arguments->jobs,
         .client_jobs = arguments->client_jobs,
+        .client_share = arguments->client_share,
+        .cross_site = arguments->cross_site,
         .state = arguments->state,
         .renderer = { .device = arguments->device, .prove = true, .memory_bytes = arguments->memory },
     };

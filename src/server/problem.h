@@ -12,6 +12,7 @@
 #define KD_PROBLEMS(X)                                                                                       \
     X(BAD_REQUEST, 400, "bad-request", "The request is not sound HTTP")                                      \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object")                     \
+    X(CROSS_SITE, 403, "cross-site", "Pages of other sites may not use this server")                              \
     X(FORBIDDEN, 403, "forbidden", "This takes a token")                                                     \
     X(NOT_FOUND, 404, "not-found", "There is nothing under this address")                                    \
     X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
@@ -28,7 +29,7 @@
     X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid")                            \
     X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid")                                 \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
-    X(QUOTA, 429, "quota", "This client has as many jobs as one may")                                         \
+    X(QUOTA, 429, "quota", "This client has as much as one may")                                              \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \

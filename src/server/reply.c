@@ -128,6 +128,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
     if (!response)
         return kd_reply_no_memory(request);
     MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
+    MHD_add_response_header(response, "Cross-Origin-Resource-Policy", server->cross_site ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
     if (*request->file && status == MHD_HTTP_OK)

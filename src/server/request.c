@@ -17,6 +17,8 @@
 #define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
 #define JOB_TOO_LARGE "a body of a job may hold 4194304 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
+#define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
+#define PACE ((size_t)960000) /* bytes of a body within the time for one that is small: 32 kB/s of the default */
 
 static struct kd_connection *connection_of(struct MHD_Connection *mhd)
 {
@@ -114,7 +116,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     write_log(request, why);
     atomic_fetch_add(&server->answers[request->status / 100 % KD_STATUS_CLASSES], 1);
     stage(request, KD_STAGE_IDLE);
-    atomic_fetch_sub(&server->body_bytes, request->body.size);
+    kd_bodies_give(server->bodies, request->client, request->body.size);
     if (request->job) {
         kd_buffer_finish(&request->job->png);
         kd_frame_finish(&request->job->frame);
@@ -183,12 +185,26 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
         *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request) };
         return true;
     }
-    *problem =
-        (struct kd_problem) { .type = KD_PROBLEM_CROWDED, .retry_after = 1, .detail = BODIES_TOO_MANY };
-    return atomic_load(&request->server->body_bytes) > KD_BODIES_MAX;
+    bool quota, refused = kd_bodies_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
+    *problem = (struct kd_problem) { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_CROWDED, .retry_after = 1,
+                                     .detail = quota ? BODIES_OF_CLIENT : BODIES_TOO_MANY };
+    return refused;
 }
 
 /* True when the request may go on; else *result is that of having refused it. */
+/* A page of another site may have anything loaded by its visitors' browsers, which say so (Fetch Metadata, W3C). What it could make a
+ * server do that it cannot reach itself is refused, but for a visit: a link to a picture is one. */
+static bool is_foreign(const struct kd_request *request)
+{
+    const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
+    const char *mode = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Mode");
+    const char *to = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Dest");
+    if (request->server->cross_site || !site || strcmp(site, "cross-site"))
+        return false;
+    bool visit = mode && !strcmp(mode, "navigate") && to && !strcmp(to, "document") && strcmp(request->method, "POST");
+    return !visit && !strncmp(request->route->path, "/v1/", 4);
+}
+
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
@@ -203,7 +219,13 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
                                         .retry_after = 1,
                                         .close = true,
                                         .detail = "more connections are open than this server takes" };
-    else if (kd_route_find(request, &problem) && !body_fault(request, &problem))
+    else if (!kd_route_find(request, &problem))
+        request->route = NULL;
+    else if (is_foreign(request))
+        problem = (struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
+                                        .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
+                                                  "which this server takes with --allow-cross-site only" };
+    else if (!body_fault(request, &problem))
         return true;
     *result = kd_reply_problem(request, &problem);
     return false;
@@ -230,10 +252,7 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
         kd_connection_linger(request->connection);
         return result;
     }
-    kd_connections_stage(server->connections, request->connection, KD_STAGE_BODY,
-                         request->body_announced && request->header.content_length > KD_BODY_MAX
-                             ? request->header.content_length
-                             : 0);
+    kd_connections_stage(server->connections, request->connection, KD_STAGE_BODY, 0);
     return MHD_YES;
 }
 
@@ -253,11 +272,19 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
 
     if (*size > body_max(request) - request->body.size)
         return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request));
-    if (kd_buffer_append(&request->body, data, *size))
+    size_t all = request->body.size + *size;
+    bool quota;
+    if (kd_bodies_take(server->bodies, request->client, *size, all > request->header.content_length ? all : request->header.content_length, &quota))
+        return quota ? cut_body(request, KD_PROBLEM_QUOTA, BODIES_OF_CLIENT) : cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
+    if (kd_buffer_append(&request->body, data, *size)) {
+        kd_bodies_give(server->bodies, request->client, *size);
         return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
-    if (atomic_fetch_add(&server->body_bytes, *size) + *size > KD_BODIES_MAX)
-        return cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
+    }
     *size = 0;
+    if (all - request->body_mark >= PACE) { /* it keeps up, and has as long for the next part */
+        request->body_mark = all;
+        stage(request, KD_STAGE_BODY);
+    }
     return MHD_YES;
 }
 

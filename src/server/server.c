@@ -105,6 +105,14 @@ static enum kd_status start_keeper(struct kd_server *server, struct kd_error *er
     return KD_OK;
 }
 
+/* What one client may have of a limit: one at least. */
+static unsigned share_of(const struct kd_server_params *params, unsigned limit)
+{
+    unsigned percent = or_default(params->client_share, 75);
+    unsigned share = (unsigned)((uint64_t)limit * (percent > 100 ? 100 : percent) / 100);
+    return share ? share : 1;
+}
+
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
                             struct kd_error *error)
 {
@@ -118,7 +126,9 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     server->stop_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     server->connections = kd_connections_create(connections, or_default(params->header_ms, 10000),
                                                 or_default(params->body_ms, 30000));
-    if (server->stop_fd < 0 || !server->connections)
+    server->cross_site = params->cross_site;
+    server->bodies = kd_bodies_create(&(struct kd_bodies_params) { KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX });
+    if (server->stop_fd < 0 || !server->connections || !server->bodies)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
     enum kd_status status = collect_hosts(server, address, params->hosts, error);
     if (!status)
@@ -128,8 +138,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         status = kd_listen_open(address, &server->port, &fd, error);
     if (!status)
         status =
-            kd_render_queue_create(&params->renderer, or_default(params->queue, 16), or_default(params->queue, 16), &server->renders,
-                                        error);
+            kd_render_queue_create(&params->renderer, or_default(params->queue, 16), share_of(params, or_default(params->queue, 16)),
+                                   &server->renders, error);
     if (status) {
         if (fd >= 0)
             close(fd);
@@ -143,8 +153,11 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         close(fd);
         return status;
     }
-    const struct kd_sessions_params sessions = { server->renders, or_default(params->sessions, 16),
-                                                 or_default(params->session_ms, KD_SESSION_IDLE_MS), server->longest_s };
+    const struct kd_sessions_params sessions = {
+        .renders = server->renders, .limit = or_default(params->sessions, 16),
+        .client_limit = share_of(params, or_default(params->sessions, 16)),
+        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .longest_s = server->longest_s,
+    };
     status = kd_sessions_create(&sessions, &server->sessions, error);
     if (status) {
         close(fd);
@@ -152,7 +165,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     }
     const struct kd_jobs_params jobs = {
         .renders = server->renders, .state = params->state, .limit = or_default(params->jobs, 16), .kept = KD_JOBS_KEPT,
-        .client_limit = params->client_jobs, .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
+        .client_limit = params->client_jobs ? params->client_jobs : share_of(params, or_default(params->jobs, 16)), .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
         .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,
     };
     status = kd_jobs_create(&jobs, &server->jobs, error);
@@ -236,6 +249,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);
     kd_connections_destroy(server->connections);
+    kd_bodies_destroy(server->bodies);
     kd_kept_destroy(server->kept);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);

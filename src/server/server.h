@@ -17,7 +17,9 @@ struct kd_server_params {
     unsigned sessions;        /* live ones at once, default 16 */
     unsigned session_ms;      /* that one lives on unwatched, default 60 000 */
     unsigned jobs;            /* unfinished ones, default 16 */
-    unsigned client_jobs;     /* unfinished ones of one address; 0: as many as any */
+    unsigned client_share;    /* percent of renders that wait, sessions and jobs that one client may have; default 75 */
+    unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
+    bool cross_site;          /* take requests that pages of other sites make */
     unsigned jobs_kib;        /* of the frames of all jobs, default 16 GiB */
     const char *state;        /* a folder in which jobs survive a restart; NULL: none */
     unsigned drain_ms;        /* of serving on after a stop request, with /readyz failing; default 1000 */

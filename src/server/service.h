@@ -6,6 +6,7 @@
 #ifndef KD_SERVER_SERVICE_H
 #define KD_SERVER_SERVICE_H
 
+#include "server/bodies.h"
 #include "server/connections.h"
 #include "server/front.h"
 #include "server/jobs.h"
@@ -21,7 +22,9 @@
 #include <stdbool.h>
 
 #define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes; those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
-#define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received */
+#define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received, */
+#define KD_BODIES_SHARE ((size_t)128 << 20) /* of those of one client: it leaves room for the largest one of another, */
+#define KD_BODIES_SMALL ((size_t)16 << 20) /* and beside all these, of bodies of up to KD_BODY_MAX */
 #define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures and rays not yet taken by their clients; one may exceed it */
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
@@ -61,7 +64,9 @@ struct kd_server {
 
     _Atomic int phase;
     _Atomic unsigned requests; /* begun and not yet answered in full */
-    _Atomic size_t body_bytes, reply_bytes;
+    struct kd_bodies *bodies;
+    bool cross_site; /* pages of other sites may use it */
+    _Atomic size_t reply_bytes;
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */

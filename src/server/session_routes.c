@@ -67,6 +67,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
 {
     struct kd_server *server = request->server;
     struct kd_session *session = NULL;
+    bool quota;
     struct kd_session_state state;
     struct kd_problem problem;
     struct kd_error error = { 0 };
@@ -79,8 +80,10 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
                                                                 .detail = "the server is stopping and takes no new sessions" });
-    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, &session, &error)) {
+    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, &quota, &session, &error)) {
         problem = kd_problem_from(&error);
+        if (quota)
+            problem.type = KD_PROBLEM_QUOTA;
         problem.retry_after = 10;
         return kd_reply_problem(request, &problem);
     }

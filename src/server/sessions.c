@@ -76,8 +76,9 @@ static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *
 }
 
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                struct kd_session **out, struct kd_error *error)
+                                bool *quota, struct kd_session **out, struct kd_error *error)
 {
+    *quota = false;
     struct kd_session *s = calloc(1, sizeof *s);
     if (!s || !kd_secret_make(s->id, sizeof s->id) || !kd_secret_make(s->token, sizeof s->token)) {
         free(s);
@@ -94,7 +95,17 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     kd_governor_changed(&s->governor, s->since_ms, scene, true);
     kd_session_expect(s, plan);
     pthread_mutex_lock(&all->lock);
-    if (all->closed || all->count >= all->params.limit) {
+    unsigned own = 0;
+    for (const struct kd_session *other = all->first; other; other = other->next)
+        own += !strcmp(other->client, client);
+    bool full = all->closed || all->count >= all->params.limit;
+    if (!full && own >= all->params.client_limit) {
+        pthread_mutex_unlock(&all->lock);
+        free(s);
+        *quota = true;
+        return kd_error_set(error, KD_EBUSY, "%u of your sessions are open, as many as one client may have", own);
+    }
+    if (full) {
         unsigned n = all->count;
         pthread_mutex_unlock(&all->lock);
         free(s);

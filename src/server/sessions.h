@@ -16,7 +16,8 @@ struct kd_session;
 
 struct kd_sessions_params {
     struct kd_render_queue *renders;
-    unsigned limit;   /* sessions at once */
+    unsigned limit;   /* sessions at once, */
+    unsigned client_limit; /* and those of one client */
     unsigned idle_ms; /* without anybody watching or asking, after which a session ends */
     unsigned longest_s; /* a frame as asked may take, by its plan */
 };
@@ -28,9 +29,9 @@ void kd_sessions_destroy(struct kd_sessions *all);
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
 /* A valid scene with its plan, to a new session, of which the caller holds a reference; whose frames are from the
- * client's share. KD_EBUSY: as many as may. */
+ * client's share. KD_EBUSY: as many as may, or with *quota as many of this client. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                struct kd_session **out, struct kd_error *error);
+                                bool *quota, struct kd_session **out, struct kd_error *error);
 /* A reference to the session of this id, or NULL. Counts as being asked. */
 struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
 void kd_session_release(struct kd_session *session);

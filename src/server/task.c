@@ -101,6 +101,6 @@ enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held
 
 void kd_task_drop_body(struct kd_request *request)
 {
-    atomic_fetch_sub(&request->server->body_bytes, request->body.size);
+    kd_bodies_give(request->server->bodies, request->client, request->body.size);
     kd_buffer_finish(&request->body);
 }

@@ -40,8 +40,8 @@ class Daemon:
             raise RuntimeError(f'no announcement but {line!r}')
         self.port = int(match[1])
 
-    def connect(self, timeout=60):
-        return socket.create_connection(('127.0.0.1', self.port), timeout)
+    def connect(self, timeout=60, source='127.0.0.1'):
+        return socket.create_connection(('127.0.0.1', self.port), timeout, source_address=(source, 0))
 
     def request(self, method, target, body=None, headers=None, timeout=60):
         connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout)

@@ -28,6 +28,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         { "--session-ms", &params->session_ms },
         { "--jobs", &params->jobs },
         { "--client-jobs", &params->client_jobs },
+        { "--client-share", &params->client_share },
         { "--jobs-kib", &params->jobs_kib },
         { "--drain-ms", &params->drain_ms },
         { "--header-ms", &params->header_ms },
@@ -53,7 +54,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
 
 int main(int argc, char **argv)
 {
-    struct kd_server_params params = { 0 };
+    struct kd_server_params params = { .client_share = 100 }; /* most tests fill a limit from one address */
     struct kd_error error;
     const char *hosts[2] = { NULL, NULL };
 

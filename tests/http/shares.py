@@ -1,0 +1,166 @@
+"""What one client may make another one wait or be refused. 127.0.0.1 and 127.0.0.2 are two clients."""
+import http.client
+import json
+import threading
+import time
+import unittest
+
+import daemon
+
+RENDER = '/v1/render?' + daemon.SMALL
+# What this renderer says of them is 1 us a ray, 6.6 s; what they take is `time`, in slices of 10 ms.
+LONG = '/v1/render?image.width=1280&image.height=1280&image.samples=2&time=%d'
+
+
+class Case(daemon.Case):
+    def ask(self, source, method, target, body=None, headers=None):
+        connection = http.client.HTTPConnection('127.0.0.1', self.daemon.port, timeout=60, source_address=(source, 0))
+        try:
+            headers = dict(headers or {})
+            if body is not None:
+                headers['Content-Type'] = 'application/json'
+            connection.request(method, target, json.dumps(body) if isinstance(body, dict) else body, headers)
+            got = connection.getresponse()
+            return daemon.Answer(got.status, got.getheaders(), got.read())
+        finally:
+            connection.close()
+
+    def begin(self, target, source='127.0.0.1'):
+        s = self.daemon.connect(source=source)
+        s.sendall(f'GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+        self.addCleanup(s.close)
+        return s
+
+
+class Device(Case):
+    options = ('--queue', 16, '--client-share', 50)
+
+    def test_a_long_picture_holds_nobody(self):
+        """Seen on a server where it did: the small ones came after it."""
+        long = self.begin(LONG % 4000)
+        time.sleep(0.3)
+        for source in ('127.0.0.1', '127.0.0.2'):
+            self.assertEqual(self.ask(source, 'GET', RENDER + '&time=20').status, 200)
+        long.setblocking(False)
+        self.assertRaises(BlockingIOError, long.recv, 1)  # not yet
+
+    def test_long_pictures_of_two_clients_go_on_side_by_side(self):
+        first = self.begin(LONG % 60000)
+        time.sleep(0.3)
+        self.assertEqual(self.ask('127.0.0.2', 'GET', LONG % 100).status, 200)
+        first.setblocking(False)
+        self.assertRaises(BlockingIOError, first.recv, 1)
+
+    def test_beside_living_sessions_a_picture_has_its_turn(self):
+        """And of a job a frame, though sessions of the same client want all there is."""
+        sessions = [self.daemon.post('/v1/sessions', {'image': {'width': 32, 'height': 18}, 'time': 30, 'motion': {'time_rate': 0.001},
+                                                      'disk': {'model': 'particles'}}).json() for _ in range(2)]
+        over = threading.Event()
+
+        def watch(session):
+            frame = 0
+            while not over.is_set():
+                answer = self.daemon.get(f'/v1/sessions/{session["id"]}/frame.png?after={frame}&wait_ms=2000')
+                frame = int(answer.header('Kerrd-Frame') or frame)
+        threads = [threading.Thread(target=watch, args=(s,)) for s in sessions]
+        for t in threads:
+            t.start()
+        try:
+            job = self.daemon.post('/v1/jobs', {'scene': {'image': {'width': 32, 'height': 18}, 'time': 20}}).json()
+            before = self.daemon.metrics()['kerrd_session_frames_total']
+            for _ in range(5):
+                self.assertEqual(self.daemon.get(RENDER + '&time=20').status, 200)
+            self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).json()['state'] == 'done', 30))
+            # Between six works of 20 ms there are some frames, and not hundreds: counted, for a clock would judge the machine.
+            frames = self.daemon.metrics()['kerrd_session_frames_total'] - before
+            self.assertGreater(frames, 4)
+        finally:
+            over.set()
+            for t in threads:
+                t.join()
+            for s in sessions:
+                self.daemon.request('DELETE', '/v1/sessions/' + s['id'], headers={'Authorization': 'Bearer ' + s['token']})
+
+    def test_waiting_renders_of_one_client(self):
+        held = [self.begin(RENDER + '&time=1500')]
+        time.sleep(0.2)
+        held += [self.begin(RENDER + '&time=1') for _ in range(8)]
+        time.sleep(0.2)
+        problem = self.ask('127.0.0.1', 'GET', RENDER)
+        self.assertIn('8 of your renders', self.assertProblem(problem, 429, 'quota')['detail'])
+        self.assertTrue(problem.header('Retry-After'))
+        self.assertEqual(self.ask('127.0.0.2', 'GET', RENDER).status, 200)
+
+
+class Sessions(Case):
+    options = ('--sessions', 4, '--jobs', 4, '--client-share', 50)
+
+    def test_sessions_and_jobs_of_one_client(self):
+        scene = {'image': {'width': 32, 'height': 18}, 'time': 5}
+        for path, body, made in (('/v1/sessions', scene, 201), ('/v1/jobs', {'scene': {**scene, 'time': 60000}}, 202)):
+            own = [self.ask('127.0.0.1', 'POST', path, body) for _ in range(2)]
+            self.assertEqual([a.status for a in own], [made, made])
+            refused = self.ask('127.0.0.1', 'POST', path, body)
+            self.assertProblem(refused, 429, 'quota')
+            self.assertTrue(refused.header('Retry-After'))
+            own += [self.ask('127.0.0.2', 'POST', path, body) for _ in range(2)]
+            self.assertEqual([a.status for a in own], [made] * 4)
+            self.assertProblem(self.ask('127.0.0.3', 'POST', path, body), 503, 'queue-full')
+            for answer in own:
+                one = answer.json()
+                self.daemon.request('DELETE', f'{path}/{one["id"]}', headers={'Authorization': 'Bearer ' + one['token']})
+
+
+class Bodies(Case):
+    options = ('--body-ms', 1500)
+
+    def announce(self, sent, source='127.0.0.1'):
+        s = self.daemon.connect(source=source)
+        self.addCleanup(s.close)
+        s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 67108864\r\n\r\n')
+        s.sendall(b' ' * sent)
+        return s
+
+    def test_one_client_leaves_room_for_others(self):
+        for _ in range(3):
+            try:
+                self.announce(66000000)
+            except OSError:
+                pass  # refused before all of it was sent
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_bodies_bytes'] > 100e6))
+        self.assertLessEqual(self.daemon.metrics()['kerrd_bodies_bytes'], 128 << 20)
+        body = b'{"spin":0.9,"observer":{"inclination_deg":60},"rays":[' + b' ' * (8 << 20) + b'[5,0]]}'
+        answer = self.ask('127.0.0.2', 'POST', '/v1/rays', body)
+        self.assertEqual(answer.status, 200, answer.body)
+        self.assertEqual(self.ask('127.0.0.2', 'POST', '/v1/plan', b'{}').status, 200)
+
+    def test_a_body_that_dawdles_is_cut(self):
+        """However much it has announced, and sent: within the time for a small one."""
+        s = self.announce(3000000)
+        answer = daemon.read_answer(s)
+        self.assertProblem(answer, 408, 'timeout')
+
+
+class Sites(Case):
+    def test_pages_of_other_sites(self):
+        foreign = {'Sec-Fetch-Site': 'cross-site', 'Sec-Fetch-Mode': 'no-cors', 'Sec-Fetch-Dest': 'image'}
+        for target in (RENDER, '/v1/physics/kerr?spin=0.5', '/v1/sessions/0123456789abcdef/frame.png'):
+            answer = self.ask('127.0.0.1', 'GET', target, headers=foreign)
+            self.assertIn('--allow-cross-site', self.assertProblem(answer, 403, 'cross-site')['detail'])
+            self.assertEqual(answer.header('Cross-Origin-Resource-Policy'), 'same-site')
+        self.assertProblem(self.ask('127.0.0.1', 'POST', '/v1/render', {}, foreign), 403, 'cross-site')
+        # a frame in a foreign page is no visit
+        self.assertProblem(self.ask('127.0.0.1', 'GET', RENDER, headers={**foreign, 'Sec-Fetch-Mode': 'navigate', 'Sec-Fetch-Dest': 'iframe'}),
+                           403, 'cross-site')
+
+    def test_visits_and_others(self):
+        for headers in ({}, {'Sec-Fetch-Site': 'same-origin'}, {'Sec-Fetch-Site': 'same-site'}, {'Sec-Fetch-Site': 'none'},
+                        {'Sec-Fetch-Site': 'cross-site', 'Sec-Fetch-Mode': 'navigate', 'Sec-Fetch-Dest': 'document'}):
+            answer = self.ask('127.0.0.1', 'GET', RENDER, headers=headers)
+            self.assertEqual(answer.status, 200, headers)
+            self.assertEqual(answer.header('Cross-Origin-Resource-Policy'), 'same-site')
+        self.assertEqual(self.ask('127.0.0.1', 'GET', '/healthz', headers={'Sec-Fetch-Site': 'cross-site'}).status, 200)
+
+
+if __name__ == '__main__':
+    daemon.main()
