@@ -127,9 +127,10 @@ def large(load):
 
 
 def job(load):
-    load.server.ask(load.source, 'POST', '/v1/jobs', {'keyframes': [
-        {'frame': 0, 'scene': {'image': {'width': 1280, 'height': 720}}}, {'frame': 999, 'scene': {'camera': {'inclination_deg': 85}}}],
-        'frames': 1000})
+    picture = {'image': {'width': 1280, 'height': 720}}
+    answer, text = load.server.ask(load.source, 'POST', '/v1/jobs',
+                                   {'scenes': [{**picture, 'camera': {'inclination_deg': 60 + 0.02 * i}} for i in range(1000)]})
+    assert answer.status == 202, text
 
 
 def rays(load, n=1000000):
