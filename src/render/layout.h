@@ -9,7 +9,7 @@
 
 /* What is told from 0 on the device must stay so as a float, for whether a ray lies in the plane or on the axis depends on it; and
  * where denormal numbers count as zeros, so must its quotients and products with what else there is. */
-#define KD_LEAST_FLOAT 1e-20
+#define KD_LEAST_FLOAT 1e-22
 static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_FLOAT ? copysign(KD_LEAST_FLOAT, x) : x; }
 
 #define F(name) float name;

@@ -96,7 +96,8 @@ static void make(const struct view *v, struct list *list)
 
 static bool all_finite(const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
-    bool ok = isfinite(e->error) && e->error >= 0 && (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
+    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray that tells no number may have no error either */
+    bool ok = (isnan(e->error) ? !told : isfinite(e->error) && e->error >= 0) && (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
     for (uint32_t n = 0; n < e->n_crossings; n++)
         ok = ok && isfinite(c[n].r) && isfinite(c[n].phi) && isfinite(c[n].delay) && isfinite(c[n].g) && c[n].g >= 0;
     return ok;
