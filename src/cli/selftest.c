@@ -5,6 +5,7 @@
 #include "cli/progress.h"
 #include "render/selftest.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,7 +50,8 @@ static bool report(void *user, const struct kd_selftest_row *row)
         add_row(r->rows, row);
     else
         print_row(row);
-    fflush(stdout);
+    if (fflush(stdout))
+        kd_cli_stdout_failed(errno); /* later only that it failed is known, and not why */
     return true;
 }
 
