@@ -25,6 +25,7 @@ layout(constant_id = 1) const uint STEPS = 16; /* a half period; a multiple of 4
 layout(constant_id = 2) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
 #define KD_NYSTROEM_ORDER METHOD
 #include "kerr_ray.glsl"
+#define KD_POLAR_LISTED
 #include "polar.glsl"
 #include "radial_step.glsl"
 #include "path_step.glsl"
