@@ -2,6 +2,7 @@
 
 #include "render/rays.h"
 #include "scene/number.h"
+#include "scene/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,7 +73,9 @@ struct reader {
 
 static enum kd_status not_json(struct reader *r, const char *what)
 {
-    return kd_error_set(r->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu", what, r->at);
+    struct kd_text_place place = kd_text_place_of(r->text, r->at);
+    return kd_error_set(r->error, KD_EINVAL, "the document is not valid JSON: %s at byte %zu, line %zu, column %zu", what, r->at,
+                        place.line, place.column);
 }
 
 static bool take(struct reader *r, char c)

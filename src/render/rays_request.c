@@ -227,8 +227,8 @@ static enum kd_status read_tree(struct document *d, const cJSON *root)
     return status;
 }
 
-/* rest: the document, `cut` bytes of it taken out at `where`. It is NUL-terminated. */
-static enum kd_status read_rest(struct document *d, const char *rest, size_t length, size_t where, size_t cut)
+/* rest: the document `text`, `cut` bytes of it taken out at `where`. It is NUL-terminated. */
+static enum kd_status read_rest(struct document *d, const char *text, const char *rest, size_t length, size_t where, size_t cut)
 {
     const char *end = rest;
     struct kd_number_locale locale = kd_number_locale_enter();
@@ -238,17 +238,21 @@ static enum kd_status read_rest(struct document *d, const char *rest, size_t len
     kd_number_locale_leave(locale);
     if (starved)
         return kd_error_set(d->error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);
-    size_t at = (size_t)(end - rest), after = at + strspn(end, " \t\n\r");
+    size_t at = (size_t)(end - rest), after = at + strspn(end, " \t\n\r"), bad = root ? after : at < length ? at : length;
+    bad += bad > where ? cut : 0;
+    struct kd_text_place place = { 0 };
+    if (!root || after < length)
+        place = kd_text_place_of(text, bad);
     enum kd_status status = KD_OK;
     if (!root && at >= length)
-        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes",
-                              length + cut);
+        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON: it ends too early, after %zu bytes, in line %zu",
+                              bad, place.line);
     else if (!root)
-        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON near byte %zu",
-                              at > where ? at + cut : at);
+        status = kd_error_set(d->error, KD_EINVAL, "the document is not valid JSON near byte %zu, line %zu, column %zu", bad,
+                              place.line, place.column);
     else if (after < length)
-        status = kd_error_set(d->error, KD_EINVAL, "text follows the document at byte %zu",
-                              after > where ? after + cut : after);
+        status = kd_error_set(d->error, KD_EINVAL, "text follows the document at byte %zu, line %zu, column %zu", bad,
+                              place.line, place.column);
     else
         status = read_tree(d, root);
     cJSON_Delete(root);
@@ -273,7 +277,7 @@ static enum kd_status read_without_rays(struct document *d, const char *text, si
     memcpy(rest, text, start);
     memcpy(rest + start, "[]", kept);
     memcpy(rest + start + kept, text + end, length - end + 1);
-    status = read_rest(d, rest, rest_length, start, end - start - kept);
+    status = read_rest(d, text, rest, rest_length, start, end - start - kept);
     free(rest);
     return status;
 }

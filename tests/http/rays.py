@@ -80,8 +80,15 @@ class Requests(daemon.Case):
 
     def test_places_in_bad_json_count_from_its_start(self):
         body = '{"rays":[' + '[1,2],' * 1000 + '[1,2]],"spin":0.5}'
-        for wrong, place in ((body.replace('0.5', '0x5'), body.index('0.5') + 1), (body + 'x', len(body))):
-            self.assertIn(f'byte {place}', self.assertProblem(self.post(wrong), 400)['detail'])
+        lines = '{\n"rays":[\n' + '[1,2],\n' * 1000 + '[1,2]],\n "spin":0.5}\n'
+        for wrong, place in ((body.replace('0.5', '0x5'), body.index('0.5') + 1), (body + 'x', len(body)),
+                             (lines.replace('0.5', '0x5'), lines.index('0.5') + 1), (lines + 'x', len(lines)),
+                             (lines.replace('"spin"', 'spin'), lines.index('"spin"')),
+                             (lines.replace('[1,2]]', '[1,2}]'), lines.index('[1,2]]') + 4)):
+            line, column = wrong[:place].count('\n') + 1, place - wrong[:place].rfind('\n')
+            detail = self.assertProblem(self.post(wrong), 400)['detail']
+            self.assertIn(f'byte {place}, line {line}, column {column}', detail)
+        self.assertIn(f'line {lines.count(chr(10))}', self.assertProblem(self.post(lines[:-3]), 400)['detail'])
 
     def test_invalid(self):
         one = '"rays":[[1,2]]'
