@@ -24,7 +24,7 @@ TICKS = os.sysconf('SC_CLK_TCK')
 
 class Server:
     def __init__(self, path):
-        self.process = subprocess.Popen([path, 'serve', '--port', '0', '--sessions', '64'], stdout=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen([path, 'serve', '--port', '0', '--sessions', '64', '--client-share', '100'], stdout=subprocess.PIPE, text=True)
         self.port = int(re.search(r':(\d+)/', self.process.stdout.readline())[1])
 
     def cpu(self):

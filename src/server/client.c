@@ -35,7 +35,11 @@ static void name_of_v6(const struct in6_addr *address, char out[KD_CLIENT])
 void kd_client_of(struct MHD_Connection *mhd, char out[KD_CLIENT])
 {
     const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
-    const struct sockaddr *address = info ? info->client_addr : NULL;
+    kd_client_at(info ? info->client_addr : NULL, out);
+}
+
+void kd_client_at(const struct sockaddr *address, char out[KD_CLIENT])
+{
     *out = 0;
     if (address && address->sa_family == AF_INET)
         name_of_v4(&((const struct sockaddr_in *)(const void *)address)->sin_addr, out);

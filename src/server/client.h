@@ -1,6 +1,6 @@
 /* Who a request is from, for shares and limits: there are no accounts, so that it is where it comes from. An IPv4 address; of an IPv6
  * address the first half, as a host has all of the other; of a proxy that the server was told to trust, the address that it says it
- * was asked from. HTTP thread only. */
+ * was asked from. */
 #ifndef KD_SERVER_CLIENT_H
 #define KD_SERVER_CLIENT_H
 
@@ -9,6 +9,7 @@
 #include <microhttpd.h>
 
 /* "" where it cannot be told: all of those are one client. */
-void kd_client_of(struct MHD_Connection *mhd, char out[KD_CLIENT]);
+void kd_client_of(struct MHD_Connection *mhd, char out[KD_CLIENT]); /* HTTP thread only */
+void kd_client_at(const struct sockaddr *address, char out[KD_CLIENT]);
 
 #endif

@@ -7,7 +7,9 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <linux/sockios.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
@@ -27,6 +29,7 @@
 struct kd_connection {
     struct kd_connection *previous, *next;
     int socket;
+    char client[KD_CLIENT];
     bool linger, handed_on, health, cut; /* cut: shut down for another */
     size_t discarded;
     enum kd_stage stage;
@@ -38,19 +41,20 @@ struct kd_connection {
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit; /* the health routes' do not count */
+    unsigned count, limit, share; /* the health routes' do not count */
     unsigned n_handed_on, n_health;
     struct kd_connection *lingering; /* no longer connections; singly linked */
     unsigned n_lingering;
     double header_ms, body_ms;
 };
 
-struct kd_connections *kd_connections_create(unsigned limit, unsigned header_ms, unsigned body_ms)
+struct kd_connections *kd_connections_create(unsigned limit, unsigned share, unsigned header_ms, unsigned body_ms)
 {
     struct kd_connections *all = calloc(1, sizeof *all);
     if (!all)
         return NULL;
     all->limit = limit;
+    all->share = share;
     all->header_ms = header_ms;
     all->body_ms = body_ms;
     pthread_mutex_init(&all->lock, NULL);
@@ -97,12 +101,13 @@ static void unlink_one(struct kd_connections *all, struct kd_connection *one)
     all->n_handed_on -= one->handed_on && !one->health;
 }
 
-struct kd_connection *kd_connections_add(struct kd_connections *all, int socket)
+struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client)
 {
     struct kd_connection *one = calloc(1, sizeof *one);
     if (!one)
         return NULL;
     one->socket = socket;
+    snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
     struct kd_connection *stale = find(all, socket); /* whose daemon closed it without a word: its number would not be free else */
     if (stale) {
@@ -135,10 +140,20 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-bool kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health)
+/* Of the client of one, itself among them. handed_on: without those that have not said anything yet. */
+static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
+{
+    unsigned n = 0;
+    for (const struct kd_connection *other = all->first; other; other = other->next)
+        n += !other->health && (other == one || !handed_on || other->handed_on) && !strcmp(other->client, one->client);
+    return n;
+}
+
+enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health)
 {
     pthread_mutex_lock(&all->lock);
-    bool yes = health || all->n_handed_on < kd_connections_most(all->limit);
+    bool over = !health && all->share < all->limit && of_client(all, one, true) > all->share;
+    bool yes = health || (!over && all->n_handed_on < kd_connections_most(all->limit));
     one->handed_on = yes;
     if (health) {
         one->health = true;
@@ -150,7 +165,7 @@ bool kd_connections_hand_on(struct kd_connections *all, struct kd_connection *on
         all->n_handed_on++;
     }
     pthread_mutex_unlock(&all->lock);
-    return yes;
+    return yes ? KD_HANDED_ON : over ? KD_OVER_SHARE : KD_OVER_LIMIT;
 }
 
 struct kd_connection *kd_connections_find(struct kd_connections *all, int socket)
@@ -229,10 +244,10 @@ void kd_connections_stage(struct kd_connections *all, struct kd_connection *one,
     pthread_mutex_unlock(&all->lock);
 }
 
-bool kd_connections_crowded(struct kd_connections *all)
+bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one)
 {
     pthread_mutex_lock(&all->lock);
-    bool crowded = all->count > all->limit;
+    bool crowded = all->count > all->limit && (!one || of_client(all, one, false) > all->limit - all->share);
     pthread_mutex_unlock(&all->lock);
     return crowded;
 }

@@ -6,6 +6,8 @@
 #ifndef KD_SERVER_CONNECTIONS_H
 #define KD_SERVER_CONNECTIONS_H
 
+#include "server/shares.h"
+
 #include <stdbool.h>
 
 #define KD_HEALTH_CONNECTIONS 64u /* at once, on the health routes' daemon; older ones give way */
@@ -22,14 +24,17 @@ enum kd_stage {
     KD_STAGE_IDLE, /* kept alive between requests */
 };
 
-struct kd_connections *kd_connections_create(unsigned limit, unsigned header_ms, unsigned body_ms);
+/* share: of the limit, what one client may have; where it is the limit, no client is refused for what it has. */
+struct kd_connections *kd_connections_create(unsigned limit, unsigned share, unsigned header_ms, unsigned body_ms);
 void kd_connections_destroy(struct kd_connections *all);
 
 /* One that has been accepted. NULL when out of memory. */
-struct kd_connection *kd_connections_add(struct kd_connections *all, int socket);
+struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client);
 /* It goes to a daemon of libmicrohttpd. health: to that of the health routes; it counts no longer, and where too many are open there
- * the oldest is shut down for it. False: it must be refused, as many as can be told why are there already. */
-bool kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health);
+ * the oldest is shut down for it. KD_HANDED_ON, or it must be refused: as many as can be told why are there already, or with KD_OVER_SHARE as
+ * many of its client as one may have. */
+enum kd_handed { KD_HANDED_ON, KD_OVER_LIMIT, KD_OVER_SHARE };
+enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health);
 /* The one of an open socket, for the daemon it was handed to. */
 struct kd_connection *kd_connections_find(struct kd_connections *all, int socket);
 bool kd_connection_is_health(const struct kd_connection *one);
@@ -44,8 +49,8 @@ int kd_connection_socket(const struct kd_connection *one);
 void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
                           unsigned long bytes);
 
-/* Whether more are open than may be served. */
-bool kd_connections_crowded(struct kd_connections *all);
+/* Whether more are open than may be served. A client that has no more than the share leaves to others is served all the same. */
+bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one);
 /* Whether more are open than can be told so: those that have not said anything yet must go. */
 bool kd_connections_full(struct kd_connections *all);
 /* The most that are handed to the daemon of what is not health, at a limit. */

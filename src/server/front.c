@@ -1,6 +1,7 @@
 #include "server/front.h"
 
 #include "base/log.h"
+#include "server/client.h"
 #include "server/problem.h"
 #include "server/routes.h"
 
@@ -48,9 +49,12 @@ static void send_away(struct kd_front *front, struct guest *guest)
     free(guest);
 }
 
-static void refuse(struct kd_front *front, struct guest *guest)
+static void refuse(struct kd_front *front, struct guest *guest, bool quota)
 {
-    kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes");
+    if (quota)
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA, "as many of your connections are open as one client may have");
+    else
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes");
     kd_connection_linger(guest->connection);
     send_away(front, guest);
 }
@@ -58,8 +62,9 @@ static void refuse(struct kd_front *front, struct guest *guest)
 static void hand_on(struct kd_front *front, struct guest *guest, bool health)
 {
     struct MHD_Daemon *daemon = health ? front->params.health : front->params.others;
-    if (!kd_connections_hand_on(front->params.connections, guest->connection, health)) {
-        refuse(front, guest);
+    enum kd_handed handed = kd_connections_hand_on(front->params.connections, guest->connection, health);
+    if (handed) {
+        refuse(front, guest, handed == KD_OVER_SHARE);
         return;
     }
     unlink_guest(front, guest);
@@ -88,7 +93,9 @@ static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 static struct guest *admit(struct kd_front *front, int socket, const struct sockaddr_storage *address, socklen_t size)
 {
     struct guest *guest = calloc(1, sizeof *guest);
-    struct kd_connection *connection = guest ? kd_connections_add(front->params.connections, socket) : NULL;
+    char client[KD_CLIENT];
+    kd_client_at((const struct sockaddr *)address, client);
+    struct kd_connection *connection = guest ? kd_connections_add(front->params.connections, socket, client) : NULL;
     if (!connection) {
         free(guest);
         close(socket);

@@ -266,12 +266,12 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
         if (!kd_job_is_active(job) && job->references == 1 && !*out)
             *out = job;
     }
+    if (all->closed || unfinished >= all->params.limit)
+        return kd_error_set(error, KD_EBUSY, "%u jobs are unfinished, as many as may", unfinished);
     if (all->params.client_limit && own >= all->params.client_limit) {
         *quota = true;
         return kd_error_set(error, KD_EBUSY, "%u of your jobs are unfinished, as many as one client may have", own);
     }
-    if (all->closed || unfinished >= all->params.limit)
-        return kd_error_set(error, KD_EBUSY, "%u jobs are unfinished, as many as may", unfinished);
     if (kept >= all->params.kept && !*out)
         return kd_error_set(error, KD_EBUSY, "%u jobs are kept, as many as may, and all are being read", kept);
     if (kept < all->params.kept)

@@ -214,7 +214,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) { .detail = error.message,
                                         .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY
                                                                           : KD_PROBLEM_BAD_REQUEST };
-    else if (!kd_route_is_health(request->raw) && kd_connections_crowded(request->server->connections))
+    else if (!kd_route_is_health(request->raw) && kd_connections_crowded(request->server->connections, request->connection))
         problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
                                         .retry_after = 1,
                                         .close = true,

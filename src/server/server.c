@@ -124,7 +124,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     server->drain_ms = params->drain_ms == UINT_MAX ? 0 : or_default(params->drain_ms, 1000);
     server->longest_s = or_default(params->longest_s, 600);
     server->stop_fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    server->connections = kd_connections_create(connections, or_default(params->header_ms, 10000),
+    server->connections = kd_connections_create(connections, share_of(params, connections), or_default(params->header_ms, 10000),
                                                 or_default(params->body_ms, 30000));
     server->cross_site = params->cross_site;
     server->bodies = kd_bodies_create(&(struct kd_bodies_params) { KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX });

@@ -17,7 +17,7 @@ struct kd_server_params {
     unsigned sessions;        /* live ones at once, default 16 */
     unsigned session_ms;      /* that one lives on unwatched, default 60 000 */
     unsigned jobs;            /* unfinished ones, default 16 */
-    unsigned client_share;    /* percent of renders that wait, sessions and jobs that one client may have; default 75 */
+    unsigned client_share;    /* percent of connections, renders that wait, sessions and jobs that one client may have; default 75 */
     unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
     bool cross_site;          /* take requests that pages of other sites make */
     unsigned jobs_kib;        /* of the frames of all jobs, default 16 GiB */

@@ -162,5 +162,35 @@ class Sites(Case):
         self.assertEqual(self.ask('127.0.0.1', 'GET', '/healthz', headers={'Sec-Fetch-Site': 'cross-site'}).status, 200)
 
 
+class Connections(Case):
+    options = ('--connections', 40, '--client-share', 75, '--header-ms', 60000)
+
+    def hold(self, begin, n=200):
+        held = [self.daemon.connect() for _ in range(n)]
+        for s in held:
+            self.addCleanup(s.close)
+            try:
+                s.sendall(begin)
+            except OSError:
+                pass  # refused already
+        time.sleep(0.3)
+
+    def test_a_client_that_has_all_its_connections_shuts_nobody_else_out(self):
+        """Of connections that have begun a request, and of those that are kept alive after one."""
+        for begin in (b'GET /v1/presets HTTP/1.1\r\nHost: loc', b'GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n'):
+            with self.subTest(begin):
+                before = self.daemon.open_files()
+                self.hold(begin)
+                self.assertEqual({self.ask('127.0.0.2', 'GET', '/v1/presets').status for _ in range(20)}, {200})
+                # Of 200 at once some are turned away as one too many before they count as his: he asks until he has all that he may have.
+                self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.ask('127.0.0.1', 'GET', '/v1/presets').status == 429))
+                self.doCleanups()
+                self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))
+
+    def test_nor_does_one_whose_connections_are_silent(self):
+        self.hold(b'')
+        self.assertEqual({self.ask('127.0.0.2', 'GET', '/v1/presets').status for _ in range(20)}, {200})
+
+
 if __name__ == '__main__':
     daemon.main()
