@@ -81,13 +81,14 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
 {
     struct kd_problem problem = { .type = type, .detail = detail };
     struct kd_buffer body = { 0 }, reply = { 0 };
+    bool later = type == KD_PROBLEM_CROWDED || type == KD_PROBLEM_QUOTA;
 
     if (!kd_problem_to_json(&problem, &body) &&
         !kd_buffer_printf(&reply,
                           "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
                           "X-Content-Type-Options: nosniff\r\nCache-Control: no-store\r\n"
-                          "Connection: close\r\nContent-Length: %zu\r\n\r\n%s",
-                          table[type].status, body.size, (const char *)body.data))
+                          "Connection: close\r\n%sContent-Length: %zu\r\n\r\n%s",
+                          table[type].status, later ? "Retry-After: 1\r\n" : "", body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
             /* The peer is gone or does not read: it is about to be cut off in any case. */
         }
