@@ -244,6 +244,18 @@ void kd_connections_stage(struct kd_connections *all, struct kd_connection *one,
     pthread_mutex_unlock(&all->lock);
 }
 
+void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_connection *one = find(all, socket);
+    if (one && one->stage != KD_STAGE_WORK && one->stage != KD_STAGE_REPLY) {
+        kd_problem_send_raw(socket, type, detail);
+        one->linger = true;
+        shutdown(socket, SHUT_WR);
+    }
+    pthread_mutex_unlock(&all->lock);
+}
+
 bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one)
 {
     pthread_mutex_lock(&all->lock);

@@ -6,6 +6,7 @@
 #ifndef KD_SERVER_CONNECTIONS_H
 #define KD_SERVER_CONNECTIONS_H
 
+#include "server/problem.h"
 #include "server/shares.h"
 
 #include <stdbool.h>
@@ -48,6 +49,10 @@ int kd_connection_socket(const struct kd_connection *one);
 /* bytes: of a large body about to come or of the reply about to be sent, else 0. */
 void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
                           unsigned long bytes);
+
+/* Send a problem document to the connection of this socket, and nothing after it. Only while its request is still arriving; without
+ * effect for any other. The thread that works on it. */
+void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail);
 
 /* Whether more are open than may be served. A client that has no more than the share leaves to others is served all the same. */
 bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one);

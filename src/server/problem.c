@@ -86,7 +86,7 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
     if (!kd_problem_to_json(&problem, &body) &&
         !kd_buffer_printf(&reply,
                           "HTTP/1.1 %u Refused\r\nContent-Type: application/problem+json\r\n"
-                          "X-Content-Type-Options: nosniff\r\nCache-Control: no-store\r\n"
+                          "X-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-site\r\nCache-Control: no-store\r\n"
                           "Connection: close\r\n%sContent-Length: %zu\r\n\r\n%s",
                           table[type].status, later ? "Retry-After: 1\r\n" : "", body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {

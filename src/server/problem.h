@@ -21,6 +21,7 @@
     X(CONFLICT, 409, "conflict", "The scene of this session does not allow it")                              \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
+    X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long")                                          \
     X(MEDIA_TYPE, 415, "unsupported-media-type", "The body's media type is not taken here")                  \
     X(MISDIRECTED, 421, "misdirected", "This host name is not served here")                                  \
     X(INVALID_SCENE, 422, "invalid-scene", "The scene is not valid")                                         \
@@ -30,6 +31,7 @@
     X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid")                                 \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(QUOTA, 429, "quota", "This client has as much as one may")                                              \
+    X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large")                                  \
     X(INTERNAL, 500, "internal", "The server failed")                                                        \
     X(DEVICE_LOST, 500, "device-lost", "The device failed")                                                  \
     X(NO_MEMORY, 503, "out-of-memory", "Memory ran out")                                                     \

@@ -4,6 +4,7 @@
 #include "orbit/request.h"
 #include "render/rays_request.h"
 #include "server/clock.h"
+#include "server/library.h"
 #include "server/negotiate.h"
 #include "server/orbits.h"
 #include "server/reply.h"
@@ -20,6 +21,12 @@
 #define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
 #define PACE ((size_t)960000) /* bytes of a body within the time for one that is small: 32 kB/s of the default */
 
+static int socket_of(struct MHD_Connection *mhd)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
+    return info ? info->connect_fd : -1;
+}
+
 static struct kd_connection *connection_of(struct MHD_Connection *mhd)
 {
     const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
@@ -31,9 +38,9 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
 {
     struct kd_server *server = cls;
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
-        const union MHD_ConnectionInfo *info =
-            MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
-        *socket_context = info ? kd_connections_find(server->connections, info->connect_fd) : NULL;
+        int socket = socket_of(mhd);
+        kd_library_works_on(socket);
+        *socket_context = kd_connections_find(server->connections, socket);
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -62,6 +69,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
 {
     struct kd_server *server = cls;
     struct kd_request *request = calloc(1, sizeof *request);
+    kd_library_works_on(socket_of(mhd));
     if (!request)
         return NULL;
     request->server = server;
@@ -110,7 +118,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
 {
     struct kd_server *server = cls;
     struct kd_request *request = *state;
-    (void)mhd;
+    kd_library_works_on(socket_of(mhd));
     if (!request)
         return;
     write_log(request, why);
@@ -293,6 +301,7 @@ enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const c
 {
     struct kd_request *request = *state;
     (void)cls, (void)url;
+    kd_library_works_on(socket_of(mhd));
     if (!request) /* no memory for it */
         return kd_reply_bare(mhd);
     if (!request->begun) {

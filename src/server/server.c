@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "server/descriptors.h"
 #include "server/keeper.h"
+#include "server/library.h"
 #include "server/listen.h"
 #include "server/names.h"
 #include "server/request.h"
@@ -65,20 +66,11 @@ static void set_etag_tail(struct kd_server *server)
     snprintf(server->etag_tail, sizeof server->etag_tail, "%016llx", (unsigned long long)hash);
 }
 
-static void log_from_library(void *cls, const char *format, va_list args)
-{
-    char line[512];
-    (void)cls;
-    vsnprintf(line, sizeof line, format, args);
-    line[strcspn(line, "\r\n")] = 0;
-    kd_log(KD_LOG_DEBUG, "libmicrohttpd: %s", line);
-}
-
 static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connections)
 {
     return MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME | MHD_USE_ERROR_LOG | MHD_USE_NO_LISTEN_SOCKET, 0, NULL, NULL,
-        kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, log_from_library, NULL, MHD_OPTION_CONNECTION_LIMIT, connections,
+        kd_request_handle, server, MHD_OPTION_EXTERNAL_LOGGER, kd_library_log, server->connections, MHD_OPTION_CONNECTION_LIMIT, connections,
         MHD_OPTION_CONNECTION_TIMEOUT, KD_IDLE_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)KD_HEADER_POOL,
         MHD_OPTION_URI_LOG_CALLBACK, kd_request_open, server, MHD_OPTION_NOTIFY_COMPLETED, kd_request_close,
         server, MHD_OPTION_NOTIFY_CONNECTION, kd_request_connection, server, MHD_OPTION_END);

@@ -254,7 +254,7 @@ static void test_tolerance(void **state)
         assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* or the test proves nothing */
         assert_true(10000 * held.silent <= held.crossings);
         assert_true(1000 * held.off <= held.crossings || k > 8);
-        assert_true(20 * held.beyond <= held.rays || k > 9);
+        assert_true(10 * held.beyond <= held.rays || k > 9); /* 1 in 24 at 1e-9; in closed form alone, without f64, 1 in 19 */
     }
 }
 

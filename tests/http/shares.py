@@ -111,9 +111,7 @@ class Sessions(Case):
                 self.daemon.request('DELETE', f'{path}/{one["id"]}', headers={'Authorization': 'Bearer ' + one['token']})
 
 
-class Bodies(Case):
-    options = ('--body-ms', 1500)
-
+class Announced(Case):
     def announce(self, sent, source='127.0.0.1'):
         s = self.daemon.connect(source=source)
         self.addCleanup(s.close)
@@ -121,6 +119,8 @@ class Bodies(Case):
         s.sendall(b' ' * sent)
         return s
 
+
+class Bodies(Announced):
     def test_one_client_leaves_room_for_others(self):
         for _ in range(3):
             try:
@@ -133,6 +133,10 @@ class Bodies(Case):
         answer = self.ask('127.0.0.2', 'POST', '/v1/rays', body)
         self.assertEqual(answer.status, 200, answer.body)
         self.assertEqual(self.ask('127.0.0.2', 'POST', '/v1/plan', b'{}').status, 200)
+
+
+class Dawdling(Announced):
+    options = ('--body-ms', 1500)
 
     def test_a_body_that_dawdles_is_cut(self):
         """However much it has announced, and sent: within the time for a small one."""
