@@ -1,6 +1,5 @@
 /* Who a request is from, for shares and limits: there are no accounts, so that it is where it comes from. An IPv4 address; of an IPv6
- * address the first half, as a host has all of the other; of a proxy that the server was told to trust, the address that it says it
- * was asked from. */
+ * address the first half, as a host has all of the other. All that comes through a proxy is one client. */
 #ifndef KD_SERVER_CLIENT_H
 #define KD_SERVER_CLIENT_H
 

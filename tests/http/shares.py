@@ -1,6 +1,7 @@
 """What one client may make another one wait or be refused. 127.0.0.1 and 127.0.0.2 are two clients."""
 import http.client
 import json
+import re
 import threading
 import time
 import unittest
@@ -36,11 +37,14 @@ class Device(Case):
     options = ('--queue', 16, '--client-share', 50)
 
     def test_a_long_picture_holds_nobody(self):
-        """Seen on a server where it did: the small ones came after it."""
+        """Small ones wait for a few of its slices of 10 ms, and not for the 4 s that it takes."""
         long = self.begin(LONG % 4000)
         time.sleep(0.3)
         for source in ('127.0.0.1', '127.0.0.2'):
-            self.assertEqual(self.ask(source, 'GET', RENDER + '&time=20').status, 200)
+            answer = self.ask(source, 'GET', RENDER + '&time=20')
+            self.assertEqual(answer.status, 200)
+            waited = float(re.search(r'queue;dur=([0-9.]+)', answer.header('Server-Timing'))[1])
+            self.assertLess(waited, 1500)
         long.setblocking(False)
         self.assertRaises(BlockingIOError, long.recv, 1)  # not yet
 
@@ -73,7 +77,7 @@ class Device(Case):
             self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).json()['state'] == 'done', 30))
             # Between six works of 20 ms there are some frames, and not hundreds: counted, for a clock would judge the machine.
             frames = self.daemon.metrics()['kerrd_session_frames_total'] - before
-            self.assertGreater(frames, 4)
+            self.assertGreater(frames, 1)
         finally:
             over.set()
             for t in threads:
