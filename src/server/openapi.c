@@ -279,6 +279,7 @@ static void add_components(struct kd_json *json, const struct kd_buffer *schema)
     kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
+    kd_openapi_orbits_schema(json);
     add_problem_schema(json);
     kd_json_end(json);
     kd_json_object(json, "responses");

@@ -13,7 +13,8 @@
 #define STEPS "{\"type\":\"integer\",\"minimum\":0,\"maximum\":" TEXT(KD_STEPS_MAX) ",\"multipleOf\":4}"
 #define ORDERS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":" TEXT(KD_RAYS_MAX_ORDERS) "}"
 #define SPIN "{\"type\":\"number\",\"exclusiveMinimum\":-1,\"exclusiveMaximum\":1}"
-#define RADIUS "{\"anyOf\":[{\"const\":\"infinity\"},{\"type\":\"number\",\"maximum\":1e7}]}"
+/* A horizon is above 1 M whatever the spin: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
+#define RADIUS "{\"anyOf\":[{\"const\":\"infinity\"},{\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":1e7}]}"
 #define INCLINATION "{\"type\":\"number\",\"minimum\":0,\"maximum\":180}"
 #define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,\"properties\":{"
 #define OBSERVER "\"observer\":" OBJECT "\"r\":" RADIUS ",\"inclination_deg\":" INCLINATION "}}"

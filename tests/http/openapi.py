@@ -55,6 +55,40 @@ class OpenApi(daemon.Case):
         for name in schema('/web/{name}')['name']['enum']:
             self.assertEqual(self.daemon.get('/web/' + name).status, 200, name)
 
+    def test_what_the_schema_refuses_and_the_server_too(self):
+        """And, of each, what both take: the last."""
+        orbit, bound = {'case': 'isco'}, {'p': 10, 'e': 0.1}
+        state = {'r': 10, 'theta_deg': 90, 'phi_deg': 0}
+        constants = {'energy': 0.96, 'angular_momentum': 4, 'carter': 0}
+        short = {'samples': 2, 'duration': {'periods': 1}}
+        for path, *documents in (
+                ('orbits', {}, {'orbit': orbit, 'orbits': [orbit]}, {'orbits': [orbit]}),
+                ('orbits', {'orbits': []}, {'orbit': orbit}),
+                ('orbits', {'orbit': orbit, 'duration': {'periods': 1, 'time': 100}}, {'orbit': orbit, 'duration': {'time': 100}}),
+                ('orbits', {'orbit': orbit, 'duration': {'periods': 2e9}}, {'orbit': orbit, 'duration': {'time': 2e30}},
+                 {'orbit': orbit, **short}),
+                ('orbits', {'orbit': orbit, 'samples': 1}, {'orbit': orbit, 'samples': 0}),
+                ('orbits', {'orbit': orbit, 'mass_msun': 0}, {'orbit': orbit, 'mass_msun': 1e21}, {'orbit': orbit, 'mass_msun': 1}),
+                ('orbits', {'orbit': orbit, 'steps': 100000001}, {'orbit': orbit, 'steps': 0}),
+                ('orbits', {'orbit': {**bound, 'p': 1}, 'spin': 0.999999}, {'orbit': {**bound, 'p': 2e20}}, {'orbit': bound}),
+                ('orbits', {'orbit': {'position': {}}}, {'orbit': {'position': {**state, 'r': 1}}, 'spin': 0.999999},
+                 {'orbit': {'position': {**state, 'theta_deg': 181}}}, {'orbit': {'position': {**state, 'phi_deg': 361}}},
+                 {'orbit': {'position': state}}),
+                ('orbits', {'orbit': {**constants, 'energy': 2e6}}, {'orbit': {**constants, 'angular_momentum': 2e20}},
+                 {'orbit': {**constants, 'carter': -1}}, {'orbit': {**constants, 'carter': 2e30}},
+                 {'orbit': {**constants, 'r': 1}, 'spin': 0.999999}, {'orbit': constants}),
+                ('rays', {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1}}, {'rays': []},
+                 {'rays': [[9, 0]], 'spin': 0.999999, 'observer': {'r': 1.01}}),
+                ('jobs', {'scenes': []}, {'scene': {}, 'keyframes': []}, {'scene': {'image': {'width': 32, 'height': 18}}})):
+            body = self.document['paths']['/v1/' + path]['post']['requestBody']['content']['application/json']['schema']
+            judge = jsonschema.Draft202012Validator({**body, 'components': self.document['components']})
+            for document in documents:
+                with self.subTest(path, document=document):
+                    good = document is documents[-1]
+                    self.assertEqual(judge.is_valid(document), good)
+                    status = self.daemon.post('/v1/' + path, document).status
+                    self.assertTrue(status in (200, 202) if good else status == 422, status)
+
     def test_generated_client(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -91,6 +125,7 @@ if __name__ == '__main__':
     try:
         from openapi_spec_validator import OpenAPIV31SpecValidator
         import openapi_python_client
+        import jsonschema
     except ImportError as missing:
         print(f'skipped: {missing}; scripts/setup --browser installs it')
         sys.exit(77)
