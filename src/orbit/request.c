@@ -4,6 +4,7 @@
 #include "orbit/cases.h"
 #include "orbit/fields.h"
 #include "physics/angle.h"
+#include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 
@@ -309,15 +310,18 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
                                   double *rounding, struct kd_error *error)
 {
     double r;
+    char energy[KD_NUMBER_SIZE], momentum[KD_NUMBER_SIZE];
     *rounding = rounding_of(s, orbit, start);
     if (*rounding <= KD_ORBIT_ROUNDING_MAX)
         return KD_OK;
     kd_orbit_whirl(orbit, start, &r);
+    kd_number_format(energy, orbit->energy);
+    kd_number_format(momentum, orbit->momentum);
     return kd_error_field(error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
-                          "energy %.9g and angular_momentum %.9g lead to the unstable circle at r = %.9g, so closely that double "
+                          "energy %s and angular_momentum %s lead to the unstable circle at r = %.9g, so closely that double "
                           "precision does not tell how long the body whirls there, and whether it falls or returns: allowed are "
                           "values that differ from these by some parts in 1e12",
-                          orbit->energy, orbit->momentum, r);
+                          energy, momentum, r);
 }
 
 static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,

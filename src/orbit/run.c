@@ -7,6 +7,7 @@
 #include <math.h>
 
 #define DEFAULT_PERIODS 10
+#define HALVINGS 6 /* of the step in search of an end: each gains a factor of 64, from some 1e-10 to rounding */
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
 {
@@ -58,8 +59,19 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* What is not bound ends at the horizon or far away, or when its time is over: found by following it once, in steps of h. */
-static void find_end(struct kd_orbit_run *run, double h)
+/* Whether a step went where its constants forbid it to go: through the turning point, or back where there is none. Next to a
+ * whirl a step that is too long does so. */
+static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
+{
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / kd_kerr_horizon(o->a)); /* or no number any more */
+    if (o->fate == KD_ORBIT_ESCAPE)
+        return fallen;
+    return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
+}
+
+/* What is not bound ends at the horizon or far away, or when its time is over: found by following it once, in steps of h. False
+ * if it strays, or if it was to be followed to its end and does not come there. */
+static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
     struct kd_orbit_path path, before;
@@ -74,6 +86,8 @@ static void find_end(struct kd_orbit_run *run, double h)
     for (bool over = false; !over && path.mino.value < longest;) {
         before = path;
         kd_orbit_path_step(&path, h);
+        if (strays(o, &before, &path))
+            return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0; /* within the step, from infinity if E = 1 */
@@ -93,6 +107,14 @@ static void find_end(struct kd_orbit_run *run, double h)
         }
     }
     run->mino_end = path.mino.value;
+    return !isnan(run->aim) || o->circular || path.place[KD_PATH_W].value == run->start.w; /* on an unstable circle itself */
+}
+
+static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
+{
+    if (run->params->steps)
+        return kd_error_field(error, "/steps", "steps is %u, too few to find the end of this path", run->params->steps);
+    return kd_error_field(error, "/orbit", "this path cannot be followed to its end in double precision");
 }
 
 static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
@@ -108,8 +130,17 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
                               "periods belong to a bound orbit, and this one is to %s: leave the duration out to "
                               "follow it to its end, or give a time",
                               kd_orbit_fate_name(run->orbit.fate));
-    find_end(run, 2 * M_PI / kd_orbit_pace(&run->orbit) / 128);
-    return KD_OK;
+    double h = 2 * M_PI / kd_orbit_pace(&run->orbit) / 128, before = NAN;
+    bool found = false;
+    for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
+        if (!find_end(run, h))
+            continue;
+        found = true; /* and of a whirl well enough: the steps are tried up to there, and beyond the end is infinity */
+        if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
+            return KD_OK;
+        before = run->mino_end;
+    }
+    return found && isfinite(before) ? KD_OK : no_end(run, error);
 }
 
 /* All but the step. */
@@ -145,15 +176,19 @@ static enum kd_status find_end_again(struct kd_orbit_run *run, struct kd_error *
     for (int i = 0; i < 6; i++) {
         double before = run->mino_end;
         enum kd_orbit_end end = run->end;
-        find_end(run, run->h);
+        if (!find_end(run, run->h)) {
+            run->mino_end = before, run->end = end;
+            if (run->params->steps)
+                break;
+            run->h *= 0.5;
+            continue;
+        }
         bool same = run->end == end && fabs(run->mino_end - before) < 0.25 * run->h;
         enum kd_status status = cut(run, error);
         if (status || same)
             return status;
     }
-    if (run->params->steps)
-        return kd_error_field(error, "/steps", "steps is %u, too few to find the end of this path", run->params->steps);
-    return kd_error_field(error, "/orbit", "this path cannot be followed to its end in double precision");
+    return no_end(run, error);
 }
 
 static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
@@ -167,6 +202,10 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
+    double pace = sqrt(fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: a step across w says nothing of it */
+    if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
+        return kd_error_field(error, "/r_max", "r_max is %g, too far for the steps that a path with a whirl like this one is followed in",
+                              run->params->r_max);
     return status;
 }
 

@@ -126,9 +126,59 @@ static void lets_go_before_infinity(void **state)
         fail_msg("t %.15g, Mino time %.15g, r %.15g, stated %.2g", a.t, a.mino, a.r, a.stated);
 }
 
+/* Where r_max is far, the first search of the end takes steps that the whirl does not forgive: these fell through it. Values by
+ * the quadrature of tests/oracle/whirl_reference.py from r_max and back; the nodes crowd towards infinity as well. */
+static void ends_where_r_max_is_far(void **state)
+{
+    (void)state;
+    static const struct far_body {
+        double energy, momentum, r_max, mino, proper, t, phi;
+    } bodies[] = {
+        { 1.05, 2.7899008057571306, 100, 13.819239107740556, 544.28593034082844, 797.59749491946985, 74.593215313465602 },
+        { 1.05, 2.7899008057571306, 1000, 13.87277346284209, 6035.4045928601301, 6592.6567072541177, 74.743124535485341 },
+        { 1.05, 2.7899008057571306, 1e6, 13.878984063675475, 6246319.0453624045, 6558980.9989707309, 74.760457364390329 },
+        { 1.0000001, 2.632455850090601, 100, 15.578110807984626, 1029.9638011160692, 1282.2143855388984, 77.157602792665936 },
+        { 1.0000001, 2.632455850090601, 1000, 15.773106553413602, 30007.034935584463, 30383.061072413272, 77.672590103787784 },
+        { 1.0000001, 2.632455850090601, 1e6, 15.859638946666418, 915953034.45390934, 915958890.41503689, 77.900436546934602 },
+    };
+    double worst = 0;
+    for (size_t i = 0; i < COUNT(bodies); i++) {
+        const struct far_body *b = &bodies[i];
+        struct kd_error error;
+        struct answer a;
+        char text[200];
+        snprintf(text, sizeof text, "{\"spin\":0.9,\"orbit\":{\"energy\":%.17g,\"angular_momentum\":%.17g},\"r_max\":%g,\"samples\":%d}",
+                 b->energy, b->momentum, b->r_max, SAMPLES);
+        if (ask(text, &a, &error)) {
+            if (b->r_max < 1e6 || strcmp(error.pointer, "/r_max"))
+                fail_msg("%s: %s at %s", text, error.message, error.pointer);
+            continue;
+        }
+        double off = fmax(fmax(fabs(a.mino / b->mino - 1), fabs(a.proper / b->proper - 1)), fmax(fabs(a.t / b->t - 1), fabs(a.phi / b->phi - 1)));
+        worst = fmax(worst, off);
+        if (a.fate != KD_ORBIT_ESCAPE || a.end != KD_END_FAR || !(off < 1e-3) || !(off <= a.stated) || !(fabs(a.r / b->r_max - 1) < 1e-9))
+            fail_msg("%s: end %s at r = %.9g, Mino time %.9g; off by %.2g, stated %.2g", text, kd_orbit_end_name(a.end), a.r, a.mino, off,
+                     a.stated);
+    }
+    print_message("r_max far away: the worst error is %.2g\n", worst);
+}
+
+/* The sentence has to show in what the value differs from the whirl's own. */
+static void refusal_shows_every_digit(void **state)
+{
+    (void)state;
+    struct kd_error error;
+    struct answer a;
+    assert_int_equal(ask("{\"orbit\":{\"energy\":1,\"angular_momentum\":4.000000000000001},\"samples\":9}", &a, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "energy 1 and angular_momentum 4.000000000000001 lead"));
+    assert_int_equal(ask("{\"orbit\":{\"energy\":1,\"angular_momentum\":4},\"samples\":9}", &a, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "energy 1 and angular_momentum 4 lead"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(right_or_refused), cmocka_unit_test(next_to_the_whirl_itself),
-                                        cmocka_unit_test(lets_go_before_infinity) };
+                                        cmocka_unit_test(lets_go_before_infinity), cmocka_unit_test(ends_where_r_max_is_far),
+                                        cmocka_unit_test(refusal_shows_every_digit) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
