@@ -54,6 +54,9 @@ struct kd_ray_end {
     bool again;              /* followed again by a finer setting, for the tolerance */
 };
 
+/* Bit for bit, but for what lies between the members. */
+bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
+
 /* Trace n rays. With a tolerance each that is not within it by its own error, or undecided, is followed again by more steps in double
  * precision, then in closed form: what is beyond it after that no double holds. alpha_beta: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.
  * renderer may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread.

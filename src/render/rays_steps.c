@@ -113,7 +113,7 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
     struct kd_ray_end end;
     const struct kd_ray_labels ray = { (double[]) { out->alpha, out->beta }, NULL, 1 };
     enum kd_status status = kd_rays_device(renderer, &out->params, &ray, crossings, &end, NULL, NULL, error);
-    out->same = !status && !memcmp(&end, &out->end, sizeof end) &&
+    out->same = !status && kd_ray_ends_equal(&end, &out->end) &&
                 !memcmp(crossings, out->crossings, out->params.orders * sizeof *crossings);
     return status;
 }

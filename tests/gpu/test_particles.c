@@ -209,7 +209,9 @@ static void test_lists_between_frames(void **state)
     struct kd_frame first = render(&scene);
     places_at(&scene, 500, after);
     struct kd_frame again = render(&scene);
-    assert_memory_equal(before, after, sizeof before);
+    for (int i = 0; i < N; i++)
+        assert_true(before[i].r == after[i].r && before[i].phi == after[i].phi && before[i].latitude == after[i].latitude &&
+                    before[i].plunging == after[i].plunging);
     assert_true(again.lens_reused && difference(&first, &other) > 1 && difference(&first, &again) == 0);
     kd_frame_finish(&other);
     kd_frame_finish(&first);
