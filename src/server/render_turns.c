@@ -2,7 +2,6 @@
 #include "server/clock.h"
 #include "server/render_internal.h"
 
-
 #define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it, and ... */
 #define SHORT_BYTES ((size_t)64 << 20)  /* ... so much more may be of frames that are encoded soon */
 #define BRIEF_MS 3000.0                 /* what has a lane for so long frees it soon: for such the last lanes are kept, */
