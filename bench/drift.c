@@ -72,7 +72,7 @@ static void yoshida_6_mino(const struct orbit *o, struct state *s, double h)
         leapfrog(o, s, yoshida[i] * h);
 }
 
-/* J. Albrecht 1955, ZAMM 35, 100: as shaders/include/nystroem.glsl. */
+/* J. Albrecht 1955, ZAMM 35, 100: as shaders/ray/nystroem.glsl. */
 static void rkn_6(const struct orbit *o, struct state *s, double h)
 {
     double k[5][2], y[2], *v = s->y + 2;

@@ -1,7 +1,7 @@
 /* What a whole frame costs, pass by pass: the default scene with a cold lens map, and again with the map
  * reused, as when only the exposure or the palette changes. Prints one line of JSON: every run, in ms.
  * frame.py runs it with one and two lavapipe threads and takes medians. */
-#include "render/picture.h"
+#include "render/output/picture.h"
 #include "render/render.h"
 
 #include <argp.h>

@@ -1,7 +1,7 @@
 /* From the weights that particles.comp has counted to the density at each node over the one expected there. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
+#include "shared/interface.h"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { uint columns; } push;

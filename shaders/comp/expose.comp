@@ -2,7 +2,7 @@
  * `skip`-th pixel is counted, a number that shares no factor with usual widths, so that all columns have their turn. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
+#include "shared/interface.h"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { uint pixels, skip; } push;

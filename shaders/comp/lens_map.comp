@@ -9,14 +9,14 @@
  * escape, and the fate. Azimuths are source minus observer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
+#include "shared/interface.h"
 
 layout(constant_id = 5) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
 #define KD_NYSTROEM_ORDER METHOD
-#include "kerr_ray.glsl"
-#include "polar.glsl"
-#include "polar_azimuth.glsl"
-#include "radial_step.glsl"
+#include "ray/kerr_ray.glsl"
+#include "ray/polar.glsl"
+#include "ray/polar_azimuth.glsl"
+#include "ray/radial_step.glsl"
 
 layout(constant_id = 0) const uint ORDERS = 3;
 layout(constant_id = 1) const uint STEPS = 8; /* a half period; a multiple of 4 for the quadrature */
@@ -34,9 +34,9 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
-#include "camera.glsl"
-#include "place.glsl"
-#include "escape.glsl"
+#include "ray/camera.glsl"
+#include "ray/place.glsl"
+#include "ray/escape.glsl"
 
 const float EPSILON = 6e-8; /* unit roundoff */
 

@@ -2,10 +2,10 @@
  * over steps, no divergence. Plane n of the map is w = M/r of the crossing of order n, 0 if there is none. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
-#include "kerr_ray.glsl"
-#include "polar.glsl"
-#include "radial_closed.glsl"
+#include "shared/interface.h"
+#include "ray/kerr_ray.glsl"
+#include "ray/polar.glsl"
+#include "ray/radial_closed.glsl"
 
 layout(constant_id = 0) const uint ORDERS = 3;
 layout(constant_id = 1) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
@@ -18,8 +18,8 @@ const bool FINITE = false;
 #define U(name) uint name;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-#include "camera.glsl"
-#include "place.glsl"
+#include "ray/camera.glsl"
+#include "ray/place.glsl"
 
 void main()
 {

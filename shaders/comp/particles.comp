@@ -1,13 +1,13 @@
-/* Particles of the disk at one time: each from its number, in closed form, onto the grid or into a list (src/render/particles.h).
+/* Particles of the disk at one time: each from its number, in closed form, onto the grid or into a list (src/render/emit/particles.h).
  *
  * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four nodes around it.
  * A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its neighbour on the right, so that
- * two additions do. Those that fall are laid out by phase and by azimuth at the ISCO (src/render/plunging.h). */
+ * two additions do. Those that fall are laid out by phase and by azimuth at the ISCO (src/render/emit/plunging.h). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
-#include "math.glsl"
-#include "hash.glsl"
+#include "shared/interface.h"
+#include "shared/math.glsl"
+#include "shared/hash.glsl"
 
 layout(constant_id = 0) const bool SWING = true; /* there are epicycles */
 layout(constant_id = 1) const bool LIST = false;

@@ -2,7 +2,7 @@
  * three, of 16 bits in six, packed without padding as a PNG encoder wants them. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
+#include "shared/interface.h"
 
 layout(constant_id = 0) const bool ACES = true;
 layout(constant_id = 1) const bool WIDE = false; /* 16 bits a channel */

@@ -18,17 +18,17 @@
  * the horizon in outgoing time, with -w' for w'. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
+#include "shared/interface.h"
 
 layout(constant_id = 0) const uint ORDERS = 3;
 layout(constant_id = 1) const uint STEPS = 16; /* a half period; a multiple of 4 */
 layout(constant_id = 2) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
 #define KD_NYSTROEM_ORDER METHOD
-#include "kerr_ray.glsl"
+#include "ray/kerr_ray.glsl"
 #define KD_POLAR_LISTED
-#include "polar.glsl"
-#include "radial_step.glsl"
-#include "path_step.glsl"
+#include "ray/polar.glsl"
+#include "ray/radial_step.glsl"
+#include "ray/path_step.glsl"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 
@@ -38,8 +38,8 @@ layout(set = 0, binding = 0) readonly buffer Rays {
     float list[];                                 /* alpha, beta, 1: inwards or -1: outwards */
 } cam;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
-#include "trace.glsl"
-#include "escape.glsl"
+#include "ray/trace.glsl"
+#include "ray/escape.glsl"
 
 struct kd_rates { float psi, chi, delay; };
 

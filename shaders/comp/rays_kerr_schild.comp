@@ -12,8 +12,8 @@
  * Crossings of z = 0 by cubic Hermite interpolation. The start (position and momentum) comes from the host in double. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.h"
-#include "math.glsl"
+#include "shared/interface.h"
+#include "shared/math.glsl"
 
 layout(constant_id = 0) const uint ORDERS = 3;
 layout(constant_id = 1) const uint STEPS = 64; /* about that many a half turn near the photon orbit */
@@ -26,7 +26,7 @@ layout(set = 0, binding = 0) readonly buffer Rays {
     float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, 0 and 0 where there is none */
 } rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
-#include "trace.glsl"
+#include "ray/trace.glsl"
 
 /* Tao's omega, in units of 1/s. Too small lets the copies part on long orbits, too large costs accuracy as it costs phase:
  * of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half turns of a ray. */
@@ -170,7 +170,7 @@ void main()
         ends[o + n] = 0.0;
 
     /* lavapipe leaves all loops of an invocation after 65535 rounds, inner ones counted, with whatever the variables then hold: stay
-     * below it, and a ray that needs more is undecided. At the most steps of src/render/rays_check.c these are 16 half turns
+     * below it, and a ray that needs more is undecided. At the most steps of src/render/rays/check.c these are 16 half turns
      * (Tao's method) or 60; a ray that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 

@@ -2,8 +2,8 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "render/accuracy_measure.h"
-#include "render/accuracy_store.h"
+#include "render/selftest/accuracy_measure.h"
+#include "render/device/accuracy_store.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/selftest.h"
-#include "render/first_start.h"
+#include "render/selftest/first_start.h"
 #include "render/render.h"
 #include "vk/vk.h"
 
@@ -155,12 +155,12 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
     return status;
 }
 
-static void print_selftest(const struct kd_first_start *tested)
+static void print_selftest(const struct kd_verdict *tested)
 {
-    printf("self-test: %s", kd_first_start_word(tested));
-    if (tested->verdict == KD_FAILED)
+    printf("self-test: %s", kd_verdict_word(tested));
+    if (tested->result == KD_FAILED)
         printf(", %u of %u checks, first %s; --selftest shows all of them", tested->failed, tested->checks, tested->worst);
-    else if (tested->verdict == KD_PASSED)
+    else if (tested->result == KD_PASSED)
         printf(", %u checks in %.1f s%s", tested->checks, tested->seconds,
                tested->now ? "" : " when kerrd met this device and driver; --selftest runs it anew");
     printf("\n");
@@ -170,10 +170,10 @@ static enum kd_status try_render(const char *device, struct kd_error *error)
 {
     struct kd_renderer *renderer = NULL;
     enum kd_status status =
-        kd_renderer_create(&(struct kd_renderer_params) { .device = device, .prove = true }, &renderer, error);
+        kd_renderer_create(&(struct kd_renderer_params) { .device = device, .prove = kd_first_start }, &renderer, error);
     if (status)
         return status;
-    print_selftest(kd_renderer_first_start(renderer));
+    print_selftest(kd_renderer_verdict(renderer));
     status = draw(renderer, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);

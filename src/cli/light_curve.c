@@ -4,7 +4,7 @@
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "physics/kerr.h"
-#include "render/curve.h"
+#include "render/output/curve.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,9 +3,9 @@
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "orbit/feed.h"
+#include "base/cores.h"
 
 #include <pthread.h>
-#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -136,8 +136,7 @@ static void *help(void *feed)
 static void share(struct kd_orbit_feed *feed)
 {
     pthread_t threads[15];
-    cpu_set_t set;
-    int n = 0, cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    int n = 0, cores = (int)kd_cores();
     while (n < 15 && n + 1 < cores && !pthread_create(&threads[n], NULL, help, feed))
         n++;
     help(feed);

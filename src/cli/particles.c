@@ -3,7 +3,7 @@
 #include "cli/file.h"
 #include "cli/scene_options.h"
 #include "image/npy.h"
-#include "render/particle_list.h"
+#include "render/output/particle_list.h"
 #include "render/render.h"
 
 #include <stdio.h>

@@ -1,9 +1,9 @@
 #include "cli/progress.h"
+#include "base/clock.h"
 
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #define QUIET_S 0.5 /* a render shorter than this needs no bar */
@@ -12,12 +12,7 @@
 
 static volatile sig_atomic_t caught;
 
-double kd_progress_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+double kd_progress_clock(void) { return 1e-3 * kd_clock_ms(); }
 
 void kd_progress_init(struct kd_progress *progress)
 {

@@ -3,8 +3,8 @@
 #include "cli/file.h"
 #include "cli/progress.h"
 #include "cli/trace.h"
-#include "render/rays_answer.h"
-#include "render/rays_request.h"
+#include "render/rays/answer.h"
+#include "render/rays/request.h"
 #include "scene/number.h"
 
 #include <errno.h>

@@ -4,7 +4,7 @@
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "cli/stats.h"
-#include "render/picture.h"
+#include "render/output/picture.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include "cli/cli.h"
 #include "cli/file.h"
-#include "render/picture.h"
+#include "render/output/picture.h"
 
 #include <errno.h>
 #include <stdio.h>

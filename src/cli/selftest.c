@@ -3,7 +3,7 @@
 #include "base/json.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
-#include "render/selftest.h"
+#include "render/selftest/selftest.h"
 
 #include <errno.h>
 #include <math.h>

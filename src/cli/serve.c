@@ -1,5 +1,6 @@
 /* kerrd serve: the HTTP service until a signal ends it. */
 #include "cli/cli.h"
+#include "render/selftest/first_start.h"
 #include "server/server.h"
 
 #include <errno.h>
@@ -107,7 +108,7 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
         .client_share = arguments->client_share,
         .cross_site = arguments->cross_site,
         .state = arguments->state,
-        .renderer = { .device = arguments->device, .prove = true, .memory_bytes = arguments->memory },
+        .renderer = { .device = arguments->device, .prove = kd_first_start, .memory_bytes = arguments->memory },
     };
     enum kd_status status = kd_server_create(&params, &running, error);
     if (status)

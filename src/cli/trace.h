@@ -3,7 +3,7 @@
 #define KD_CLI_TRACE_H
 
 #include "base/buffer.h"
-#include "render/rays_steps.h"
+#include "render/rays/steps.h"
 
 /* A table for eyes; a JSON document; CSV, one line a step with empty cells for what does not exist. KD_ENOMEM alone. */
 enum kd_status kd_trace_text(const struct kd_rays_steps *steps, struct kd_buffer *out);

@@ -12,7 +12,7 @@
  *
  *   right, up, inwards = m: the components along e_phi, -e_theta and -e_r of the direction in which one looks,
  *
- * the axes of an unturned pinhole camera (render/camera.c). Orbits with r > r_observer are seen looking outwards.
+ * the axes of an unturned pinhole camera (render/view/camera.c). Orbits with r > r_observer are seen looking outwards.
  *
  * The sky is described in polar coordinates (angle, rho) about a centre, on the line beta = 0 midway between the curve's two
  * ends: every angle meets the curve once. The angle is counted from the right, +alpha, over the top, +beta.

@@ -174,6 +174,6 @@ enum kd_profile {
     KD_PROFILE_HIGH,
     KD_PROFILE_REFERENCE,
 };
-enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* the other words are those of render/engine.h */
+enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* the other words are those of render/accuracy/engine.h */
 
 #endif

@@ -164,7 +164,7 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
                           "them rings alone", show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
 }
 
-/* The rest of what accuracy.* may not say together depends on the device: render/engine.h. */
+/* The rest of what accuracy.* may not say together depends on the device: render/accuracy/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->accuracy.steps % 4 == 0)

@@ -1,13 +1,18 @@
 #include "server/server.h"
 
 #include "base/log.h"
-#include "server/descriptors.h"
-#include "server/keeper.h"
-#include "server/library.h"
-#include "server/listen.h"
-#include "server/names.h"
-#include "server/request.h"
-#include "server/service.h"
+#include "server/http/descriptors.h"
+#include "server/http/keeper.h"
+#include "server/http/library.h"
+#include "server/http/listen.h"
+#include "server/http/names.h"
+#include "server/http/request.h"
+#include "server/http/service.h"
+#include "server/job/jobs.h"
+#include "server/openapi/kept.h"
+#include "server/render/queue.h"
+#include "server/session/sessions.h"
+#include "server/dispatch.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -3,16 +3,11 @@
 #include "vk/barrier.h"
 #include "vk/device.h"
 #include "vk/mapped.h"
+#include "base/clock.h"
 
 #include <inttypes.h>
-#include <time.h>
 
-static uint64_t now_ns(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
-}
+static uint64_t now_ns(void) { return (uint64_t)(kd_clock_ms() * 1e6); }
 
 static struct kd_vk_slot *slot_of(struct kd_vk *vk, uint64_t value)
 {

@@ -1,7 +1,7 @@
 /* The pixels at the critical curve, by more rays than the others: judged by pictures of 8 x 8 rays in every pixel. */
 #include "studio.h"
 
-#include "render/critical_pixels.h"
+#include "render/view/critical_pixels.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -9,7 +9,7 @@
 #include "studio.h"
 
 #include "image/png.h"
-#include "render/picture.h"
+#include "render/output/picture.h"
 
 #include <math.h>
 #include <stdio.h>

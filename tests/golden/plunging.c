@@ -5,9 +5,9 @@
 #include "contraction.h"
 #include "physics/null_geodesic.h"
 #include "physics/plunge.h"
-#include "render/camera.h"
-#include "render/particles.h"
-#include "render/plunging.h"
+#include "render/view/camera.h"
+#include "render/emit/particles.h"
+#include "render/emit/plunging.h"
 
 #include <math.h>
 #include <setjmp.h>

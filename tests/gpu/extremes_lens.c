@@ -6,7 +6,7 @@
 #include "extremes.h"
 
 #include "physics/kerr.h"
-#include "render/camera.h"
+#include "render/view/camera.h"
 #include "vk/vk.h"
 
 #include "interface.h"

@@ -3,7 +3,7 @@
  * written behind the last pixel's place, and light where light must be. */
 #include "extremes.h"
 
-#include "render/internal.h"
+#include "render/device/internal.h"
 
 #include <math.h>
 #include <stdio.h>

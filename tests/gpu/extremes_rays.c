@@ -4,9 +4,9 @@
 #include "extremes.h"
 
 #include "physics/kerr.h"
-#include "render/rays.h"
-#include "render/rays_device.h"
-#include "render/rays_check.h"
+#include "render/rays/rays.h"
+#include "render/rays/device.h"
+#include "render/rays/check.h"
 
 #include <math.h>
 #include <stdio.h>

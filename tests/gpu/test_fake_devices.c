@@ -2,8 +2,8 @@
  * and lost in the middle. What they answer is to the byte what the device answers by itself. */
 #include "fake_device.h"
 
-#include "render/particle_list.h"
-#include "render/rays.h"
+#include "render/output/particle_list.h"
+#include "render/rays/rays.h"
 #include "render/render.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
  * that computes wrongly is said to, loudly, and tested again at each start. */
 #include "render_support.h"
 
-#include "render/first_start.h"
-#include "render/internal.h"
+#include "render/selftest/first_start.h"
+#include "render/device/internal.h"
 
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ static struct kd_renderer *start(bool prove)
 {
     struct kd_renderer *r = NULL;
     const char *device = getenv("KERRD_TEST_DEVICE");
-    const struct kd_renderer_params params = { .device = device ? device : "auto", .cache_dir = folder, .prove = prove };
+    const struct kd_renderer_params params = { .device = device ? device : "auto", .cache_dir = folder, .prove = prove ? kd_first_start : NULL };
     OK(kd_renderer_create(&params, &r, &error));
     return r;
 }
@@ -40,14 +40,14 @@ static void test_once(void **state)
 {
     (void)state;
     struct kd_renderer *r = start(false);
-    const struct kd_first_start *known = kd_renderer_first_start(r);
-    assert_int_equal(known->verdict, KD_UNTESTED);
+    const struct kd_verdict *known = kd_renderer_verdict(r);
+    assert_int_equal(known->result, KD_UNTESTED);
     assert_false(r->capacity.measured);
     kd_renderer_destroy(r);
 
     r = start(true);
-    known = kd_renderer_first_start(r);
-    assert_true(known->verdict == KD_PASSED && known->now && known->checks > 50 && !known->failed);
+    known = kd_renderer_verdict(r);
+    assert_true(known->result == KD_PASSED && known->now && known->checks > 50 && !known->failed);
     assert_true(r->capacity.measured && r->capacity.ns_per_pixel_post > 0 && r->capacity.ns_per_pixel_post < 1e6);
     char *path = path_of(r);
     kd_renderer_destroy(r);
@@ -56,8 +56,8 @@ static void test_once(void **state)
 
     for (int prove = 0; prove < 2; prove++) { /* known to whoever asks, and what passes cost as well */
         r = start(prove);
-        known = kd_renderer_first_start(r);
-        assert_true(known->verdict == KD_PASSED && !known->now && known->checks > 50 && r->capacity.measured);
+        known = kd_renderer_verdict(r);
+        assert_true(known->result == KD_PASSED && !known->now && known->checks > 50 && r->capacity.measured);
         kd_renderer_destroy(r);
     }
     free(path);
@@ -84,12 +84,12 @@ static void test_not_this_one(void **state)
             memcpy(strstr(other, "\"of\": \"") + 7, "ffffffff", 8); /* another device */
         write_all(path, other);
         r = start(false);
-        assert_int_equal(kd_renderer_first_start(r)->verdict, KD_UNTESTED);
+        assert_int_equal(kd_renderer_verdict(r)->result, KD_UNTESTED);
         kd_renderer_destroy(r);
     }
     write_all(path, text);
     r = start(false);
-    assert_int_equal(kd_renderer_first_start(r)->verdict, KD_PASSED);
+    assert_int_equal(kd_renderer_verdict(r)->result, KD_PASSED);
     kd_renderer_destroy(r);
     free(path);
 }
@@ -120,8 +120,8 @@ static void test_failed(void **state)
     for (int k = 0; k < 2; k++) { /* and again */
         struct kd_buffer json = { 0 };
         r = start(true);
-        const struct kd_first_start *known = kd_renderer_first_start(r);
-        assert_true(known->verdict == KD_FAILED && known->now && known->failed && known->worst[0]);
+        const struct kd_verdict *known = kd_renderer_verdict(r);
+        assert_true(known->result == KD_FAILED && known->now && known->failed && known->worst[0]);
         OK(kd_renderer_device_json(r, &json));
         assert_int_equal(kd_buffer_append(&json, "", 1), KD_OK);
         assert_non_null(strstr((const char *)json.data, "\"result\": \"failed\""));

@@ -3,8 +3,9 @@
 #include "render_support.h"
 
 #include "physics/kerr.h"
-#include "render/accuracy.h"
-#include "render/internal.h"
+#include "render/accuracy/table.h"
+#include "render/device/internal.h"
+#include "render/rays/rays.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* Particles as numbers: against the closed form in double, constants and the norm by physics/orbit.h and the metric, rates against
  * differences; parts of a list, and what is refused. */
-#include "render/particle_list.h"
+#include "render/output/particle_list.h"
 
 #include "physics/kerr.h"
 #include "physics/orbit.h"

@@ -1,9 +1,10 @@
 /* Particles as the device computes them, against the closed form in double and against tracks: phases after long times, periods, the
  * seed; and frames that hold them. */
-#include "render/particles.h"
+#include "render/emit/particles.h"
 
 #include "physics/orbit_bound.h"
 #include "render_support.h"
+#include "render/device/deposit.h"
 
 #include <math.h>
 

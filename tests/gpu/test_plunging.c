@@ -1,10 +1,11 @@
 /* Particles that fall from the ISCO, as the device places them: against geodesics integrated from the metric, at any time, and
  * against the steady stream that they are to be; and that those who are off cost nothing. */
-#include "render/particles.h"
+#include "render/emit/particles.h"
 
 #include "physics/kerr.h"
-#include "render/plunging.h"
+#include "render/emit/plunging.h"
 #include "render_support.h"
+#include "render/device/deposit.h"
 
 #include <math.h>
 

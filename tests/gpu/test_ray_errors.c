@@ -5,10 +5,10 @@
 #include "null_reference.h"
 #include "null_series.h"
 #include "physics/critical.h"
-#include "render/accuracy.h"
-#include "render/internal.h"
-#include "render/rays.h"
-#include "render/rays_check.h"
+#include "render/accuracy/table.h"
+#include "render/device/internal.h"
+#include "render/rays/rays.h"
+#include "render/rays/check.h"
 
 #include "render_support.h"
 

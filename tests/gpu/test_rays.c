@@ -2,8 +2,8 @@
  * error that comes with each ray against the error that was made. */
 #include "kerr_schild.h"
 #include "physics/kerr.h"
-#include "render/internal.h"
-#include "render/rays_device.h"
+#include "render/device/internal.h"
+#include "render/rays/device.h"
 
 #include "render_support.h"
 

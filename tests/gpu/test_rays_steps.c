@@ -1,6 +1,6 @@
 /* One ray step by step: the kernel that tells ends where the one that does not ends, its steps are those of the ray, and the
  * first integrals hold along them. */
-#include "render/rays_steps.h"
+#include "render/rays/steps.h"
 
 #include "render_support.h"
 

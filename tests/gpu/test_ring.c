@@ -4,7 +4,7 @@
 
 #include "physics/kerr.h"
 #include "physics/lensing.h"
-#include "render/ring.h"
+#include "render/view/ring.h"
 
 #include <math.h>
 

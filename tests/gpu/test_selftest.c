@@ -1,5 +1,5 @@
 /* The self-test passes here, and a wrong number in it is seen: a comparison that cannot fail would let every device pass. */
-#include "render/selftest.h"
+#include "render/selftest/selftest.h"
 
 #include "render_support.h"
 

@@ -56,7 +56,7 @@ class Documents(unittest.TestCase):
             self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
 
     def test_statuses(self):
-        problems = set(re.findall(r'^    X\(\w+, (\d+),', ROOT.joinpath('src/server/problem.h').read_text(), re.M))
+        problems = set(re.findall(r'^    X\(\w+, (\d+),', ROOT.joinpath('src/server/http/problem.h').read_text(), re.M))
         text = ROOT.joinpath('docs/http.md').read_text()
         table = set(re.findall(r'\d{3}', ' '.join(re.findall(r'^\| ((?:\d{3}(?:, )?)+) \|', text, re.M))))
         self.assertGreater(len(problems), 10)

@@ -4,8 +4,9 @@
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
  * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
  * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond. */
-#include "render/accuracy_store.h"
-#include "render/rays_device.h"
+#include "render/device/accuracy_store.h"
+#include "render/rays/device.h"
+#include "render/frame/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The numbers that `kerrd doctor --selftest` judges a device by, to 20 digits, as src/render/selftest_reference.c.
+"""The numbers that `kerrd doctor --selftest` judges a device by, to 20 digits, as src/render/selftest/reference.c.
 
-    python3 tests/oracle/selftest_reference.py > src/render/selftest_reference.c      (needs mpmath; some minutes)
+    python3 tests/oracle/selftest_reference.py > src/render/selftest/reference.c      (needs mpmath; some minutes)
 
 Nothing here is a formula of src/ or shaders/. Circular orbits come from the metric alone (kerr_reference.py), the others and the
 disk's flux by quadrature (orbit_reference.py, disk_reference.py), rays from Taylor series of the equations of motion
@@ -272,7 +272,7 @@ def table(name, rows):
 
 def main():
     print("/* Made by tests/oracle/selftest_reference.py; do not edit. */")
-    print('#include "render/selftest_reference.h"\n\n#include <math.h>\n')
+    print('#include "render/selftest/reference.h"\n\n#include <math.h>\n')
     print("const struct kd_selftest_reference kd_selftest_reference = {")
     table("orbits", orbit_rows())
     with Pool(2) as pool:

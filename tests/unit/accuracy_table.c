@@ -1,6 +1,6 @@
 /* The accuracy table: the choice from made-up ones, the document there and back, the file, and the rays. */
 #include "physics/kerr.h"
-#include "render/accuracy_store.h"
+#include "render/device/accuracy_store.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -22,6 +22,11 @@ MODULES = {
     "cli": {"base", "physics", "scene", "quantity", "orbit", "image", "vk", "render", "server"},
     "main.c": {"base", "cli"},
 }
+# Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
+FOLDERS = {
+    "render": ["view", "accuracy", "emit", "plan", "device", "rays", "lens", "frame", "output", "live", "selftest"],
+    "server": ["http", "render", "session", "job", "openapi", "answers"],
+}
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},
@@ -39,6 +44,12 @@ FOREIGN = {
 # Made from shaders/, which has no other way to be included.
 SHADERS = re.compile(r"^(\w+\.spv\.h|interface\.h)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
+
+
+def rank(module, parts):
+    """The place of a file or header of a module among its folders: the larger, the more it may know."""
+    order = FOLDERS[module]
+    return len(order) if len(parts) < 3 else order.index(parts[1]) if parts[1] in order else -1
 
 
 def wrong(src):
@@ -59,6 +70,10 @@ def wrong(src):
             if other in MODULES and "/" in header:
                 if other != module and other not in MODULES[module]:
                     yield f"{where}: {module} -> {other} ({header})"
+                if other == module and module in FOLDERS:
+                    mine, its = rank(module, where.parts), rank(module, header.split("/"))
+                    if mine < 0 or its > mine:
+                        yield f"{where}: {where.parts[1]} must not know {header}"
             elif own and SHADERS.match(own):
                 if module != "render":
                     yield f"{where}: {module} must not know the kernels ({header})"
@@ -70,14 +85,16 @@ def self_test():
     """Each kind of wrong arrow is found, a right one is not."""
     faults = {
         "base/a.c": '#include "physics/kerr.h"', "physics/a.h": "#include <vulkan/vulkan.h>",
-        "physics/b.c": "# include <cjson/cJSON.h>", "scene/a.c": '#include "render/plan.h"',
+        "physics/b.c": "# include <cjson/cJSON.h>", "scene/a.c": '#include "render/plan/plan.h"',
         "vk/a.c": '#include "scene/scene.h"', "vk/b.c": "#include <microhttpd.h>",
         "image/a.c": '#include "scene/scene.h"', "server/a.c": '#include "vk/vk.h"',
         "server/b.c": "#include <vk/vk.h>", "render/a.c": '#include "server/server.h"',
         "server/c.c": '#include "post.spv.h"', "render/b.c": '#include "plan.h"',
-        "quantity/a.c": '#include "render/plan.h"', "scene/b.c": '#include "quantity/quantity.h"', "news/a.c": "",
+        "quantity/a.c": '#include "render/plan/plan.h"', "scene/b.c": '#include "quantity/quantity.h"', "news/a.c": "",
+        "render/view/a.c": '#include "render/plan/plan.h"', "render/rays/a.h": '#include "render/render.h"',
+        "server/http/a.c": '#include "server/job/jobs.h"', "render/new/a.c": '#include "render/view/camera.h"',
     }
-    right = {"render/c.c": '#include "vk/vk.h"\n#include "post.spv.h"\n#include <math.h>', "server/d.c": '#include "render/plan.h"'}
+    right = {"render/c.c": '#include "vk/vk.h"\n#include "post.spv.h"\n#include <math.h>', "server/d.c": '#include "render/plan/plan.h"'}
     with tempfile.TemporaryDirectory() as folder:
         src = pathlib.Path(folder)
         for name, text in {**faults, **right}.items():

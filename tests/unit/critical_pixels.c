@@ -1,9 +1,9 @@
 /* Which pixels the critical curve passes: judged by the fates of rays in closed form, which know nothing of the curve. And where
  * the rays on such a pixel stand. */
-#include "render/critical_pixels.h"
+#include "render/view/critical_pixels.h"
 
 #include "physics/null_geodesic.h"
-#include "render/camera.h"
+#include "render/view/camera.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "render/accuracy.h"
-#include "render/engine.h"
+#include "render/accuracy/table.h"
+#include "render/accuracy/engine.h"
 #include "scene/table.h"
 
 #define NONE KD_WISH_NONE

@@ -2,7 +2,7 @@
 #ifndef KD_TESTS_GOVERNOR_SIMULATION_H
 #define KD_TESTS_GOVERNOR_SIMULATION_H
 
-#include "render/governor.h"
+#include "render/live/governor.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,11 +1,11 @@
 /* What C writes is what the kernels read: offsets and types of the members of push constants and buffers in
  * the SPIR-V against offsetof. */
-#include "render/layout.h"
-#include "render/tables.h"
+#include "render/view/layout.h"
+#include "render/emit/tables.h"
 
 #include "lens_map.spv.h"
 #include "lens_radius.spv.h"
-#include "light.spv.h"
+#include "photometry.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
 #include "transfer.spv.h"
@@ -175,7 +175,7 @@ static const struct field spot_fields[] = { KD_SPOT_FIELDS_(F, U) };
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
 static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), particles = SPIRV(particles),
-                          light = SPIRV(light);
+                          light = SPIRV(photometry);
 
 static void camera(void **state)
 {

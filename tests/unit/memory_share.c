@@ -1,7 +1,7 @@
 /* Whose memory a picture may take: of devices that are the host, and of those with memory of their own. */
-#include "render/memory_share.h"
+#include "render/device/memory_share.h"
 
-#include "render/accuracy.h"
+#include "render/accuracy/table.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

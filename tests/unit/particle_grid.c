@@ -1,5 +1,5 @@
 /* The guiding radii of particles are fine enough for the rows of their grid, however particles are spread. */
-#include "render/particles.h"
+#include "render/emit/particles.h"
 
 #include "physics/kerr.h"
 

@@ -1,6 +1,6 @@
 /* A picture can be rendered again from itself: the scene, and what was done with it, travel in the file. */
 #include "image/png.h"
-#include "render/picture.h"
+#include "render/output/picture.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* The curve that plunging particles share, there and back: its table of radii against the closed form, at any spin. */
-#include "render/plunging.h"
+#include "render/emit/plunging.h"
 
 #include "physics/kerr.h"
 

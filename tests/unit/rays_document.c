@@ -1,6 +1,6 @@
 /* Requests and answers as text and bytes, down to every cut and every size of piece. */
-#include "render/rays_answer.h"
-#include "render/rays_request.h"
+#include "render/rays/answer.h"
+#include "render/rays/request.h"
 
 #include <math.h>
 #include <setjmp.h>

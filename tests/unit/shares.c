@@ -1,5 +1,5 @@
 /* Shares of the device, by a clock that is simulated: what is served in which order, and how much of it. */
-#include "server/shares.h"
+#include "server/http/shares.h"
 
 #include <math.h>
 #include <setjmp.h>

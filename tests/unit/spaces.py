@@ -28,7 +28,7 @@ with tempfile.TemporaryDirectory(prefix='kerrd with a space ') as folder:
     again = run('ninja', '-n', '-d', 'explain', '-C', 'build')
     if 'no work to do' not in again:
         sys.exit('made anew though nothing has changed:\n' + again)
-    changed = root / 'shaders/include/math.glsl'
+    changed = root / 'shaders/shared/math.glsl'
     changed.write_text(changed.read_text() + '\n')
     again = run('ninja', '-n', '-C', 'build')
     if 'rays_f64' not in again or 'no work to do' in again:

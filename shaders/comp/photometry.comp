@@ -1,0 +1,51 @@
+/* The light of a picture, for its sum and its centre. Over pixels at x and y steps from the middle, of luminance Y, and with
+ * f = 1/|(1, x step, y step)| (1 in the image plane),
+ *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
+ * of the whole picture and of the hot spots' own light. f^3 is the solid angle of a pixel over that of the middle one, f times
+ * (1, x step, y step) the unit vector towards it. An invocation adds up KD_LIGHT_PIXELS pixels and compensates (W. Kahan 1965, CACM
+ * 8, 40); the host adds its sums in double. Always in the same order. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/interface.h"
+
+layout(constant_id = 0) const bool SPOTS = false;
+layout(constant_id = 1) const bool FINITE = false;
+layout(local_size_x = KD_GROUP_SIZE) in;
+#define F(name) float name;
+#define U(name) uint name;
+layout(push_constant) uniform Push { KD_LIGHT_FIELDS_(F, U) } push;
+layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
+layout(set = 0, binding = 1) writeonly buffer Sums { vec4 sums[]; };
+
+/* The sum so far, and what its rounding has added too much. */
+struct sum4 { precise vec4 value, lost; };
+
+sum4 add(sum4 s, vec4 term)
+{
+    precise vec4 small = term - s.lost, next = s.value + small;
+    s.lost = (next - s.value) - small;
+    s.value = next;
+    return s;
+}
+
+void main()
+{
+    /* Neighbours read neighbouring pixels. */
+    uint o = gl_WorkGroupID.x * (KD_GROUP_SIZE * KD_LIGHT_PIXELS) + gl_LocalInvocationID.x;
+    uint px = o % push.pixels_x, row = o / push.pixels_x;
+    sum4 all = sum4(vec4(0.0), vec4(0.0)), spots = all;
+    for (uint k = 0; k < KD_LIGHT_PIXELS && o < push.pixels; k++) {
+        float x = float(px) - push.middle_x, y = push.middle_y - float(push.row0 + row);
+        float f = FINITE ? 1.0 / sqrt(1.0 + push.step_ * push.step_ * (x * x + y * y)) : 1.0;
+        vec4 term = f * f * f * vec4(1.0, f, f * x, f * y);
+        float light = 0.2126 * radiance[3 * o] + 0.7152 * radiance[3 * o + 1] + 0.0722 * radiance[3 * o + 2];
+        all = add(all, light * term);
+        if (SPOTS)
+            spots = add(spots, radiance[push.spots + o] * term);
+        o += KD_GROUP_SIZE;
+        for (px += KD_GROUP_SIZE; px >= push.pixels_x; px -= push.pixels_x)
+            row++;
+    }
+    sums[2 * gl_GlobalInvocationID.x] = all.value;
+    sums[2 * gl_GlobalInvocationID.x + 1] = spots.value;
+}

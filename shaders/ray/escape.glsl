@@ -1,0 +1,114 @@
+/* The end of a ray: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
+ * n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
+ *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
+ * Needs the camera's push constants and the specialisation constant STEPS. */
+#ifndef KD_ESCAPE_GLSL
+#define KD_ESCAPE_GLSL
+
+#include "shared/math.glsl"
+#include "ray/nystroem.glsl"
+#include "ray/trace.glsl"
+
+struct kd_path {
+    vec4 y, v; /* (n, w) and its derivative */
+    float chi;
+};
+
+struct kd_escape { float u, phi, fate; }; /* phi = psi + chi */
+
+kd_path kd_path_start(kd_ray ray, float u, float s)
+{
+    kd_path o;
+    o.y = vec4(s, 0.0, u, ray.w);
+    o.v = vec4(-u * ray.p, ray.l, s * ray.p, ray.dw); /* L / sin theta = l: finite on the axis */
+    o.chi = 0.0;
+    return o;
+}
+
+/* On the plane, leaving it upwards (side = 1) or downwards (-1): |u'| = sqrt(Q). */
+kd_path kd_path_crossing(kd_motion m, kd_state y, float psi, float chi, float side)
+{
+    kd_path o;
+    kd_turn t = kd_cos_sin(psi);
+    o.y = vec4(t.c, t.s, 0.0, y.w);
+    o.v = vec4(-m.momentum * t.s, m.momentum * t.c, side * sqrt(max(m.q, 0.0)), y.dw);
+    o.chi = chi;
+    return o;
+}
+
+vec4 kd_path_pull(kd_motion m, vec4 y)
+{
+    float e = m.energy2, u = y.z, w = y.w;
+    vec4 f = -(m.q + m.momentum * m.momentum + 2.0 * e * u * u) * y;
+    f.z += e * u;
+    f.w = w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w));
+    return f;
+}
+
+kd_path kd_path_step(kd_motion m, kd_path p, float h)
+{
+    kd_path o;
+    KD_NYSTROEM_STEP(vec4, kd_path_pull, m, p.y, p.v, h, o.y, o.v)
+    o.chi = p.chi;
+    return o;
+}
+
+/* The drag over one step: Simpson's rule, with the middle from the quintic that fits w, w' and w'' at both ends. */
+float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h)
+{
+    kd_state a, b, c;
+    a.w = p.y.w;
+    b.w = 0.5 * (p.y.w + q.y.w) + h * (5.0 / 32.0) * (p.v.w - q.v.w) +
+          h * h * (1.0 / 64.0) * (kd_path_pull(m, p.y).w + kd_path_pull(m, q.y).w);
+    c.w = q.y.w;
+    a.dw = p.v.w;
+    c.dw = q.v.w;
+    b.dw = -sqrt(max(kd_fall_squared(m, b.w, ray.e, cam.spin, cam.root), 0.0));
+    float way = a.dw < 0.0 && c.dw < 0.0 ? -1.0 : 0.0; /* a ray that turns again does not escape */
+    float pole = way * (kd_drag_fall(c.w, cam.spin, cam.root) - kd_drag_fall(a.w, cam.spin, cam.root));
+    return pole + h * (1.0 / 6.0) *
+                      (kd_drag(m, a, ray.e, cam.spin, cam.root, way) + 4.0 * kd_drag(m, b, ray.e, cam.spin, cam.root, way) +
+                       kd_drag(m, c, ray.e, cam.spin, cam.root, way));
+}
+
+kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
+{
+    kd_escape o;
+    o.fate = KD_FATE_UNDECIDED;
+    o.u = 0.0;
+    o.phi = 0.0;
+    /* Steps as fine as between crossings, and no coarser than 1/E where the ray is nearly radial. */
+    float rate = sqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
+    float h = KD_PI / (float(STEPS) * rate);
+    /* Twelve half periods: beyond them only rays within 1e-13 of the critical curve still circle. */
+    for (uint i = 0; i < 12 * STEPS; i++) {
+        kd_path q = kd_path_step(m, p, h);
+        if (q.y.w >= cam.horizon || !kd_is_finite(q.y.w)) {
+            o.fate = KD_FATE_CAPTURED;
+            KD_TRACE_STEP(KD_TRACE_END, h, q.y, q.v, p.chi);
+            break;
+        }
+        if (q.y.w < 0.0) {
+            /* Where the cubic through both ends vanishes, by Newton; then one step to there. */
+            float s = p.y.w / (p.y.w - q.y.w), d0 = h * p.v.w, d1 = h * q.v.w, dy = q.y.w - p.y.w;
+            float c2 = 3.0 * dy - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * dy;
+            for (int k = 0; k < 4; k++) {
+                float f = p.y.w + s * (d0 + s * (c2 + s * c3)), df = d0 + s * (2.0 * c2 + 3.0 * s * c3);
+                s = clamp(s - f / (df < 0.0 ? df : -1.0), 0.0, 1.0);
+            }
+            q = kd_path_step(m, p, s * h);
+            vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
+            o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
+            o.u = n.z * inversesqrt(dot(n, n));
+            o.fate = KD_FATE_ESCAPED;
+            KD_TRACE_STEP(KD_TRACE_END, s * h, q.y, q.v, p.chi);
+            break;
+        }
+        q.chi = p.chi + kd_path_drag(m, ray, p, q, h);
+        p = q;
+        KD_TRACE_STEP(KD_TRACE_END, h, p.y, p.v, p.chi);
+    }
+    return o;
+}
+
+#endif

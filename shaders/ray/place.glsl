@@ -1,0 +1,39 @@
+/* Which ray an invocation is for. Needs the camera's push constants as `cam`, the lens map as `lens`, and the specialisation
+ * constants CRITICAL, GENERATOR and SHIFT.
+ *
+ * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
+ * CRITICAL on each (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
+#ifndef KD_PLACE_GLSL
+#define KD_PLACE_GLSL
+
+/* The pixel of this number in the list. */
+uvec2 kd_listed_pixel(uint pixel)
+{
+    uint at = cam.list + 2 * pixel;
+    return uvec2(lens[at], lens[at + 1]);
+}
+
+/* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel. */
+uvec2 kd_critical_place(uvec2 pixel, uint ray)
+{
+    return pixel * CRITICAL + uvec2(ray, (ray * GENERATOR + SHIFT) % max(CRITICAL, 1));
+}
+
+/* The ray of this invocation of a tracing kernel; false: none. at: its place in a plane of the lens map. */
+bool kd_this_ray(out uvec2 ray, out uint at)
+{
+    uint x = gl_GlobalInvocationID.x;
+    if (CRITICAL > 0) {
+        at = cam.row0 * CRITICAL + x;
+        if (x >= cam.rows * CRITICAL)
+            return false;
+        ray = kd_critical_place(kd_listed_pixel(at / CRITICAL), at % CRITICAL);
+        return true;
+    }
+    uint row = cam.row0 + gl_WorkGroupID.y;
+    ray = uvec2(x, row);
+    at = (row - cam.band0) * cam.width + x;
+    return x < cam.width;
+}
+
+#endif

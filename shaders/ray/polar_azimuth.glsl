@@ -1,0 +1,79 @@
+/* The azimuth that the polar motion contributes, psi = integral of L/(1 - u^2) dtau, in closed form.
+ *
+ * The integrand peaks as 1/sin^2(theta) near the axis. With u^2 = U+ cos^2 x, y = b + e u^2 and c = b + e one has
+ * c (1 - U+) = L^2, so that
+ *   L dx / ((1 - u^2) sqrt(y)) = sign(L) d atan(tan x / sqrt(1 - U+)) + L e dx / (sqrt(y) sqrt(c) (sqrt(y) + sqrt(c))):
+ * the first term holds the whole peak and is exact; between crossings it gives pi. The second is smooth, small and even and
+ * periodic in x: a cosine series through five points. Its terms fall as ((p - q)/(p + q))^k. Rays with an impact parameter
+ * below some twice the spin, a few of a picture, would need many more: for them it is integrated in time. */
+#ifndef KD_POLAR_AZIMUTH_GLSL
+#define KD_POLAR_AZIMUTH_GLSL
+
+#include "ray/nystroem.glsl"
+
+struct kd_azimuth {
+    float first;  /* psi from the observer to the first crossing */
+    float half_;  /* from each crossing to the next */
+};
+
+/* 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
+float kd_azimuth_rate(float y, float root_c)
+{
+    float root = sqrt(y);
+    return 1.0 / (root * (root + root_c));
+}
+
+float kd_azimuth_pull(kd_motion m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
+
+/* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's rule. */
+float kd_azimuth_smooth(kd_motion m, float b, float u, float du, float time)
+{
+    const uint steps = 32;
+    float c = sqrt(b + m.energy2), h = time * (1.0 / float(steps)), sum = 7.0 / (sqrt(b + m.energy2 * u * u) + c);
+    for (uint i = 1; i <= steps; i++) {
+        float next, dnext;
+        KD_NYSTROEM_STEP(float, kd_azimuth_pull, m, u, du, h, next, dnext)
+        u = next;
+        du = dnext;
+        float weight = (i & 1u) == 1u ? 32.0 : (i & 3u) == 2u ? 12.0 : i == steps ? 7.0 : 14.0;
+        sum += weight / (sqrt(b + m.energy2 * u * u) + c);
+    }
+    return m.momentum * m.energy2 / c * sum * h * (2.0 / 45.0);
+}
+
+kd_azimuth kd_azimuth_of(kd_motion m, kd_ray ray, kd_polar polar, float u, float s)
+{
+    kd_azimuth o;
+    float dp = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
+    float root = sqrt(polar.b + m.energy2 * u * u);
+    float cx = abs(u), sx = -(s * dp) / root;
+    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and no more */
+    float c = polar.b + m.energy2, sc = sqrt(c);
+    float eu = m.energy2 / n; /* e U+ */
+    /* At x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends count half. */
+    float j0 = 0.5 * kd_azimuth_rate(polar.b + eu, sc), j4 = 0.5 * kd_azimuth_rate(polar.b, sc);
+    float j1 = kd_azimuth_rate(polar.b + 0.853553391 * eu, sc);
+    float j2 = kd_azimuth_rate(polar.b + 0.5 * eu, sc);
+    float j3 = kd_azimuth_rate(polar.b + 0.146446609 * eu, sc);
+    float le = 0.25 * m.momentum * m.energy2 / sc, tilt = 0.707106781 * (j1 - j3);
+    float f0 = le * (j0 + j1 + j2 + j3 + j4);
+    float f1 = le * 2.0 * (j0 - j4 + tilt);
+    float f2 = le * 2.0 * (j0 - j2 + j4);
+    float f3 = le * 2.0 * (j0 - j4 - tilt);
+    float f4 = le * (j0 - j1 + j2 - j3 + j4);
+    float sin2 = 2.0 * sx * cx * n, cos2 = (cx * cx - sx * sx) * n, cos4 = 2.0 * cos2 * cos2 - 1.0;
+    float wave = sin2 * (0.5 * f1 + cos2 * (0.5 * f2 + cos4 * 0.5 * f4) +
+                        f3 * (0.5 - (2.0 / 3.0) * sin2 * sin2));
+    float side = ray.l < 0.0 ? -1.0 : 1.0;
+    /* tan x / sqrt(1 - U+) at the observer, free of the sine of the polar angle that both sides share: exact on the axis. */
+    float first = f0 * kd_angle_upper(sx, cx) - wave, half_ = KD_PI * f0;
+    if (polar.b < 0.85 * (polar.b + eu)) { /* (p - q)/(p + q) above 0.04: the fifth term above 1e-7 */
+        first = kd_azimuth_smooth(m, polar.b, u, s * ray.p, polar.first);
+        half_ = kd_azimuth_smooth(m, polar.b, 0.0, sqrt(max(m.q, 0.0)), polar.half_);
+    }
+    o.first = side * kd_angle_upper(-dp / root, cx * abs(ray.l) / sc) + first;
+    o.half_ = KD_PI * side + half_;
+    return o;
+}
+
+#endif

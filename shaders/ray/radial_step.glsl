@@ -1,0 +1,117 @@
+/* The radial motion w'' = A w + 3K w^2 - 2D w^3, a step at a time, and the azimuth by which the hole drags a ray. */
+#ifndef KD_RADIAL_STEP_GLSL
+#define KD_RADIAL_STEP_GLSL
+
+#include "shared/math.glsl"
+#include "ray/nystroem.glsl"
+
+struct kd_state { float w, dw; };
+
+float kd_pull(kd_motion m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)); }
+
+kd_state kd_radial_step(kd_motion m, kd_state y, float h)
+{
+    kd_state o;
+    KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw)
+    return o;
+}
+
+/* As a divisor. */
+float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
+
+/* W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
+float kd_one_way(kd_motion m, kd_state y, float e, float a, float way)
+{
+    return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
+}
+
+/* w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
+float kd_fall_squared(kd_motion m, float w, float e, float a, float root)
+{
+    precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2, square = all * all - kd_delta(w, root) * m.k * w2;
+    return square;
+}
+
+/* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + a^2 w^2.
+ *
+ * On the way into the horizon chi' diverges as 1/D, and its quadrature with it. What a falling ray leaves regular is the
+ * azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by kd_drag_fall. As
+ * w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference; and the same with the other sign of w'
+ * for one that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 straight out, else 0. */
+float kd_drag(kd_motion m, kd_state y, float e, float a, float root, float way)
+{
+    float w = y.w, w2 = w * w;
+    if (way != 0.0)
+        return a * (m.k * w2 / kd_one_way(m, y, e, a, way) - e);
+    return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
+}
+
+/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small, as for
+ * a hole that is nearly extremal. */
+float kd_fall(float w, float root)
+{
+    precise float gap = 1.0 - w - root * w;
+    float first = w / max(gap, 1e-30), x = 2.0 * root * first, y = x / (2.0 + x), y2 = y * y;
+#ifdef KD_DOUBLE
+    float series = 0.0;
+    for (int k = 8; k >= 0; k--)
+        series = series * y2 + 1.0 / float(2 * k + 1);
+#else
+    float series = 1.0 + y2 * ((1.0 / 3.0) + y2 * ((1.0 / 5.0) + y2 * (1.0 / 7.0)));
+#endif
+    return first * (x < 0.25 ? 2.0 * series / (2.0 + x) : kd_log(1.0 + x) / x);
+}
+float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
+
+/* Where a ray ends, by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and
+ * at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R = W^2 - D K w^2 holds its
+ * digits next to the horizon too. `noise`: what rounding may have done to it, in units of the roundoff. */
+struct kd_barrier {
+    float w, r, noise; /* the place, the horizon if it lies behind; R there */
+    bool open;         /* it lies clearly behind the horizon: nothing to pass */
+};
+
+/* u: cosine of the observer's polar angle. */
+kd_barrier kd_barrier_of(kd_motion m, kd_ray ray, float a, float u, float horizon, float root, float epsilon)
+{
+    kd_barrier o;
+    float disc = sqrt(max(9.0 * m.k * m.k + 8.0 * m.d * m.a2, 0.0));
+    float w = m.a2 < 0.0 ? -2.0 * m.a2 / (3.0 * m.k + disc) : 2.0;
+    o.open = w > 1.01 * horizon;
+    o.w = min(w, horizon);
+    float w2 = o.w * o.w, ae = a * ray.e, d = max(kd_delta(o.w, root), 0.0);
+    precise float fall = ray.e + a * (ae - m.momentum) * w2, size = abs(ray.e) + abs(a) * (abs(ae) + abs(m.momentum)) * w2;
+    float all = abs(ae) + abs(m.momentum), size_k = m.q + 2.0 * u * u * m.energy2 + all * all;
+    precise float r = fall * fall - d * m.k * w2; /* rounded as `noise` counts it */
+    o.r = r;
+    o.noise = 16.0 * abs(fall) * size + 16.0 * d * size_k * w2 + 64.0 * epsilon * size * size;
+    return o;
+}
+
+/* Whether a ray goes into the horizon from where it is now, without turning. */
+bool kd_falls_in(kd_barrier b, kd_state y)
+{
+    return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0);
+}
+
+/* The way of kd_drag from here on. */
+float kd_way(kd_barrier b, kd_state y)
+{
+    return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
+}
+
+/* Whether it ends at infinity. */
+bool kd_flies_out(kd_barrier b, kd_state y)
+{
+    return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
+}
+
+/* Whether either can be told. */
+bool kd_is_decided(kd_barrier b, kd_state y, float epsilon)
+{
+    float noise = epsilon * b.noise;
+    bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;
+    return b.open || abs(b.r) > noise || (!ahead && y.dw * y.dw > noise);
+}
+
+#endif

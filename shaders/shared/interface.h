@@ -1,0 +1,126 @@
+/* Layouts and constants that C and GLSL share. 4-byte scalars only; each list is written once and expanded by both
+ * sides; a test compares the offsets in the SPIR-V with offsetof. */
+#ifndef KD_INTERFACE_H
+#define KD_INTERFACE_H
+
+/* Invocations of a workgroup in every kernel: eight lavapipe vectors, two NVIDIA warps, one AMD wave. */
+#define KD_GROUP_SIZE 64
+
+/* Camera, constants of the hole, and the rows of rays at hand: the push constants of the tracing and transfer kernels.
+ * A ray at (x, y), in steps from the middle of the picture, y upwards, has the direction c0 + x cx + y cy; at infinity its
+ * first two components are alpha and beta, at a finite radius it is normalised to the look direction (k_r, k_theta, k_phi)
+ * in the observer's local frame. */
+#define KD_CAMERA_FIELDS_(F, U)                                                                                \
+    F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz)                                             \
+    F(middle_x) F(middle_y) /* ray coordinates of the middle of the picture */                                 \
+    F(spin) F(u) F(s)       /* a; cosine and sine of the observer's polar angle */                             \
+    F(horizon)              /* 1/r+ */                                                                         \
+    F(root)                 /* sqrt(1 - a^2): the horizons are at r = 1 +- root; a float of a has lost it near 1 */ \
+    F(w0)                   /* 1/r of the observer, 0 at infinity */                                           \
+    F(e0) F(e1) F(l0) F(l1) /* E = e0 + e1 m_phi; L/sin(theta) = l0 + l1 m_phi, m = -k the photon's direction */ \
+    F(cp) F(cw)             /* p_theta = cp m_theta; dw/dtau = cw k_r */                                       \
+    U(width)                /* rays a row */                                                                   \
+    U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */                    \
+    U(band0)                /* first row of the band that the buffers hold */                                  \
+    U(stride)               /* rays of the band: distance between planes of the lens map */                    \
+    U(list)                 /* of listed pixels, where it begins in the lens map. Of these, row0 is the first of a slice, rows \
+                               how many, band0 the first row of pixels of the band that light is written to */
+
+/* What the transfer kernel needs beside the camera, in a storage buffer followed by the tables. */
+#define KD_TRANSFER_FIELDS_(F, U)                                                                              \
+    F(r_isco) F(r_in) F(r_out) F(taper_r) /* M; taper_r: where the outer fade begins */                        \
+    F(opacity)                                                                                                 \
+    F(log_t_peak)                         /* log2 of the peak effective temperature times the hardening, K */  \
+    F(sky_brightness) F(sky_grid)         /* sky; grid spacing in radians */                                   \
+    F(azimuth)                            /* of the observer, radians */                                       \
+    F(one_minus_a)                        /* 1 - spin, which a float of the spin has lost near 1 */            \
+    U(pixels_x)                           /* pixels a row */                                                      \
+    U(rows) U(columns)                    /* of the grid of particles */                                          \
+    F(rows_octave)                        /* rows that r doubles in */                                            \
+    F(delay)                              /* of the light that shows the grid as it is */                         \
+    F(ringing)                            /* what light of image orders 1 and up is multiplied by */                    \
+    F(plunge_first) F(plunge_last)        /* w at the start and at the end of the plunge */                       \
+    F(plunge_energy) F(plunge_j)          /* of its gas: E, and L - aE */                                         \
+    F(plunge_temperature)                 /* over the disk's largest */                                           \
+    F(plunge_depth)                       /* optical depth where r |u^r| is 1, of as many particles as expected */ \
+    F(plunge_log) F(plunge_step)          /* of the table: its first place, and entries per unit */               \
+    F(plunge_laps) F(plunge_turns)        /* per M: from start to end; of the orbit at the ISCO */                \
+    U(plunge_at)                          /* the grid of the plunging particles behind the other one's */         \
+    U(plunge_rows) U(plunge_columns)                                                                              \
+    U(lap_rows) U(lead_rows)              /* from start to end; before the start */                               \
+    U(band_pixels)                        /* whose light one buffer holds; behind it is that of the spots */
+
+/* A hot spot, KD_SPOT_MAX of them behind the header. */
+#define KD_SPOT_FIELDS_(F, U)                                                                                  \
+    F(r) F(phi)              /* of its centre; its azimuth less the observer's at the time that the picture shows, radians */ \
+    F(omega)                 /* by which phi was less for each M that light was longer on its way */            \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); the square of the distance beyond which there is none of it */ \
+    F(brightness) F(power)   /* at the centre; that of g */                                                    \
+    F(log_t)                 /* log2 K */
+#define KD_SPOT_MAX 3
+
+/* Tables behind the transfer parameters, in floats. */
+#define KD_TRANSFER_HEADER 36
+#define KD_DISK_TABLE 1024    /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
+#define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
+#define KD_COLOUR_LOG_MIN 6.0 /* 64 K */
+#define KD_COLOUR_LOG_MAX 30.0
+#define KD_PLUNGE_TABLE 512   /* phase and azimuth of the plunge, in turns, against log2 (r_isco - r)/(r - r+) */
+
+/* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
+#define KD_GUIDE_FIELDS_(F, U)                                                                                 \
+    U(phi) U(radial) U(vertical)                                                                               \
+    F(row)                   /* of the grid */                                                                 \
+    F(swing_row) F(swing_phi) /* the latter in turns */
+#define KD_PARTICLES_FIELDS_(F, U)                                                                             \
+    U(key)                   /* hash of the seed */                                                            \
+    U(first) U(stride) U(count)                                                                                \
+    U(per_particle)          /* 2^31 radii/particles */                                                        \
+    U(rows) U(columns_log2)                                                                                    \
+    U(unit)                  /* weight of one particle */                                                      \
+    F(tilt)                  /* largest latitude, radians */                                                   \
+    U(plunging)              /* the first of all particles do, and this is how many */                         \
+    U(lap) U(phase)          /* of a plunge that began at time 0: whole ones, and turns of 2^32 */              \
+    U(turn)                  /* of the orbit at the ISCO */                                                    \
+    U(plunge_at)             /* their grid in the buffer of both */                                            \
+    U(plunge_rows) U(plunge_columns_log2)                                                                      \
+    U(lap_rows) U(lead_rows) /* as in the transfer kernel */
+
+#define KD_POST_PIXELS 4 /* of one invocation of post.comp: three words, or six */
+#define KD_POST_FIELDS_(F, U)                                                                                  \
+    F(gain)                  /* 2^exposure */                                                                  \
+    F(levels)                /* 255 or 65535 */                                                                \
+    F(dither)                /* 0 or 1 */                                                                      \
+    U(pixels)                /* of the band */                                                                 \
+    U(first)                 /* index of the band's first pixel in the picture */                              \
+    U(pixels_x)
+
+/* Of photometry.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */
+#define KD_LIGHT_FIELDS_(F, U)                                                                                 \
+    U(pixels_x) U(pixels)     /* a row, and of the band */                                                     \
+    U(row0)                   /* of the band in the picture */                                                 \
+    U(spots)                  /* where the spots' own luminance begins */                                      \
+    F(middle_x) F(middle_y)   /* pixel coordinates of the middle of the picture */                             \
+    F(step_)                  /* from pixel to pixel, over the distance of the picture */
+#define KD_LIGHT_PIXELS 64
+#define KD_LIGHT_SUMS 8
+
+/* Histogram of luminance for auto exposure, eight bins a stop: a bin is the exponent and the first three bits of the
+ * fraction of the float. Bin 0 is black; bin FIRST stands for 2^-40. */
+#define KD_HISTOGRAM_BINS 512
+#define KD_HISTOGRAM_FIRST 696 /* (127 - 40) * 8 */
+
+/* Values of the fate plane. */
+#define KD_FATE_ESCAPED 0.0
+#define KD_FATE_CAPTURED 1.0
+#define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
+
+/* Of the records of trace.glsl: numbers in front, numbers a record, and the stages. A stage 0, 1, ... is a step on the way to
+ * the crossing of that order, in w and u; the others hold the unit vector n and w. */
+#define KD_TRACE_HEADER 8
+#define KD_TRACE_RECORD 11
+#define KD_TRACE_START -1.0
+#define KD_TRACE_CROSSING -2.0
+#define KD_TRACE_END -3.0 /* after the last crossing */
+
+#endif

@@ -1,0 +1,27 @@
+/* Milliseconds on the monotonic clock. */
+#ifndef KD_BASE_CLOCK_H
+#define KD_BASE_CLOCK_H
+
+#include <pthread.h>
+#include <stdbool.h>
+#include <time.h>
+
+static inline double kd_clock_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+/* False when the lock could not be had in time. */
+static inline bool kd_clock_lock(pthread_mutex_t *lock, double ms)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    long long ns = t.tv_nsec + (long long)(ms * 1e6);
+    t.tv_sec += (time_t)(ns / 1000000000);
+    t.tv_nsec = (long)(ns % 1000000000);
+    return !pthread_mutex_clocklock(lock, CLOCK_MONOTONIC, &t);
+}
+
+#endif

@@ -1,0 +1,135 @@
+#include "render/device/deposit.h"
+
+#include "render/device/internal.h"
+#include "render/view/layout.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SLICE_MS 40.0
+
+static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
+                             const struct kd_particle_grid *grid, double time, struct kd_error *error)
+{
+    uint64_t bytes = kd_particle_tables_bytes(grid);
+    enum kd_status status = kd_store_at_least(r->vk, &p->guides, bytes, KD_VK_DEVICE, "orbits of particles", error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &p->staging, bytes, KD_VK_UPLOAD, "orbits of particles on the host", error);
+    bool there = p->time == time && !memcmp(&p->of, scene, sizeof *scene);
+    p->time = status ? NAN : time;
+    if (status || there)
+        return status;
+    memcpy(&p->of, scene, sizeof *scene); /* padding too */
+    kd_particle_tables_fill(kd_vk_buffer_map(p->staging), scene, grid, time);
+    return kd_vk_copy(r->vk, "upload", p->guides, 0, p->staging, 0, bytes, error);
+}
+
+void kd_particles_forget(struct kd_particles *p) { p->time = NAN; }
+
+static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
+
+/* The particles from push->first up to `end`, which fall or do not: lavapipe takes both ways where a kernel has two. */
+static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene, bool plunge,
+                                struct kd_particles_push *push, uint32_t end, double ns_per_particle, struct kd_error *error)
+{
+    const struct kd_vk_pipeline *kernel;
+    const uint32_t constants[] = { scene->disk.epicycles > 0, false, plunge };
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
+    double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)kd_vk_info(r->vk)->max_groups_x * KD_GROUP_SIZE));
+    for (; push->first < end && !status; push->first += push->count) {
+        uint32_t left = end - push->first;
+        push->count = left < slice ? left : (uint32_t)slice;
+        const struct kd_vk_dispatch d = {
+            "particles", kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push,
+            { groups(push->count) },
+        };
+        status = kd_vk_dispatch(r->vk, &d, error);
+        if (!status)
+            status = kd_vk_submit(r->vk, NULL, error);
+    }
+    return status;
+}
+
+/* From weights to densities, on one of the grids: from byte `at` of both, what its rows expect from byte `expected`. */
+static enum kd_status divide(struct kd_renderer *r, const struct kd_particles *p, uint64_t at, uint64_t expected, uint32_t rows,
+                             uint32_t columns, struct kd_error *error)
+{
+    const struct kd_vk_pipeline *kernel;
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_DENSITY, NULL, 0, &kernel, error);
+    if (status)
+        return status;
+    const struct kd_vk_dispatch d = {
+        "particles", kernel,
+        { { p->grid, at, 0, false },
+          { p->guides, expected, 0, false },
+          { p->density, at, 0, true } },
+        &columns, { groups(columns), rows + 1 },
+    };
+    return kd_vk_dispatch(r->vk, &d, error);
+}
+
+enum kd_status kd_particles_deposit(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
+                                    const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
+{
+    uint64_t bytes = 4 * (kd_particle_words(grid) + kd_particle_plunge_words(grid));
+    double time = scene->top.time - kd_particle_delay(scene);
+    enum kd_status status = guides(r, p, scene, grid, time, error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error);
+    if (!status)
+        status = kd_vk_fill(r->vk, p->grid, 0, bytes, 0, error);
+    struct kd_particles_push push = kd_particle_push(scene, grid, time);
+    if (!status && grid->plunging)
+        status = share_out(r, p, scene, true, &push, grid->plunging, ns_per_particle, error);
+    if (!status)
+        status = share_out(r, p, scene, false, &push, grid->count, ns_per_particle, error);
+    if (!status)
+        status = divide(r, p, 0, kd_particle_guides_bytes(grid), grid->rows, grid->columns, error);
+    if (!status && grid->plunging)
+        status = divide(r, p, 4 * kd_particle_words(grid), kd_particle_guides_bytes(grid) + KD_PARTICLE_EXPECTED_BYTES, grid->plunge_rows,
+                        grid->plunge_columns, error);
+    return status ? status : kd_vk_submit(r->vk, NULL, error);
+}
+
+enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene *scene, uint32_t first, uint32_t stride,
+                                   size_t n, struct kd_particle_place *out, struct kd_error *error)
+{
+    const struct kd_particle_grid grid = kd_particle_grid(scene);
+    const struct kd_vk_pipeline *kernel = NULL;
+    const uint32_t constants[] = { scene->disk.epicycles > 0, true, grid.plunging > 0 };
+    struct kd_particles_push push = kd_particle_push(scene, &grid, scene->top.time);
+    push.first = first;
+    push.stride = stride;
+    push.count = (uint32_t)n;
+    enum kd_status status = guides(r, &r->particles, scene, &grid, scene->top.time, error);
+    if (!status)
+        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles",
+                                   error);
+    if (!status)
+        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
+    const struct kd_vk_dispatch d = {
+        "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
+        { groups(push.count) },
+    };
+    if (!status)
+        status = kd_vk_dispatch(r->vk, &d, error);
+    if (!status)
+        status = kd_vk_submit(r->vk, NULL, error);
+    if (!status)
+        status = kd_vk_wait(r->vk, 0, error);
+    if (!status)
+        kd_particle_places_of(scene, &grid, kd_vk_buffer_map(r->particles.list), first, stride, n, out);
+    else
+        kd_particles_forget(&r->particles);
+    return status;
+}
+
+void kd_particles_finish(struct kd_particles *p, struct kd_vk *vk)
+{
+    struct kd_vk_buffer *buffers[] = { p->guides, p->staging, p->grid, p->density, p->list };
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        kd_vk_buffer_destroy(vk, buffers[i]);
+    memset(p, 0, sizeof *p);
+}

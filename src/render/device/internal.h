@@ -1,0 +1,52 @@
+/* What the files of src/render share about a renderer. */
+#ifndef KD_RENDER_DEVICE_INTERNAL_H
+#define KD_RENDER_DEVICE_INTERNAL_H
+
+#include "render/device/verdict.h"
+#include "render/device/kernels.h"
+#include "render/device/memory_share.h"
+#include "render/device/renderer.h"
+#include "render/device/store.h"
+#include "render/emit/tables.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+struct kd_particles {
+    struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, and kept */
+    struct kd_scene of; /* what is in `guides`, */
+    double time;        /* at this time: slices of a list, and frames that refine, find it there */
+};
+
+/* What one kd_render_aside works in. Its lens maps are kept for whoever can use them, until their memory is needed. */
+struct kd_aside {
+    struct kd_store store;
+    struct kd_particles particles;
+    bool busy;
+    uint64_t used; /* the larger, the later */
+};
+
+struct kd_renderer {
+    struct kd_vk *vk;
+    struct kd_kernels kernels;
+    struct kd_store store;
+    struct kd_particles particles;
+    struct kd_aside asides[KD_ASIDES];
+    uint64_t asides_used;
+    struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
+    struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
+    struct kd_transfer_data *tables; /* staging; its colour table is filled once */
+    bool tables_ready;
+    pthread_mutex_t lock; /* guards capacity and memory */
+    struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
+    struct kd_memory_watch memory;
+    _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
+    struct kd_accuracy_table *accuracy; /* of this device, as on disk when the renderer was made; NULL: none */
+    struct kd_verdict verdict;
+    struct kd_capacity kept; /* as it is in the file */
+    bool probing;            /* of what frames cost the least counts, not a mean */
+    char name[800];
+};
+
+
+#endif

@@ -1,0 +1,104 @@
+#include "render/device/kernels.h"
+
+#include "render/view/layout.h"
+
+#include "density.spv.h"
+#include "expose.spv.h"
+#include "lens_map.spv.h"
+#include "lens_radius.spv.h"
+#include "photometry.spv.h"
+#include "particles.spv.h"
+#include "post.spv.h"
+#include "rays.spv.h"
+#include "rays_f64.spv.h"
+#include "rays_kerr_schild.spv.h"
+#include "rays_kerr_schild_f64.spv.h"
+#include "rays_f64_trace.spv.h"
+#include "rays_kerr_schild_f64_trace.spv.h"
+#include "rays_kerr_schild_trace.spv.h"
+#include "rays_trace.spv.h"
+#include "transfer.spv.h"
+
+#include <string.h>
+
+static const struct {
+    const char *name;
+    const uint32_t *spirv;
+    size_t bytes;
+    uint32_t n_buffers, push_bytes;
+} sources[] = {
+    [KD_KERNEL_LENS_RADIUS] = { "lens_radius", kd_spv_lens_radius, sizeof kd_spv_lens_radius, 1, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 2, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
+    [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
+    [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },
+    [KD_KERNEL_RAYS_KS_F64] = { "rays Kerr-Schild f64", kd_spv_rays_kerr_schild_f64, sizeof kd_spv_rays_kerr_schild_f64, 2, 8 },
+    [KD_KERNEL_RAYS_TRACE_F32] = { "rays, told", kd_spv_rays_trace, sizeof kd_spv_rays_trace, 3, 8 },
+    [KD_KERNEL_RAYS_TRACE_F64] = { "rays f64, told", kd_spv_rays_f64_trace, sizeof kd_spv_rays_f64_trace, 3, 8 },
+    [KD_KERNEL_RAYS_KS_TRACE_F32] = { "rays Kerr-Schild, told", kd_spv_rays_kerr_schild_trace, sizeof kd_spv_rays_kerr_schild_trace,
+                                      3, 8 },
+    [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
+                                      sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
+    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 4, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
+    [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
+    [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
+    [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
+    [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
+};
+
+static enum kd_status make(struct kd_vk *vk, enum kd_kernel kernel, const uint32_t *constants, size_t n,
+                           struct kd_vk_pipeline **out, struct kd_error *error)
+{
+    struct kd_vk_spec spec[KD_KERNEL_MAX_CONSTANTS];
+    for (size_t i = 0; i < n; i++)
+        spec[i] = (struct kd_vk_spec){ (uint32_t)i, constants[i] };
+    struct kd_vk_pipeline_params params = {
+        .name = sources[kernel].name,
+        .spirv = sources[kernel].spirv,
+        .spirv_bytes = sources[kernel].bytes,
+        .n_buffers = sources[kernel].n_buffers,
+        .push_bytes = sources[kernel].push_bytes,
+        .spec = spec,
+        .n_spec = n,
+    };
+    return kd_vk_pipeline_create(vk, &params, out, error);
+}
+
+enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
+                              const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
+                              struct kd_error *error)
+{
+    uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
+    struct kd_kernel_entry *oldest = &kernels->entries[0];
+    for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
+        key[i] = constants[i];
+    for (size_t i = 0; i < KD_KERNELS_KEPT; i++) {
+        struct kd_kernel_entry *e = &kernels->entries[i];
+        if (e->pipeline && e->kernel == kernel && !memcmp(e->constants, key, sizeof key)) {
+            e->used = ++kernels->clock;
+            *out = e->pipeline;
+            return KD_OK;
+        }
+        if (e->used < oldest->used)
+            oldest = e;
+    }
+    struct kd_vk_pipeline *pipeline;
+    enum kd_status status = make(vk, kernel, key, n, &pipeline, error);
+    if (status)
+        return status;
+    kd_vk_pipeline_destroy(vk, oldest->pipeline);
+    oldest->kernel = kernel;
+    memcpy(oldest->constants, key, sizeof key);
+    oldest->pipeline = pipeline;
+    oldest->used = ++kernels->clock;
+    *out = pipeline;
+    return KD_OK;
+}
+
+void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk)
+{
+    for (size_t i = 0; i < KD_KERNELS_KEPT; i++)
+        kd_vk_pipeline_destroy(vk, kernels->entries[i].pipeline);
+    memset(kernels, 0, sizeof *kernels);
+}

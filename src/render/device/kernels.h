@@ -1,0 +1,46 @@
+/* The compute pipelines of a renderer, made when a plan first needs them and kept. Render thread only. */
+#ifndef KD_RENDER_DEVICE_KERNELS_H
+#define KD_RENDER_DEVICE_KERNELS_H
+
+#include "vk/vk.h"
+
+enum kd_kernel {
+    KD_KERNEL_LENS_RADIUS,
+    KD_KERNEL_LENS_MAP,
+    KD_KERNEL_RAYS_F32,
+    KD_KERNEL_RAYS_F64,
+    KD_KERNEL_RAYS_KS_F32,
+    KD_KERNEL_RAYS_KS_F64,
+    KD_KERNEL_RAYS_TRACE_F32, /* the same four, telling each step */
+    KD_KERNEL_RAYS_TRACE_F64,
+    KD_KERNEL_RAYS_KS_TRACE_F32,
+    KD_KERNEL_RAYS_KS_TRACE_F64,
+    KD_KERNEL_PARTICLES,
+    KD_KERNEL_DENSITY,
+    KD_KERNEL_TRANSFER,
+    KD_KERNEL_PHOTOMETRY,
+    KD_KERNEL_EXPOSE,
+    KD_KERNEL_POST,
+};
+
+#define KD_KERNEL_MAX_CONSTANTS 20
+#define KD_KERNELS_KEPT 48
+
+struct kd_kernel_entry {
+    enum kd_kernel kernel;
+    uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
+    struct kd_vk_pipeline *pipeline;
+    uint64_t used;
+};
+struct kd_kernels {
+    struct kd_kernel_entry entries[KD_KERNELS_KEPT];
+    uint64_t clock;
+};
+
+/* The pipeline of a kernel with specialisation constants 0..n-1; the least recently used one makes room. */
+enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
+                              const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
+                              struct kd_error *error);
+void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
+
+#endif

@@ -1,0 +1,195 @@
+#include "render/device/internal.h"
+
+#include "base/json.h"
+#include "render/device/accuracy_store.h"
+#include "base/clock.h"
+#include "render/device/deposit.h"
+#include "base/cores.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Three quarters of the heap, and nothing that others hold already. */
+static uint64_t free_bytes(const struct kd_vk_info *info)
+{
+    uint64_t share = info->heap_bytes / 4 * 3;
+    return info->budget_bytes && info->budget_bytes < share ? info->budget_bytes : share;
+}
+
+/* Before anything has been measured: orders of magnitude for this type of device, per item. */
+static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
+{
+    uint64_t device = free_bytes(info), wish = kd_memory_main(memory_bytes);
+    bool narrower = memory_bytes && wish < device;
+    double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
+    return (struct kd_capacity){
+        .max_binding_bytes = info->max_binding_bytes,
+        .max_allocation_bytes = info->max_allocation_bytes,
+        .max_groups_x = info->max_groups_x,
+        .max_groups_y = info->max_groups_y,
+        .memory_bytes = narrower ? wish : device,
+        .memory_by = narrower ? "--memory" : NULL,
+        .host_memory = info->type == KD_VK_CPU || info->type == KD_VK_INTEGRATED,
+        .ns_per_ray_radius = 30 * scale,
+        .ns_per_ray_full = 150 * scale,
+        .ns_per_sample_transfer = 20 * scale,
+        .ns_per_pixel_post = 30 * scale,
+        .ns_per_particle = 40 * scale,
+        .float64 = info->float64,
+        .cores = kd_cores(),
+    };
+}
+
+/* The table that tolerances are looked up in: this device's own, if there is one and it can be read. */
+static void load_accuracy(struct kd_renderer *r)
+{
+    char *path = kd_accuracy_path(r);
+    struct kd_accuracy_table *table = malloc(sizeof *table);
+    if (table && !kd_accuracy_load(path, table, NULL))
+        r->accuracy = table;
+    else
+        free(table);
+    free(path);
+    r->capacity.accuracy = r->accuracy ? r->accuracy : kd_accuracy_built_in();
+    r->capacity.accuracy_measured = r->accuracy;
+}
+
+enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
+                                  struct kd_error *error)
+{
+    struct kd_renderer *r = calloc(1, sizeof *r);
+    struct kd_transfer_data *tables = calloc(1, sizeof *tables);
+    if (!r || !tables) {
+        free(r);
+        free(tables);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
+    }
+    r->tables = tables;
+    pthread_mutex_init(&r->lock, NULL);
+    struct kd_vk_params vk = { .device = params->device, .cache_dir = params->cache_dir, .validate = params->validate };
+    enum kd_status status = kd_vk_create(&vk, &r->vk, error);
+    if (status) {
+        kd_renderer_destroy(r);
+        return status;
+    }
+    const struct kd_vk_info *info = kd_vk_info(r->vk);
+    r->capacity = guess(info, params->memory_bytes);
+    r->store.vk = r->vk;
+    for (size_t i = 0; i < KD_ASIDES; i++)
+        r->asides[i].store.vk = r->vk;
+    load_accuracy(r);
+    if (!r->capacity.accuracy) {
+        kd_renderer_destroy(r);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the accuracy table");
+    }
+    snprintf(r->name, sizeof r->name, "%s, %s%s%s", info->name, info->driver, *info->driver_info ? " " : "", info->driver_info);
+    kd_verdict_recall(r);
+    status = params->prove ? params->prove(r, error) : KD_OK;
+    if (status) {
+        kd_renderer_destroy(r);
+        return status;
+    }
+    *out = r;
+    return KD_OK;
+}
+
+void kd_renderer_destroy(struct kd_renderer *renderer)
+{
+    if (!renderer)
+        return;
+    if (renderer->vk) {
+        if (!kd_vk_wait(renderer->vk, 0, NULL))
+            kd_verdict_keep(renderer);
+        kd_kernels_finish(&renderer->kernels, renderer->vk);
+        kd_store_finish(&renderer->store);
+        kd_particles_finish(&renderer->particles, renderer->vk);
+        for (size_t i = 0; i < KD_ASIDES; i++) {
+            kd_store_finish(&renderer->asides[i].store);
+            kd_particles_finish(&renderer->asides[i].particles, renderer->vk);
+        }
+        for (size_t i = 0; i < sizeof renderer->rays / sizeof **renderer->rays; i++)
+            kd_vk_buffer_destroy(renderer->vk, renderer->rays[i / 3][i % 3]);
+        kd_vk_destroy(renderer->vk);
+    }
+    pthread_mutex_destroy(&renderer->lock);
+    free(renderer->accuracy);
+    free(renderer->tables);
+    free(renderer);
+}
+
+void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
+{
+    pthread_mutex_lock(&renderer->lock);
+    *out = renderer->capacity;
+    kd_memory_watch(&renderer->memory, kd_clock_ms());
+    if (renderer->memory.known)
+        kd_memory_narrow(out, &renderer->memory.limit, atomic_load(&renderer->held));
+    pthread_mutex_unlock(&renderer->lock);
+}
+
+const char *kd_renderer_device_name(const struct kd_renderer *renderer) { return renderer->name; }
+
+uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer)
+{
+    return kd_vk_validation_messages(renderer->vk);
+}
+
+enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out)
+{
+    const struct kd_vk_info *info = kd_vk_info(renderer->vk);
+    struct kd_capacity c;
+    char version[32];
+    kd_renderer_capacity(renderer, &c);
+    snprintf(version, sizeof version, "%u.%u.%u", info->api_version >> 22 & 0x7f, info->api_version >> 12 & 0x3ff,
+             info->api_version & 0xfff);
+
+    struct kd_json whole = kd_json_begin_lines(out), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "kerrd", KD_VERSION);
+    kd_json_string(json, "name", info->name);
+    kd_json_string(json, "type", kd_vk_type_name(info->type));
+    kd_json_string(json, "driver", info->driver);
+    kd_json_string(json, "driver_info", info->driver_info);
+    kd_json_string(json, "vulkan", version);
+    kd_json_number(json, "index", info->index);
+    kd_json_string(json, "choice", kd_vk_choice(renderer->vk));
+    kd_json_array(json, "precision");
+    for (int p = KD_PRECISION_F32; p <= (info->float64 ? KD_PRECISION_F64 : KD_PRECISION_F32); p++)
+        kd_json_string(json, NULL, kd_precision_name((enum kd_precision)p));
+    kd_json_end(json);
+    kd_json_bool(json, "float64_hardware", info->float64);
+    kd_json_bool(json, "timestamps", info->timestamps);
+    const struct kd_verdict *tested = &renderer->verdict;
+    kd_json_object(json, "selftest");
+    kd_json_string(json, "result", kd_verdict_word(tested));
+    if (tested->result != KD_UNTESTED) {
+        kd_json_number(json, "checks", tested->checks);
+        kd_json_number(json, "failed", tested->failed);
+        kd_json_number(json, "seconds", tested->seconds);
+        kd_json_bool(json, "now", tested->now);
+    }
+    if (tested->failed)
+        kd_json_string(json, "first_failure", tested->worst);
+    kd_json_end(json);
+    kd_json_object(json, "limits");
+    kd_json_number(json, "heap_bytes", (double)info->heap_bytes);
+    kd_json_number(json, "memory_bytes", (double)c.memory_bytes);
+    kd_json_string(json, "memory_by", c.memory_by ? c.memory_by : "the device");
+    kd_json_number(json, "binding_bytes", (double)info->max_binding_bytes);
+    kd_json_number(json, "allocation_bytes", (double)info->max_allocation_bytes);
+    kd_json_number(json, "workgroups", info->max_groups_x);
+    kd_json_number(json, "subgroup_size", info->subgroup_size);
+    kd_json_end(json);
+    kd_json_object(json, "ns_per_item");
+    kd_json_string(json, "basis", c.measured ? "measured" : "guess");
+    kd_json_number(json, "ray_radius", c.ns_per_ray_radius);
+    kd_json_number(json, "ray_full", c.ns_per_ray_full);
+    kd_json_number(json, "sample_transfer", c.ns_per_sample_transfer);
+    kd_json_number(json, "pixel_post", c.ns_per_pixel_post);
+    kd_json_number(json, "particle", c.ns_per_particle);
+    kd_json_end(json);
+    kd_json_end(json);
+    return kd_json_finish(json);
+}

@@ -1,0 +1,49 @@
+/* One device and what is kept on it between pictures. One thread at a time has a struct kd_renderer, and hands it on with a lock; the
+ * only call allowed from others meanwhile is kd_renderer_capacity. */
+#ifndef KD_RENDER_DEVICE_RENDERER_H
+#define KD_RENDER_DEVICE_RENDERER_H
+
+#include "base/error.h"
+#include "render/plan/plan.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct kd_renderer;
+
+struct kd_renderer_params {
+    const char *device;     /* as kd_vk_params */
+    const char *cache_dir;  /* as kd_vk_params */
+    bool validate;
+    /* NULL, or kd_first_start (selftest/first_start.h): a device that is met for the first time is tested, half a second. */
+    enum kd_status (*prove)(struct kd_renderer *renderer, struct kd_error *error);
+    uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
+};
+enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
+                                  struct kd_error *error);
+void kd_renderer_destroy(struct kd_renderer *renderer);
+
+/* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
+void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
+/* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
+enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
+/* One line: "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
+const char *kd_renderer_device_name(const struct kd_renderer *renderer);
+uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
+
+/* What an answer says of its own accuracy: errors of crossing radii, measured on a sample of the picture's rays against the
+ * closed form in double. sampled is 0 where that cannot be: a picture too large to keep its lens map, one without crossings. */
+struct kd_accuracy_report {
+    uint64_t undecided;          /* rays of the whole picture that were given up: magenta in it */
+    uint32_t sampled, crossings; /* rays traced again; crossings compared */
+    uint32_t differ;             /* crossings that one of the two has and the other has not; rays of another fate */
+    double median, worst;        /* relative error of the radius */
+};
+
+/* Pictures that may be under way aside at once (render/frame/frame.h). */
+#define KD_ASIDES 8
+
+/* Called between slices of what takes long, with the fraction done; return false to stop: KD_ECANCELLED. */
+typedef bool (*kd_progress_fn)(void *user, double fraction);
+
+#endif

@@ -1,0 +1,232 @@
+#include "render/device/store.h"
+
+#include "render/emit/tables.h"
+#include "render/plan/photometry.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void bands_finish(struct kd_bands *bands, struct kd_vk *vk)
+{
+    for (uint32_t i = 0; i < bands->count; i++)
+        kd_vk_buffer_destroy(vk, bands->buffers[i]);
+    free(bands->buffers);
+    *bands = (struct kd_bands){ 0 };
+}
+
+static enum kd_status bands_init(struct kd_bands *bands, struct kd_vk *vk, uint32_t count, uint64_t bytes,
+                                 const char *name, struct kd_error *error)
+{
+    if (bands->count == count && bands->band_bytes == bytes)
+        return KD_OK;
+    bands_finish(bands, vk);
+    bands->buffers = calloc(count, sizeof *bands->buffers);
+    if (!bands->buffers)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %u bands", count);
+    bands->count = count;
+    bands->band_bytes = bytes;
+    for (uint32_t i = 0; i < count; i++) {
+        enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, name, &bands->buffers[i], error);
+        if (status) {
+            bands_finish(bands, vk);
+            return status;
+        }
+    }
+    return KD_OK;
+}
+
+static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
+{
+    bands_finish(&map->bands, vk);
+    bands_finish(&map->critical, vk);
+    kd_critical_pixels_finish(&map->pixels);
+    map->key[0] = 0;
+    map->used = 0;
+}
+
+/* Drop kept maps, oldest first, until the plan fits beside the others. */
+static void make_room(struct kd_store *store, const struct kd_plan *plan, const struct kd_lens_map *spare)
+{
+    for (;;) {
+        uint64_t held = plan->device_bytes;
+        struct kd_lens_map *oldest = NULL;
+        for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+            struct kd_lens_map *m = &store->maps[i];
+            if (m == spare || !m->bands.count)
+                continue;
+            held += m->bands.count * m->bands.band_bytes + m->critical.count * m->critical.band_bytes;
+            if (!oldest || m->used < oldest->used)
+                oldest = m;
+        }
+        if (held <= store->memory_bytes || !oldest)
+            return;
+        map_finish(oldest, store->vk);
+    }
+}
+
+static uint64_t lens_band_bytes(const struct kd_plan *plan)
+{
+    return 4ull * plan->planes * plan->width * plan->side * plan->side * plan->band_rows + 16;
+}
+
+static bool is_of(const struct kd_lens_map *map, const struct kd_plan *plan)
+{
+    return plan->cacheable && !strcmp(map->key, plan->lens_key) && map->bands.count == plan->bands &&
+           map->bands.band_bytes == lens_band_bytes(plan);
+}
+
+bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
+{
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        if (is_of(&store->maps[i], plan))
+            return true;
+    return false;
+}
+
+enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                 bool *reused, struct kd_error *error)
+{
+    struct kd_lens_map *oldest = &store->maps[0];
+    uint64_t bytes = lens_band_bytes(plan);
+    *reused = false;
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+        struct kd_lens_map *m = &store->maps[i];
+        if (is_of(m, plan)) {
+            m->used = ++store->clock;
+            *out = m;
+            *reused = true;
+            make_room(store, plan, m);
+            return KD_OK;
+        }
+        if (m->used < oldest->used)
+            oldest = m;
+    }
+    make_room(store, plan, oldest);
+    enum kd_status status =
+        bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error);
+    if (!status)
+        status = bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(plan), kd_plan_critical_bytes(plan),
+                            "lens map at the critical curve", error);
+    if (!status && !store->undecided)
+        status = kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error);
+    oldest->key[0] = 0;
+    oldest->used = ++store->clock;
+    *out = oldest;
+    return status;
+}
+
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan)
+{
+    (void)store;
+    if (plan->cacheable)
+        memcpy(map->key, plan->lens_key, sizeof map->key);
+}
+
+void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan)
+{
+    struct kd_lens_map *map = NULL, *oldest = &to->maps[0];
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+        map = is_of(&from->maps[i], plan) ? &from->maps[i] : map;
+        oldest = to->maps[i].used < oldest->used ? &to->maps[i] : oldest;
+    }
+    if (!map)
+        return;
+    map_finish(oldest, to->vk);
+    *oldest = *map;
+    oldest->used = ++to->clock;
+    *map = (struct kd_lens_map) { 0 };
+}
+
+enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                                 const char *name, struct kd_error *error)
+{
+    if (*buffer && kd_vk_buffer_size(*buffer) >= size && kd_vk_buffer_size(*buffer) <= 4 * size + (1 << 20))
+        return KD_OK;
+    kd_vk_buffer_destroy(vk, *buffer);
+    *buffer = NULL;
+    return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
+}
+
+enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth, struct kd_error *error)
+{
+    struct kd_vk *vk = store->vk;
+    uint64_t pixels = (uint64_t)plan->width * plan->band_rows;
+    /* The last invocation of post.comp writes four whole pixels. */
+    uint64_t words = (pixels + 3) / 4 * (bit_depth == 16 ? 24 : 12);
+    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, kd_plan_pixel_bytes(plan) * pixels, "radiance", error);
+    if (!status)
+        status = kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
+    if (!status)
+        status = kd_store_at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
+    if (!status && !store->transfer)
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_DEVICE, "transfer tables",
+                                     &store->transfer, error);
+    if (!status && !store->staging)
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_UPLOAD, "transfer tables on the host",
+                                     &store->staging, error);
+    if (!status && !store->histogram)
+        status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_DEVICE, "histogram", &store->histogram, error);
+    if (!status && !store->counts)
+        status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_READBACK, "histogram on the host",
+                                     &store->counts, error);
+    if (!status && plan->light)
+        status = kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error);
+    if (!status && plan->light)
+        status = kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error);
+    return status;
+}
+
+enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error)
+{
+    static const size_t ends[] = { 0, offsetof(struct kd_transfer_data, disk), sizeof *tables };
+    bool first = !store->sent || !store->sent_whole;
+    if (!store->sent && !(store->sent = malloc(sizeof *tables)))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the transfer tables");
+    enum kd_status status = KD_OK;
+    for (int part = 0; part < 2 && !status; part++) {
+        size_t from = ends[part], n = ends[part + 1] - from;
+        char *sent = (char *)store->sent + from;
+        const char *now = (const char *)tables + from;
+        if (!first && !memcmp(sent, now, n))
+            continue;
+        memcpy(sent, now, n);
+        memcpy((char *)kd_vk_buffer_map(store->staging) + from, now, n);
+        status = kd_vk_copy(store->vk, "upload", store->transfer, from, store->staging, from, n, error);
+    }
+    store->sent_whole = !status;
+    return status;
+}
+
+static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->count * bands->band_bytes; }
+static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
+
+uint64_t kd_store_bytes(const struct kd_store *store)
+{
+    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
+    return sum + bytes_of(store->light) + bytes_of(store->light_host);
+}
+
+void kd_store_empty(struct kd_store *store)
+{
+    kd_store_finish(store);
+    *store = (struct kd_store) { .vk = store->vk, .memory_bytes = store->memory_bytes };
+}
+
+void kd_store_finish(struct kd_store *store)
+{
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        map_finish(&store->maps[i], store->vk);
+    bands_finish(&store->radiance, store->vk);
+    kd_vk_buffer_destroy(store->vk, store->words);
+    kd_vk_buffer_destroy(store->vk, store->readback);
+    kd_vk_buffer_destroy(store->vk, store->transfer);
+    kd_vk_buffer_destroy(store->vk, store->staging);
+    free(store->sent);
+    kd_vk_buffer_destroy(store->vk, store->histogram);
+    kd_vk_buffer_destroy(store->vk, store->counts);
+    kd_vk_buffer_destroy(store->vk, store->light);
+    kd_vk_buffer_destroy(store->vk, store->light_host);
+    kd_vk_buffer_destroy(store->vk, store->undecided);
+}

@@ -1,0 +1,70 @@
+/* Device buffers of a renderer: lens maps that are kept between frames, and the frame's working set.
+ * Render thread only. */
+#ifndef KD_RENDER_DEVICE_STORE_H
+#define KD_RENDER_DEVICE_STORE_H
+
+#include "render/view/critical_pixels.h"
+#include "render/plan/plan.h"
+#include "render/device/renderer.h"
+#include "vk/vk.h"
+
+struct kd_transfer_data;
+
+/* One buffer a band of the picture. */
+struct kd_bands {
+    struct kd_vk_buffer **buffers;
+    uint32_t count;
+    uint64_t band_bytes;
+};
+
+struct kd_lens_map {
+    char key[65]; /* "" while empty or half made */
+    struct kd_bands bands;
+    struct kd_bands critical; /* the same of the pixels at the critical curve, part by part, each with their list behind it */
+    struct kd_critical_pixels pixels;
+    struct kd_accuracy_report accuracy;
+    uint64_t used;
+};
+#define KD_LENS_MAPS_KEPT 4
+
+struct kd_store {
+    struct kd_vk *vk;
+    uint64_t memory_bytes; /* most that all of this may hold; of each frame anew */
+    struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
+    uint64_t clock;
+    struct kd_bands radiance;
+    struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
+    struct kd_vk_buffer *transfer, *staging; /* parameters and tables: read at each crossing, so on the device, by way of the other */
+    struct kd_transfer_data *sent;           /* what is there; NULL: nothing yet */
+    bool sent_whole;                         /* false: nothing of it, a frame was given up */
+    struct kd_vk_buffer *histogram, *counts;
+    struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
+    struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
+};
+
+/* The lens map of the plan: *reused says that it is complete. Otherwise its buffers are there to be written, and
+ * kd_store_commit makes it findable. Least recently used maps make room. */
+enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
+                                 bool *reused, struct kd_error *error);
+void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan *plan);
+
+/* Radiance, packed pixels, tables and histogram for a picture of this plan and bit depth. */
+enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth,
+                              struct kd_error *error);
+/* *buffer (NULL: none yet) becomes one of at least this size; a larger one is kept unless it is much too large. */
+enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
+                                 const char *name, struct kd_error *error);
+/* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. A frame
+ * that is given up afterwards says so by sent_whole = false. */
+enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error);
+/* Bytes that it holds of the device's memory, about. */
+uint64_t kd_store_bytes(const struct kd_store *store);
+/* Whether kd_store_lens_map would find the plan's lens map. */
+bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
+/* The plan's lens map, if `from` has it, becomes one of `to`. */
+void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan);
+/* As it was made. */
+void kd_store_empty(struct kd_store *store);
+void kd_store_finish(struct kd_store *store);
+
+#endif

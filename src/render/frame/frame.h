@@ -1,0 +1,53 @@
+/* Scenes to pictures, by a renderer: on the thread that has it. */
+#ifndef KD_RENDER_FRAME_FRAME_H
+#define KD_RENDER_FRAME_FRAME_H
+
+#include "render/device/renderer.h"
+#include "render/plan/photometry.h"
+#include "scene/scene.h"
+
+#include <stddef.h>
+
+struct kd_timing { char name[24]; double ms; };
+#define KD_FRAME_MAX_TIMINGS 12
+
+struct kd_frame {
+    uint32_t width, height;
+    int bit_depth;            /* 8 or 16 */
+    void *pixels;             /* rows from the top, RGB, no padding; malloc'd */
+    double exposure;          /* stops that were applied */
+    bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
+    struct kd_accuracy_report accuracy;
+    struct kd_light_report light;
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "rays", "transfer", ... (those that ran), "total" */
+    size_t n_timings;
+};
+void kd_frame_finish(struct kd_frame *frame);
+
+/* Render a valid scene by its plan (made with this renderer's capacity). */
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
+                         const struct kd_plan *plan, kd_progress_fn progress, void *user,
+                         struct kd_frame *out, struct kd_error *error);
+
+/* How a picture that takes long looks so far: it is drawn from the top, some rows at a time. Called between these. */
+struct kd_glance {
+    bool (*wanted)(void *user);
+    /* frame: of the whole size, black from row `rows` on, with an exposure of its own where that is "auto", no timings and no
+     * accuracy. Its pixels are not the callee's to keep. */
+    void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
+};
+
+/* The same with buffers of its own. progress, called at least every 100 ms or so, may let other threads use the renderer before it
+ * returns, for anything that this header has, and the picture stays the same to the byte. At most KD_ASIDES are under way at once, and
+ * what they hold between them, their plans' device_bytes, is the callers' to bound: lens maps that earlier ones left make room.
+ * Timings are without what progress took. glance: NULL, or both functions, with the same user. */
+enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
+                               struct kd_error *error);
+
+/* The lens map alone: plan->planes planes of plan->rays floats each, rows from the top, in the order that
+ * shaders/comp/lens_map.comp describes. planes: room for planes * rays floats. *trace_ms (may be NULL): device time. */
+enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              float *planes, double *trace_ms, struct kd_error *error);
+
+#endif

@@ -1,0 +1,57 @@
+/* What the files of a frame share: one picture on its way, and the bands it is made in. Render thread only. */
+#ifndef KD_RENDER_FRAME_JOB_H
+#define KD_RENDER_FRAME_JOB_H
+
+#include "render/device/internal.h"
+#include "render/frame/frame.h"
+
+struct kd_frame_job {
+    struct kd_renderer *r;
+    struct kd_store *store;
+    struct kd_particles *particles;
+    bool aside; /* progress may render */
+    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* of an aside: of what is done, */
+    size_t n_times;
+    double away_ms; /* and what its progress took */
+    const struct kd_scene *scene;
+    const struct kd_plan *plan;
+    struct kd_camera_push camera;
+    struct kd_lens_map *lens;
+    uint64_t undecided;  /* listed rays that an engine gave up */
+    double listed_ms, audit_ms; /* the host's time for them, and for the audit */
+    kd_progress_fn progress;
+    const struct kd_glance *glance;
+    void *user;
+    double done, weight; /* rows so far, of all passes */
+    uint32_t lit;        /* rows of pixels from the top whose light is there */
+    bool looking;        /* they are being looked at */
+    struct kd_frame *frame;
+    struct kd_error *error;
+};
+
+/* Learn from the device times of a frame: nanoseconds an item, smoothed. */
+void kd_frame_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame);
+
+/* So many rows more are done. Cancelled: KD_ECANCELLED. */
+enum kd_status kd_frame_report(struct kd_frame_job *job, double rows);
+
+static inline uint32_t kd_frame_band_first(const struct kd_frame_job *j, uint32_t band) { return band * j->plan->band_rows; }
+static inline uint32_t kd_frame_band_rows(const struct kd_frame_job *j, uint32_t band)
+{
+    uint32_t left = j->plan->height - kd_frame_band_first(j, band);
+    return left < j->plan->band_rows ? left : j->plan->band_rows;
+}
+/* Those of them that are lit. */
+static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t band)
+{
+    uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
+    return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
+}
+static inline uint32_t kd_frame_groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
+
+/* The lens map, unless it is reused, and from it the radiance of all bands. */
+enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
+/* Rays of the whole map that were given up. */
+enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
+
+#endif

@@ -1,0 +1,385 @@
+/* The part of a frame that follows rays: the lens map and the light that it brings, band by band, in short submissions. */
+#include "render/frame/job.h"
+
+#include "render/view/camera.h"
+#include "render/lens/listed.h"
+#include "base/clock.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
+
+static struct kd_vk_buffer *lens_buffer(const struct kd_frame_job *j, uint32_t band)
+{
+    return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
+}
+
+static const struct kd_critical_lattice on_grid; /* none */
+
+/* Kernels are looked up for each slice: while others had the device theirs may have taken their places. */
+
+/* Rows of pixels that one submission takes, given nanoseconds a row. */
+static uint32_t slice_rows(double ns_per_row, uint32_t rows)
+{
+    double n = SLICE_MS * 1e6 / fmax(ns_per_row, 1);
+    return n < 1 ? 1 : n > rows ? rows : (uint32_t)n;
+}
+
+/* NULL where no kernel is run for it. l: of the listed pixels; all 0: for the grid. */
+static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
+{
+    const struct kd_plan *p = j->plan;
+    *out = NULL;
+    if (p->path == KD_LENS_LISTED)
+        return KD_OK;
+    if (p->path == KD_LENS_RADIUS) {
+        const uint32_t constants[] = { p->orders, l->rays, l->generator, l->shift };
+        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, constants, sizeof constants / 4, out, j->error);
+    }
+    const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
+    const uint32_t constants[] = {
+        p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method, p->fall, l->rays, l->generator, l->shift,
+    };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, sizeof constants / 4, out, j->error);
+}
+
+static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_disk *d = &j->scene->disk;
+    const uint32_t alpha = p->orders * (1 + p->phi + p->delay + p->fall); /* the planes' order: kd_lens_listed */
+    const uint32_t constants[] = {
+        p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
+        alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
+        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0, p->fall, l->rays, l->generator, l->shift,
+    };
+    _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);
+}
+
+/* Rows of pixels of a band, traced and lit in one go. */
+struct slice { uint32_t band, first, count; };
+
+/* Record a kernel over a slice. rays: the grid is that of the rays, not of the pixels. */
+static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, bool rays)
+{
+    const struct kd_plan *p = j->plan;
+    struct kd_camera_push push = j->camera;
+    push.row0 = s->first * p->side;
+    push.rows = s->count * p->side;
+    push.band0 = kd_frame_band_first(j, s->band) * p->side;
+    push.stride = p->width * p->side * p->band_rows * p->side;
+    d->push = &push;
+    d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
+    d->groups[1] = rays ? push.rows : s->count;
+    return kd_vk_dispatch(j->r->vk, d, j->error);
+}
+
+static enum kd_status list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
+{
+    double start = kd_clock_ms();
+    enum kd_status status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
+    j->listed_ms += kd_clock_ms() - start;
+    return status;
+}
+
+static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
+{
+    const struct kd_plan *p = j->plan;
+    uint64_t width = (uint64_t)p->width * p->side;
+    const struct kd_lens_rows rows = {
+        .first = s->first * p->side, .count = s->count * p->side, .to = lens_buffer(j, s->band),
+        .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width, .stride = width * p->band_rows * p->side,
+    };
+    return list_rays(j, &rows);
+}
+
+/* pipeline: of trace_kernel. */
+static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s, const struct kd_vk_pipeline *pipeline)
+{
+    if (j->plan->path == KD_LENS_LISTED)
+        return list_slice(j, s);
+    struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, s->band), 0, 0, true } }, NULL, { 0 } };
+    if (j->plan->path == KD_LENS_MAP)
+        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
+    return record(j, s, &d, true);
+}
+
+static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
+                                               struct kd_vk_buffer *lens, uint32_t band)
+{
+    return (struct kd_vk_dispatch) {
+        "transfer",
+        pipeline,
+        { { lens, 0, 0, false },
+          { j->store->transfer, 0, 0, false },
+          { j->store->radiance.buffers[band], 0, 0, true },
+          { j->plan->particles.count ? j->particles->density : j->store->transfer, 0, 0, false } },
+        NULL,
+        { 0 },
+    };
+}
+
+/* Record and submit. needed: the lens map as well. */
+static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s, bool needed)
+{
+    const struct kd_vk_pipeline *trace = NULL, *transfer;
+    enum kd_status status = needed ? trace_kernel(j, &on_grid, &trace) : KD_OK;
+    if (!status && needed)
+        status = trace_slice(j, s, trace);
+    if (!status)
+        status = transfer_kernel(j, &on_grid, &transfer);
+    if (status)
+        return status;
+    struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band);
+    status = record(j, s, &d, false);
+    return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
+}
+
+/* A band, slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
+static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
+{
+    const struct kd_plan *p = j->plan;
+    uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
+    uint32_t step = slice_rows(ns * p->width * p->side * p->side, rows);
+    enum kd_status status = KD_OK;
+    for (uint32_t done = 0; done < rows && !status; done += step) {
+        const struct slice s = { band, first + done, rows - done < step ? rows - done : step };
+        status = light_slice(j, &s, needed);
+        j->lit = s.first + s.count;
+        if (!status)
+            status = kd_frame_report(j, needed ? 2 * s.count : s.count);
+    }
+    return status;
+}
+
+/* A part of the pixels at the critical curve. */
+struct part {
+    uint64_t first, n; /* among those pixels */
+    struct kd_vk_buffer *lens;
+    struct kd_camera_push push;
+};
+
+static struct part part_of(const struct kd_frame_job *j, uint32_t number)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_scene camera = kd_critical_camera(j->scene, p->critical);
+    struct part part = { number * p->critical_part, p->critical_part, j->lens->critical.buffers[number], kd_camera_push(&camera) };
+    if (part.n > p->critical_pixels - part.first)
+        part.n = p->critical_pixels - part.first;
+    part.push.stride = (uint32_t)p->critical_part * p->critical;
+    part.push.list = p->planes * part.push.stride;
+    return part;
+}
+
+/* Run a kernel over pixels `from` to `to` of a part in slices. rays: the one that traces them, an invocation a ray; else the one
+ * that lights pixels. base: the dispatch but for its pipeline and size. */
+static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, uint64_t from, uint64_t to,
+                               const struct kd_vk_dispatch *base, bool rays, double ns_per_ray)
+{
+    const struct kd_critical_lattice lattice = kd_critical_lattice(j->plan->critical);
+    uint32_t step = slice_rows(ns_per_ray * j->plan->critical, (uint32_t)part->n);
+    enum kd_status status = KD_OK;
+    for (; from < to && !status; from += step) {
+        struct kd_camera_push push = part->push;
+        struct kd_vk_dispatch d = *base;
+        push.row0 = (uint32_t)from;
+        push.rows = (uint32_t)(to - from < step ? to - from : step);
+        d.push = &push;
+        d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * j->plan->critical : push.rows);
+        d.groups[1] = 1;
+        status = (rays ? trace_kernel : transfer_kernel)(j, &lattice, &d.pipeline);
+        if (!status)
+            status = kd_vk_dispatch(j->r->vk, &d, j->error);
+        if (!status)
+            status = kd_vk_submit(j->r->vk, NULL, j->error);
+        if (!status)
+            status = kd_frame_report(j, 0);
+    }
+    return status;
+}
+
+/* The list behind the planes. */
+static enum kd_status upload_pixels(struct kd_frame_job *j, const struct part *part)
+{
+    struct kd_vk_buffer *staging;
+    struct kd_vk *vk = j->r->vk;
+    uint64_t bytes = 8 * part->n;
+    enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_UPLOAD, "pixels at the critical curve", &staging, j->error);
+    if (status)
+        return status;
+    float *to = kd_vk_buffer_map(staging);
+    for (uint64_t i = 0; i < part->n; i++) {
+        to[2 * i] = (float)j->lens->pixels.pixels[part->first + i].x;
+        to[2 * i + 1] = (float)j->lens->pixels.pixels[part->first + i].y;
+    }
+    status = kd_vk_copy(vk, "upload", part->lens, 4ull * part->push.list, staging, 0, bytes, j->error);
+    kd_vk_buffer_destroy(vk, staging);
+    return status;
+}
+
+static enum kd_status list_part(struct kd_frame_job *j, const struct part *part)
+{
+    const struct kd_plan *p = j->plan;
+    uint32_t step = slice_rows(p->trace_ns * p->critical, (uint32_t)part->n);
+    enum kd_status status = KD_OK;
+    for (uint64_t done = 0; done < part->n && !status; done += step) {
+        const struct kd_lens_rows rows = {
+            .first = (uint32_t)(part->first + done), .count = (uint32_t)(part->n - done < step ? part->n - done : step),
+            .pixels = j->lens->pixels.pixels, .to = part->lens, .offset = done * p->critical, .stride = part->push.stride,
+        };
+        status = list_rays(j, &rows);
+        if (!status)
+            status = kd_frame_report(j, 0);
+    }
+    return status;
+}
+
+static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part)
+{
+    enum kd_status status = upload_pixels(j, part);
+    if (status || j->plan->path == KD_LENS_LISTED)
+        return status ? status : list_part(j, part);
+    struct kd_vk_dispatch d = { "trace", NULL, { { part->lens, 0, 0, true } }, NULL, { 0 } };
+    if (j->plan->path == KD_LENS_MAP)
+        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
+    return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
+}
+
+/* A pixel's light is written anew. */
+static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, double ns)
+{
+    enum kd_status status = KD_OK;
+    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+        uint32_t row = kd_frame_band_first(j, band);
+        uint64_t from = kd_critical_pixels_above(&j->lens->pixels, row), first = part->first;
+        uint64_t to = kd_critical_pixels_above(&j->lens->pixels, row + kd_frame_band_rows(j, band));
+        from = from > first ? from - first : 0;
+        to = to < first ? 0 : to - first < part->n ? to - first : part->n;
+        const struct kd_vk_dispatch d = transfer_dispatch(j, NULL, part->lens, band);
+        part->push.band0 = row;
+        status = run_part(j, part, from, to, &d, false, ns);
+    }
+    return status;
+}
+
+/* The pixels at the critical curve, by more rays than the others. */
+static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double transfer_ns)
+{
+    const struct kd_plan *p = j->plan;
+    enum kd_status status = KD_OK;
+    if (needed) {
+        kd_critical_pixels_finish(&j->lens->pixels);
+        status = kd_critical_pixels_of(j->scene, &j->lens->pixels, j->error);
+    }
+    for (uint32_t k = 0; k < kd_plan_critical_parts(p) && !status; k++) {
+        struct part part = part_of(j, k);
+        if (needed)
+            status = trace_part(j, &part);
+        if (!status)
+            status = transfer_part(j, &part, transfer_ns);
+    }
+    return status;
+}
+
+static enum kd_status forget_undecided(struct kd_frame_job *j)
+{
+    return j->plan->path == KD_LENS_MAP ? kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error) : KD_OK;
+}
+
+enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(j->r, &c);
+    const struct kd_plan *p = j->plan;
+    bool needed = !reused && p->planes;
+    double ns = c.ns_per_sample_transfer + (needed ? p->trace_ns : 0);
+    enum kd_status status = needed ? forget_undecided(j) : KD_OK;
+    for (uint32_t band = 0; band < p->bands && !status; band++)
+        status = light_band(j, band, needed, ns);
+    if (!status && p->critical)
+        status = light_at_curve(j, needed, c.ns_per_sample_transfer);
+    return status;
+}
+
+/* Rays of the whole map that were given up. */
+enum kd_status kd_frame_undecided(struct kd_frame_job *j, uint64_t *out)
+{
+    struct kd_store *s = j->store;
+    struct kd_vk *vk = j->r->vk;
+    *out = j->undecided;
+    if (j->plan->path != KD_LENS_MAP || !j->plan->sky)
+        return KD_OK;
+    enum kd_status status = kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error);
+    if (!status)
+        status = kd_vk_submit(vk, NULL, j->error);
+    if (!status)
+        status = kd_vk_wait(vk, 0, j->error);
+    if (!status)
+        *out = *(const uint32_t *)kd_vk_buffer_map(s->counts);
+    return status;
+}
+
+/* Copy one band of the lens map to its place in each plane. */
+static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *host, float *planes)
+{
+    const struct kd_plan *p = j->plan;
+    struct kd_vk *vk = j->r->vk;
+    uint64_t row = (uint64_t)p->width * p->side * p->side, stride = row * p->band_rows;
+    uint64_t first = row * kd_frame_band_first(j, band), rays = row * kd_frame_band_rows(j, band);
+    for (uint32_t plane = 0; plane < p->planes; plane++) {
+        enum kd_status status = kd_vk_copy(vk, "readback", host, 0, lens_buffer(j, band), 4 * plane * stride, 4 * rays, j->error);
+        if (!status)
+            status = kd_vk_submit(vk, NULL, j->error);
+        if (!status)
+            status = kd_vk_wait(vk, 0, j->error);
+        if (status)
+            return status;
+        memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);
+    }
+    return KD_OK;
+}
+
+enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              float *planes, double *trace_ms, struct kd_error *error)
+{
+    struct kd_frame_job job = {
+        .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
+        .error = error,
+    };
+    const struct kd_vk_pipeline *trace;
+    struct kd_vk_buffer *host = NULL;
+    bool reused;
+    kd_vk_times_reset(renderer->vk);
+    enum kd_status status = kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error);
+    if (!status)
+        status = kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
+                                     KD_VK_READBACK, "lens map on the host", &host, error);
+    if (!status)
+        status = forget_undecided(&job);
+    if (!status)
+        status = trace_kernel(&job, &on_grid, &trace);
+    for (uint32_t band = 0; band < plan->bands && !status; band++) {
+        uint32_t rows = kd_frame_band_rows(&job, band);
+        uint32_t step = slice_rows(plan->trace_ns * plan->width * plan->side * plan->side, rows);
+        for (uint32_t done = 0; done < rows && !status; done += step) {
+            const struct slice s = { band, kd_frame_band_first(&job, band) + done, rows - done < step ? rows - done : step };
+            status = trace_slice(&job, &s, trace);
+            if (!status)
+                status = kd_vk_submit(renderer->vk, NULL, error);
+        }
+        if (!status)
+            status = read_band(&job, band, host, planes);
+    }
+    if (status)
+        kd_vk_discard(renderer->vk);
+    kd_vk_buffer_destroy(renderer->vk, host);
+    struct kd_vk_time times[KD_VK_MAX_PASSES];
+    size_t n = kd_vk_times(renderer->vk, times);
+    for (size_t i = 0; i < n && trace_ms; i++)
+        if (!strcmp(times[i].pass, "trace"))
+            *trace_ms = times[i].ms;
+    return status;
+}
+

@@ -1,0 +1,168 @@
+#include "render/lens/audit.h"
+
+#include "physics/kerr.h"
+#include "render/view/camera.h"
+#include "render/lens/listed.h"
+#include "render/view/ring.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
+
+struct sample {
+    uint32_t rows, columns, width, height; /* of the grid of rays */
+    uint32_t planes;                       /* of the map that are looked at: radii, and the fate */
+    struct kd_vk_buffer *host;             /* the sampled rows, all planes of one row together */
+    double *rays;                          /* alpha, beta */
+    bool outward[ROWS * COLUMNS];
+    struct kd_ray_crossing *crossings;
+    struct kd_ray_end *ends;
+    double *errors;
+};
+
+static uint32_t spread(uint32_t k, uint32_t n, uint32_t size) { return (uint32_t)((k + 0.5) / n * size); }
+
+/* The labels of a pixel's ray as the kernel makes them, in its own arithmetic: what it loses there is a shift of some 1e-7 of the
+ * picture and no error of the map. */
+static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
+{
+    float x = (float)px - c->middle_x, y = c->middle_y - (float)py;
+    float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
+    *out = (struct kd_camera_label) { .alpha = kx, .beta = ky };
+    if (!finite)
+        return;
+    float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
+    double m_phi = -kz * n;
+    kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
+}
+
+/* As the map's own rays were made. */
+static void label_of(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y, struct kd_camera_label *out)
+{
+    if (plan->ring) {
+        const struct kd_ring ring = kd_ring_of(scene);
+        const struct kd_critical_point column = kd_ring_column(&ring, x);
+        *out = kd_ring_label(&ring, &column, y);
+    } else if (plan->path == KD_LENS_LISTED) {
+        const struct kd_camera_exact exact = kd_camera_exact(scene);
+        kd_camera_label(&exact, x, y, out);
+    } else {
+        const struct kd_camera_push rounded = kd_camera_push(scene);
+        label_in_single(&rounded, !isinf(scene->camera.r), x, y, out);
+    }
+}
+
+static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *plan, const struct kd_lens_map *map,
+                                const struct sample *s, struct kd_error *error)
+{
+    uint32_t band_rows = plan->band_rows * plan->side;
+    uint64_t row = 4ull * s->width, stride = row * band_rows;
+    enum kd_status status = KD_OK;
+    for (uint32_t k = 0; k < s->rows && !status; k++) {
+        uint32_t y = spread(k, s->rows, s->height), band = y / band_rows;
+        for (uint32_t n = 0; n < s->planes && !status; n++) {
+            uint32_t plane = n < plan->orders ? n : plan->planes - 1; /* the fate is the last */
+            status = kd_vk_copy(r->vk, "readback", s->host, (k * s->planes + n) * row, map->bands.buffers[band],
+                                plane * stride + (y % band_rows) * row, row, error);
+        }
+    }
+    if (!status)
+        status = kd_vk_submit(r->vk, NULL, error);
+    return status ? status : kd_vk_wait(r->vk, 0, error);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static bool other_fate(float fate, const struct kd_ray_end *end)
+{
+    return end->fate != KD_RAY_UNDECIDED && fate != (float)KD_FATE_UNDECIDED &&
+           (fate == (float)KD_FATE_ESCAPED) != (end->fate == KD_RAY_ESCAPED);
+}
+
+/* Compare the map's radii (w of `orders` crossings at a distance of `width`) and fates with the list's. */
+static void compare(const struct kd_plan *plan, const struct sample *s, const uint32_t *place, uint32_t n, double inner,
+                    struct kd_accuracy_report *out)
+{
+    const float *rows = kd_vk_buffer_map(s->host);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const float *w = rows + place[i];
+        for (uint32_t k = 0; k < plan->orders; k++, w += s->width) {
+            bool has = k < s->ends[i].n_crossings;
+            double r = has ? s->crossings[i * plan->orders + k].r : 1 / *w;
+            if (!(r > inner && r < 1e3))
+                continue;
+            if (has && *w > 0)
+                s->errors[count++] = fabs(1 / ((double)*w * r) - 1);
+            else
+                out->differ++;
+        }
+        out->differ += s->planes > plan->orders && other_fate(*w, &s->ends[i]);
+    }
+    qsort(s->errors, count, sizeof *s->errors, by_value);
+    out->sampled = n;
+    out->crossings = count;
+    out->median = count ? s->errors[count / 2] : 0;
+    out->worst = count ? s->errors[count - 1] : 0;
+}
+
+static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan,
+                          const struct kd_lens_map *map, struct sample *s, struct kd_accuracy_report *out,
+                          struct kd_error *error)
+{
+    const struct kd_setting closed = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    uint32_t place[ROWS * COLUMNS], n = 0;
+    for (uint32_t j = 0; j < s->rows; j++)
+        for (uint32_t i = 0; i < s->columns; i++, n++) {
+            uint32_t x = spread(i, s->columns, s->width), y = spread(j, s->rows, s->height);
+            struct kd_camera_label label;
+            label_of(scene, plan, x, y, &label);
+            s->rays[2 * n] = label.alpha;
+            s->rays[2 * n + 1] = label.beta;
+            s->outward[n] = label.outward;
+            place[n] = j * s->planes * s->width + x;
+        }
+    const struct kd_ray_labels labels = { s->rays, s->outward, n };
+    enum kd_status status = read_rows(r, plan, map, s, error);
+    if (!status)
+        status = kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error);
+    if (!status)
+        compare(plan, s, place, n, kd_kerr_isco(scene->spacetime.spin), out);
+    return status;
+}
+
+enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                        const struct kd_lens_map *map, struct kd_accuracy_report *out, struct kd_error *error)
+{
+    struct sample s = { .width = plan->width * plan->side, .height = plan->height * plan->side };
+    *out = (struct kd_accuracy_report){ 0 };
+    if (!plan->audit)
+        return KD_OK;
+    s.rows = s.height < ROWS ? s.height : ROWS;
+    s.columns = s.width < COLUMNS ? s.width : COLUMNS;
+    s.planes = plan->orders + plan->sky;
+    size_t n = (size_t)s.rows * s.columns;
+    s.rays = malloc(2 * n * sizeof *s.rays);
+    s.crossings = malloc(n * plan->orders * sizeof *s.crossings);
+    s.ends = malloc(n * sizeof *s.ends);
+    s.errors = malloc(n * plan->orders * sizeof *s.errors);
+    enum kd_status status = KD_OK;
+    if (!s.rays || !s.crossings || !s.ends || !s.errors)
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the audit");
+    if (!status)
+        status = kd_vk_buffer_create(renderer->vk, 4ull * s.rows * s.planes * s.width, KD_VK_READBACK, "audited rows",
+                                     &s.host, error);
+    if (!status)
+        status = run(renderer, scene, plan, map, &s, out, error);
+    kd_vk_buffer_destroy(renderer->vk, s.host);
+    free(s.rays);
+    free(s.crossings);
+    free(s.ends);
+    free(s.errors);
+    return status;
+}

@@ -1,0 +1,219 @@
+#include "render/lens/listed.h"
+
+#include "physics/kerr.h"
+#include "render/view/camera.h"
+#include "render/view/critical_pixels.h"
+#include "render/rays/closed.h"
+#include "render/rays/device.h"
+#include "render/view/ring.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct work {
+    const struct kd_plan *plan;
+    size_t n;
+    double *alpha_beta, *energy;
+    bool *outward;
+    struct kd_ray_crossing *crossings;
+    struct kd_ray_end *ends;
+};
+
+static void finish(struct work *w)
+{
+    free(w->alpha_beta);
+    free(w->energy);
+    free(w->outward);
+    free(w->crossings);
+    free(w->ends);
+}
+
+static enum kd_status init(struct work *w, const struct kd_plan *plan, size_t n, struct kd_error *error)
+{
+    uint32_t orders = plan->orders ? plan->orders : 1; /* the engines want one */
+    *w = (struct work) { .plan = plan, .n = n };
+    w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
+    w->energy = malloc(n * sizeof *w->energy);
+    w->outward = malloc(n * sizeof *w->outward);
+    w->crossings = malloc(n * orders * sizeof *w->crossings);
+    w->ends = malloc(n * sizeof *w->ends);
+    if (w->alpha_beta && w->energy && w->outward && w->crossings && w->ends)
+        return KD_OK;
+    finish(w);
+    return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", n);
+}
+
+static struct kd_rays_params params_of(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_setting *by)
+{
+    return (struct kd_rays_params) {
+        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
+        .orders = plan->orders ? plan->orders : 1, .engine = by->engine, .precision = by->precision, .steps = by->steps,
+    };
+}
+
+enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                             const struct kd_setting *by, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *ends, struct kd_error *error)
+{
+    const struct kd_rays_params params = params_of(scene, plan, by);
+    if (by->engine == KD_ENGINE_CLOSED)
+        return kd_rays_closed(&params, rays, false, crossings, ends, NULL, NULL, error);
+    return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
+}
+
+/* One plane: what its rays have to say, in turn. */
+static void fill_radii(const struct work *w, uint32_t order, float *to)
+{
+    for (size_t i = 0; i < w->n; i++) {
+        const struct kd_ray_end *end = &w->ends[i];
+        bool open = end->fate == KD_RAY_UNDECIDED;
+        to[i] = order < end->n_crossings ? (float)(1 / w->crossings[i * w->plan->orders + order].r) : open ? -1 : 0;
+    }
+}
+
+/* A ray of negative energy goes round the other way (view/camera.h). */
+static void fill_azimuths(const struct work *w, uint32_t order, float *to)
+{
+    for (size_t i = 0; i < w->n; i++) {
+        double phi = order < w->ends[i].n_crossings ? w->crossings[i * w->plan->orders + order].phi : 0;
+        to[i] = (float)(w->energy[i] < 0 ? -phi : phi);
+    }
+}
+
+static void fill_delays(const struct work *w, uint32_t order, float *to)
+{
+    for (size_t i = 0; i < w->n; i++)
+        to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
+}
+
+/* Outside the ISCO, where nothing falls, 0. */
+static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
+{
+    const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);
+    double isco = kd_kerr_isco(params.spin);
+    for (size_t i = 0; i < w->n; i++) {
+        const struct kd_ray_end *end = &w->ends[i];
+        double r = w->crossings[i * w->plan->orders + order].r;
+        to[i] = order < end->n_crossings && r < isco
+                    ? (float)(fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)) : 0;
+    }
+}
+
+static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
+{
+    for (size_t i = 0; i < w->n; i++) {
+        const struct kd_ray_end *end = &w->ends[i];
+        bool escaped = end->fate == KD_RAY_ESCAPED;
+        u[i] = escaped ? (float)cos(end->theta) : 0;
+        phi[i] = escaped ? (float)end->phi : 0;
+        fate[i] = escaped ? (float)KD_FATE_ESCAPED : end->fate == KD_RAY_CAPTURED ? (float)KD_FATE_CAPTURED : (float)KD_FATE_UNDECIDED;
+    }
+}
+
+static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
+{
+    const struct kd_plan *plan = w->plan;
+    for (uint32_t k = 0; k < plan->orders; k++)
+        fill_radii(w, k, planes + k * w->n);
+    planes += plan->orders * w->n;
+    for (uint32_t k = 0; plan->phi && k < plan->orders; k++)
+        fill_azimuths(w, k, planes + k * w->n);
+    planes += plan->phi ? plan->orders * w->n : 0;
+    for (uint32_t k = 0; plan->delay && k < plan->orders; k++)
+        fill_delays(w, k, planes + k * w->n);
+    planes += plan->delay ? plan->orders * w->n : 0;
+    for (uint32_t k = 0; plan->fall && k < plan->orders; k++)
+        fill_slopes(w, scene, k, planes + k * w->n);
+    planes += plan->fall ? plan->orders * w->n : 0;
+    for (size_t i = 0; plan->ring && i < w->n; i++)
+        planes[i] = (float)w->alpha_beta[2 * i];
+    planes += plan->ring ? w->n : 0;
+    if (plan->sky)
+        fill_sky(w, planes, planes + w->n, planes + 2 * w->n);
+}
+
+static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene, const struct work *w,
+                             const struct kd_lens_rows *rows, struct kd_error *error)
+{
+    struct kd_vk_buffer *staging;
+    uint64_t bytes = 4 * (uint64_t)w->n;
+    enum kd_status status = kd_vk_buffer_create(r->vk, bytes * w->plan->planes, KD_VK_UPLOAD, "listed lens map", &staging, error);
+    if (status)
+        return status;
+    fill(w, scene, kd_vk_buffer_map(staging));
+    for (uint32_t k = 0; k < w->plan->planes && !status; k++)
+        status = kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes, error);
+    if (!status)
+        status = kd_vk_submit(r->vk, NULL, error);
+    if (!status)
+        status = kd_vk_wait(r->vk, 0, error);
+    kd_vk_buffer_destroy(r->vk, staging);
+    return status;
+}
+
+static void keep(struct work *w, size_t i, const struct kd_camera_label *label)
+{
+    w->alpha_beta[2 * i] = label->alpha;
+    w->alpha_beta[2 * i + 1] = label->beta;
+    w->energy[i] = label->energy;
+    w->outward[i] = label->outward;
+}
+
+static void make_rays(const struct kd_scene *scene, const struct kd_lens_rows *rows, uint32_t width, struct work *w)
+{
+    const struct kd_camera_exact camera = kd_camera_exact(scene);
+    struct kd_camera_label label;
+    for (size_t i = 0; i < w->n; i++) {
+        kd_camera_label(&camera, (uint32_t)(i % width), rows->first + (uint32_t)(i / width), &label);
+        keep(w, i, &label);
+    }
+}
+
+static void make_critical(const struct kd_scene *scene, const struct kd_lens_rows *rows, uint32_t rays, struct work *w)
+{
+    const struct kd_critical_lattice lattice = kd_critical_lattice(rays);
+    const struct kd_scene steps = kd_critical_camera(scene, rays);
+    const struct kd_camera_exact camera = kd_camera_exact(&steps);
+    struct kd_camera_label label;
+    for (size_t i = 0; i < w->n; i++) {
+        const struct kd_pixel step = kd_critical_place(&lattice, rows->pixels[rows->first + i / rays], (uint32_t)(i % rays));
+        kd_camera_label(&camera, step.x, step.y, &label);
+        keep(w, i, &label);
+    }
+}
+
+static void make_ring(const struct kd_scene *scene, const struct kd_lens_rows *rows, struct work *w)
+{
+    const struct kd_ring ring = kd_ring_of(scene);
+    for (uint32_t x = 0; x < ring.width; x++) {
+        const struct kd_critical_point column = kd_ring_column(&ring, x);
+        for (uint32_t k = 0; k < rows->count; k++) {
+            const struct kd_camera_label label = kd_ring_label(&ring, &column, rows->first + k);
+            keep(w, (size_t)k * ring.width + x, &label);
+        }
+    }
+}
+
+enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                              const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error)
+{
+    struct work w;
+    uint32_t width = rows->pixels ? plan->critical : plan->width * plan->side;
+    enum kd_status status = init(&w, plan, (size_t)width * rows->count, error);
+    if (status)
+        return status;
+    if (rows->pixels)
+        make_critical(scene, rows, width, &w);
+    else if (plan->ring)
+        make_ring(scene, rows, &w);
+    else
+        make_rays(scene, rows, width, &w);
+    const struct kd_ray_labels labels = { w.alpha_beta, w.outward, w.n };
+    status = kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error);
+    if (!status)
+        status = upload(renderer, scene, &w, rows, error);
+    for (size_t i = 0; i < w.n && !status; i++)
+        *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
+    finish(&w);
+    return status;
+}

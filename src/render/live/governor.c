@@ -1,0 +1,361 @@
+#include "render/live/governor.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as long. */
+static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
+static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
+static const double COOLDOWN_MS = 1000;                /* before a climb */
+static const double RETRY_MS = 3000;                   /* before one to what was too slow; doubled */
+static const double HOLD_MS = 400, HOLD_MAX_MS = 2000; /* a hand that pauses in a drag; two drags */
+static const double BLIND_MS = 2000;                   /* a guess; doubled */
+enum {
+    FEW = 4,    /* spikes in a row are load */
+    ENOUGH = 8, /* two spikes among them are outside the middle half */
+    MISSES = 3, /* a lens map may be missed once, when the rung changes */
+};
+
+/* On whatever rung it is. */
+static void begin_anew(struct kd_pace *pace)
+{
+    *pace = (struct kd_pace) { .rung = pace->rung, .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
+}
+
+void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params)
+{
+    *governor = (struct kd_governor) { .params = *params, .hold_ms = HOLD_MS, .blind_ms = BLIND_MS };
+    governor->changed_at = governor->lens_at = governor->blind_until = -INFINITY;
+    for (int i = 0; i < 2; i++)
+        begin_anew(&governor->paces[i]);
+}
+
+/* What frames cost */
+
+static uint32_t at_most(uint32_t n, uint32_t limit)
+{
+    return n < limit ? n : limit;
+}
+
+static const struct kd_frame_cost *latest(const struct kd_pace *pace, uint32_t back)
+{
+    return &pace->costs[(pace->count - 1 - back) % KD_PACE_FRAMES];
+}
+
+static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, double weight)
+{
+    sum->fixed_ms += weight * cost->fixed_ms;
+    sum->rays_ms += weight * cost->rays_ms;
+    sum->pixels_ms += weight * cost->pixels_ms;
+    sum->total_ms += weight * cost->total_ms;
+}
+
+/* Kernels that are made, and load, only ever make a frame dearer. */
+static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint32_t n)
+{
+    const struct kd_frame_cost *least = latest(pace, 0);
+    for (uint32_t i = 1; i < n; i++)
+        if (latest(pace, i)->total_ms < least->total_ms)
+            least = latest(pace, i);
+    return *least;
+}
+
+/* Of the middle half of the window by total: neither a spike nor a frame that had nothing to do moves it, and of two kinds of
+ * frames in turn it is the mean, where a median would be one or the other. */
+static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
+{
+    const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
+    uint32_t n = at_most(pace->count, KD_PACE_FRAMES);
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t j = i;
+        for (; j > 0 && sorted[j - 1]->total_ms > latest(pace, i)->total_ms; j--)
+            sorted[j] = sorted[j - 1];
+        sorted[j] = latest(pace, i);
+    }
+    struct kd_frame_cost mean = { 0 };
+    for (uint32_t i = n / 4; i < n - n / 4; i++)
+        add(&mean, sorted[i], 1.0 / (n - 2 * (n / 4)));
+    return mean;
+}
+
+/* Of a frame's time what may go with its size, and how much that may be. */
+static double varying(const struct kd_frame_cost *cost)
+{
+    return cost->total_ms - cost->fixed_ms;
+}
+
+static double room(const struct kd_governor *g, const struct kd_frame_cost *cost)
+{
+    double target = g->params.target_ms;
+    return fmax(target - cost->fixed_ms, fmax(LEAST_ROOM * target, LEAST_SHARE * cost->fixed_ms));
+}
+
+/* What varies, on another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays. */
+static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to, bool rest_stays)
+{
+    double pixels = to->pixels / from->pixels, rest = varying(cost) - cost->rays_ms - cost->pixels_ms;
+    return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
+}
+
+/* The lowest rung that a pace may take. Where nothing moves, and light alone changes, a picture that keeps its size is worth more
+ * than many of them. */
+static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
+{
+    uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
+    while (last > 0 && g->rings && pace == &g->paces[0] && g->ladder.rungs[last].quality.scale < 1)
+        last--;
+    return last;
+}
+
+static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
+                                const struct kd_rung *from, uint32_t first)
+{
+    uint32_t last = last_rung(g, pace), to = at_most(first, last);
+    while (to < last && predict(cost, from, &g->ladder.rungs[to], false) > room(g, cost))
+        to++;
+    return to;
+}
+
+/* Up and down */
+
+static void move(struct kd_pace *pace, uint32_t rung, bool up, double now)
+{
+    if (pace->climbed && !up)
+        pace->retry_ms *= 2;
+    pace->ceiling = up ? at_most(pace->ceiling, rung) : pace->rung + 1;
+    if (!up)
+        pace->failed_at = now;
+    pace->climbed = up;
+    pace->rung = rung;
+    pace->count = 0;
+    pace->changed_at = now;
+}
+
+static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
+{
+    for (uint32_t i = 0; i < at_most(pace->count, FEW); i++)
+        if (varying(latest(pace, i)) <= FAR_OVER * room(g, latest(pace, i)))
+            return false;
+    return pace->count > 1;
+}
+
+/* Whether frames that reuse a lens map may have this one: it has to be traced first. */
+static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
+{
+    return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
+}
+
+static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t to,
+                      bool rest_stays)
+{
+    const struct kd_rung *rungs = g->ladder.rungs;
+    return predict(cost, &rungs[pace->rung], &rungs[to], rest_stays) <= CLIMB_BELOW * room(g, cost) &&
+           traceable(g, pace, &rungs[to], CLIMB_BELOW * g->params.stall_ms);
+}
+
+/* As far as is safe; else one rung on the better assumption, for if that is wrong the rung is left again, and not climbed to soon.
+ * */
+static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
+{
+    uint32_t ceiling = now - pace->failed_at < pace->retry_ms ? pace->ceiling : 0, to = pace->rung;
+    while (to > ceiling && may_climb(g, pace, cost, to - 1, false))
+        to--;
+    if (to == pace->rung && to > ceiling && may_climb(g, pace, cost, to - 1, true))
+        to--;
+    if (to < pace->rung)
+        move(pace, to, true, now);
+}
+
+static void spare_a_stall(struct kd_governor *g, double now)
+{
+    struct kd_pace *pace = &g->paces[0];
+    uint32_t last = last_rung(g, pace), to = pace->rung;
+    while (to < last && !traceable(g, pace, &g->ladder.rungs[to], g->params.stall_ms))
+        to++;
+    if (to > pace->rung)
+        move(pace, to, false, now);
+}
+
+static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
+{
+    const struct kd_rung *here = &g->ladder.rungs[pace->rung];
+    bool far = far_over(g, pace);
+    if (!far && pace->count < ENOUGH)
+        return;
+    struct kd_frame_cost cost = far ? cheapest_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
+    if (pace == &g->paces[1]) {
+        g->traced = cost;
+        g->traced_on = *here;
+        spare_a_stall(g, now);
+    }
+    if (far || varying(&cost) > OVER * room(g, &cost)) {
+        if (pace->rung < last_rung(g, pace))
+            move(pace, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
+        return;
+    }
+    if (now - pace->changed_at >= COOLDOWN_MS)
+        climb(g, pace, &cost, now);
+}
+
+/* Changes */
+
+static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
+{
+    const struct kd_image *i = &a->image, *j = &b->image;
+    const struct kd_accuracy *p = &a->accuracy, *q = &b->accuracy;
+    return i->width == j->width && i->height == j->height && i->samples == j->samples && p->profile == q->profile &&
+           p->tolerance == q->tolerance && p->engine == q->engine && p->precision == q->precision && p->steps == q->steps &&
+           p->orders == q->orders;
+}
+
+/* Whether frames cost about the same but for their size. */
+static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
+{
+    const struct kd_disk *d = &a->disk, *e = &b->disk;
+    return d->model == e->model && d->particles == e->particles && d->slow_light == e->slow_light && a->sky.model == b->sky.model &&
+           a->camera.projection == b->camera.projection && isinf(a->camera.r) == isinf(b->camera.r);
+}
+
+static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
+{
+    struct kd_ladder old = g->ladder;
+    kd_ladder_make(asked, &g->params.bounds, &g->ladder);
+    for (int i = 0; i < 2 && g->ladders; i++) {
+        struct kd_pace *pace = &g->paces[i];
+        struct kd_frame_cost cost = mean_of_middle(pace);
+        pace->rung = pace->count ? first_that_fits(g, pace, &cost, &old.rungs[pace->rung], 0)
+                                 : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
+        pace->ceiling = pace->count = 0;
+        pace->climbed = false;
+    }
+    g->ladders++;
+}
+
+/* A picture knows nothing of motion. */
+static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
+{
+    struct kd_scene still = *b;
+    still.motion = a->motion;
+    return !memcmp(a, &still, sizeof still) && memcmp(a, b, sizeof still); /* equal scenes are equal bytes: kd_scene_defaults */
+}
+
+void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
+{
+    /* What is shown is right already. It is only told once more, when nothing else has changed meanwhile. */
+    bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_scene_moves(asked);
+    if (!g->ladders || !same_ladder(&g->asked, asked))
+        change_ladder(g, asked);
+    for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)
+        begin_anew(&g->paces[i]);
+    bool rings = kd_scene_only_rings(asked);
+    if (g->rings != rings) {
+        begin_anew(&g->paces[0]);
+        g->rings = rings;
+        g->paces[0].rung = at_most(g->paces[0].rung, last_rung(g, &g->paces[0]));
+        g->lens_at = -INFINITY; /* who strikes does not drag */
+    }
+    g->asked = *asked;
+    g->revision++;
+    g->changed_at = now;
+    if (told_again) {
+        g->shown_revision = g->revision;
+        g->shown.final = false;
+    }
+    if (!lens)
+        return;
+    /* Changes of the lens that keep coming just after they were forgotten are one long one. */
+    double gap = now - g->lens_at;
+    g->hold_ms = gap >= HOLD_MAX_MS ? HOLD_MS : fmin(fmax(g->hold_ms, 2 * gap), HOLD_MAX_MS);
+    g->lens_at = now;
+}
+
+/* As long as no more frames than `known` are known. */
+static void expect(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *of, uint32_t known)
+{
+    struct kd_pace *pace = &g->paces[!cost->lens_reused];
+    uint32_t rung = first_that_fits(g, pace, cost, of, 0);
+    if (pace->count > known || !isinf(pace->changed_at) || rung == pace->rung)
+        return;
+    pace->rung = rung;
+    pace->count = 0;
+}
+
+void kd_governor_expect(struct kd_governor *g, const struct kd_frame_cost *cost)
+{
+    if (g->ladders)
+        expect(g, cost, &g->ladder.rungs[0], 0);
+}
+
+/* Turns */
+
+static struct kd_turn next_step(const struct kd_governor *g, struct kd_turn turn)
+{
+    size_t i = 0;
+    while (i + 1 < g->ladder.n_steps && g->ladder.steps[i].rays <= g->shown_rays)
+        i++;
+    turn.quality = g->ladder.steps[i].quality;
+    turn.rays = g->ladder.steps[i].rays;
+    turn.refining = true;
+    return turn;
+}
+
+struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
+{
+    bool traced = now - g->lens_at < g->hold_ms || now < g->blind_until;
+    struct kd_turn turn = { .traced = traced, .ladder = g->ladders, .rung = g->paces[traced].rung, .revision = g->revision };
+    turn.quality = g->ladder.rungs[turn.rung].quality;
+    turn.rays = g->ladder.rungs[turn.rung].rays;
+    if (g->shown_revision != g->revision)
+        return turn;
+    double left = g->params.rest_ms - (now - g->changed_at);
+    if (!g->shown.final && left < 1e-3) /* rounded sums of waits end a little early */
+        return next_step(g, turn);
+    turn.quality = g->shown;
+    turn.wait_ms = g->shown.final ? INFINITY : left;
+    return turn;
+}
+
+/* A lens map that should have been there may be missing once after a change of rung. If none is kept, as where it does not fit, the
+ * frames of a scene whose time alone goes on trace all the same. */
+static void miss(struct kd_governor *g, double now)
+{
+    if (++g->missed < MISSES)
+        return;
+    g->missed = 0;
+    g->blind_until = now + g->blind_ms;
+    g->blind_ms *= 2;
+}
+
+static bool is_sane(const struct kd_frame_cost *c)
+{
+    return c->fixed_ms >= 0 && c->rays_ms >= 0 && c->pixels_ms >= 0 && c->total_ms >= 0 && isfinite(c->total_ms + c->fixed_ms);
+}
+
+void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *turn, const struct kd_frame_cost *cost)
+{
+    if (turn->revision == g->revision) {
+        g->shown = turn->quality;
+        g->shown_revision = turn->revision;
+        g->shown_rays = turn->rays;
+    }
+    struct kd_pace *pace = &g->paces[turn->traced];
+    if (turn->ladder != g->ladders || !is_sane(cost))
+        return;
+    if (!cost->lens_reused && (turn->refining || !turn->traced)) {
+        const struct kd_rung of = { .rays = turn->rays, .pixels = (double)turn->quality.width * turn->quality.height };
+        expect(g, cost, &of, ENOUGH - 1);
+    }
+    if (turn->refining || turn->rung != pace->rung)
+        return;
+    if (!turn->traced) {
+        g->missed = cost->lens_reused ? 0 : g->missed;
+        if (!cost->lens_reused) {
+            miss(g, now);
+            return;
+        }
+    } else if (cost->lens_reused) {
+        return;
+    }
+    pace->costs[pace->count++ % KD_PACE_FRAMES] = *cost;
+    decide(g, pace, now);
+}

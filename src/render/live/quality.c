@@ -1,0 +1,98 @@
+#include "render/live/quality.h"
+
+#include <math.h>
+
+void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out)
+{
+    *out = *asked;
+    out->image.width = (int32_t)quality->width;
+    out->image.height = (int32_t)quality->height;
+    out->image.samples = quality->samples;
+    out->accuracy.orders = quality->orders;
+    if (quality->profile < 0)
+        return;
+    out->accuracy.profile = quality->profile;
+    out->accuracy.tolerance = INFINITY;
+    out->accuracy.precision = KD_PRECISION_WORD_AUTO;
+    out->accuracy.steps = 0;
+}
+
+/* Whether the profile alone says how rays are followed. */
+static bool by_profile(const struct kd_accuracy *a)
+{
+    return !isfinite(a->tolerance) && !a->steps && a->precision == KD_PRECISION_WORD_AUTO;
+}
+
+/* What a ray costs, roughly: the steps that a profile means, and one turn of the transfer pass for each order. Only ratios matter,
+ * and where they are wrong the governor measures and moves on. reference is double precision. */
+static double ray_cost(const struct kd_quality *quality, const struct kd_scene *asked)
+{
+    static const double profile[] = { 0.6, 0.7, 1, 1.6, 12 };
+    bool named = quality->profile >= 0 || by_profile(&asked->accuracy);
+    int32_t p = quality->profile >= 0 ? quality->profile : asked->accuracy.profile;
+    return (named ? profile[p] : 2) * (2 + quality->orders);
+}
+
+static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders, int32_t profile)
+{
+    struct kd_rung r = { .quality = { .scale = scale, .samples = samples, .orders = orders, .profile = profile } };
+    r.quality.width = (uint32_t)fmax(1, round(asked->image.width * scale));
+    r.quality.height = (uint32_t)fmax(1, round(asked->image.height * scale));
+    r.quality.final = scale == 1 && samples == asked->image.samples && orders == asked->accuracy.orders && profile < 0;
+    r.pixels = (double)r.quality.width * r.quality.height;
+    r.rays = r.pixels * samples * samples * ray_cost(&r.quality, asked);
+    return r;
+}
+
+/* Kept only if it is less work than the rung before. */
+static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
+{
+    if (ladder->n_rungs == KD_LADDER_RUNGS || rung.rays >= ladder->rungs[ladder->n_rungs - 1].rays)
+        return false;
+    ladder->rungs[ladder->n_rungs++] = rung;
+    return true;
+}
+
+static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_bounds *bounds, struct kd_ladder *out)
+{
+    static const double scales[] = { 0.75, 0.625, 0.5, 0.375, 0.25 };
+    double scale = 1;
+    int32_t samples = asked->image.samples, orders = asked->accuracy.orders;
+    out->rungs[0] = make_rung(asked, scale, samples, orders, -1);
+    out->n_rungs = 1;
+    while (samples > bounds->samples) {
+        samples = samples / 2 > bounds->samples ? samples / 2 : bounds->samples;
+        add_rung(out, make_rung(asked, scale, samples, orders, -1));
+    }
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++)
+        if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
+            add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
+            scale = scales[i];
+    while (orders > bounds->orders) {
+        orders = (orders + 1) / 2 > bounds->orders ? (orders + 1) / 2 : bounds->orders;
+        add_rung(out, make_rung(asked, scale, samples, orders, -1));
+    }
+    int32_t profile = by_profile(&asked->accuracy) ? asked->accuracy.profile : KD_PROFILE_BALANCED;
+    while (--profile >= bounds->profile)
+        add_rung(out, make_rung(asked, scale, samples, orders, profile));
+}
+
+static void make_steps(const struct kd_scene *asked, struct kd_ladder *out)
+{
+    const struct kd_accuracy *a = &asked->accuracy;
+    bool dear = !by_profile(a) || a->profile > KD_PROFILE_BALANCED;
+    int32_t profile = dear ? KD_PROFILE_BALANCED : -1;
+    out->n_steps = 0;
+    for (int32_t samples = 1; samples < asked->image.samples + dear; samples *= 2)
+        out->steps[out->n_steps++] = make_rung(asked, 1, samples, a->orders, profile);
+    struct kd_rung last = make_rung(asked, 1, asked->image.samples, a->orders, -1);
+    while (out->n_steps && out->steps[out->n_steps - 1].rays >= last.rays) /* named steps may be few */
+        out->n_steps--;
+    out->steps[out->n_steps++] = last;
+}
+
+void kd_ladder_make(const struct kd_scene *asked, const struct kd_ladder_bounds *bounds, struct kd_ladder *out)
+{
+    make_rungs(asked, bounds, out);
+    make_steps(asked, out);
+}

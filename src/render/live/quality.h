@@ -1,0 +1,51 @@
+/* How much of a scene a live frame shows, and the ladder of such qualities from all of it downwards. Plain values, pure functions;
+ * any thread. Which rung is in force is governor.h's to say. */
+#ifndef KD_RENDER_LIVE_QUALITY_H
+#define KD_RENDER_LIVE_QUALITY_H
+
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct kd_quality {
+    uint32_t width, height; /* pixels to render */
+    double scale;           /* of the asked width and height: 1, 3/4, 5/8, 1/2, 3/8 or 1/4 */
+    int32_t samples;        /* rays along each side of a pixel */
+    int32_t orders;         /* crossings kept a ray */
+    int32_t profile;        /* enum kd_profile in place of all of accuracy.* but engine; -1: accuracy.* as asked */
+    bool final;             /* everything is as asked */
+};
+
+/* The scene to render: *asked at this quality. Valid if *asked is. With quality.final it is *asked itself, byte for byte. */
+void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out);
+
+struct kd_rung {
+    struct kd_quality quality;
+    double rays, pixels; /* work: rays, weighted by what one costs; pixels */
+};
+
+/* How far down a ladder may go. */
+struct kd_ladder_bounds {
+    double scale;                     /* 1/4 is the least there is */
+    uint32_t width;                   /* no rung but the first is narrower than this, in pixels */
+    int32_t samples, orders, profile; /* never more than what is asked */
+};
+#define KD_LADDER_BOUNDS_DEFAULT { .scale = 0.25, .width = 160, .samples = 1, .orders = 2, .profile = KD_PROFILE_DRAFT }
+
+enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
+
+struct kd_ladder {
+    /* Downwards from what is asked: samples first, for what moves needs its pixels more than smooth edges, then resolution, then
+     * orders, then the steps along a ray. Each is less work than the one before. */
+    struct kd_rung rungs[KD_LADDER_RUNGS];
+    size_t n_rungs;
+    /* Upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at most the profile "balanced";
+     * last, what is asked. Each is more work than the one before. */
+    struct kd_rung steps[KD_LADDER_STEPS];
+    size_t n_steps;
+};
+void kd_ladder_make(const struct kd_scene *asked, const struct kd_ladder_bounds *bounds, struct kd_ladder *out);
+
+#endif

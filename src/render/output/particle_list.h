@@ -1,0 +1,71 @@
+/* Particles of a disk as numbers: a row a particle, 32-bit floats, in the order of the columns asked for.
+ *
+ *     struct kd_particle_list list;
+ *     kd_particle_list_init(&list, &scene, &error)                    a valid scene
+ *     kd_particle_list_set(&list, "fields", "r,phi,energy", &error)   and "first", "stride", "count", "time"
+ *     kd_particle_list_settle(&list, most_bytes, &error)
+ *     for (size_t i = 0; i < list.n; i += n)
+ *         kd_particle_list_fill(renderer, &list, i, n = ..., rows, &error);
+ *     kd_particle_list_finish(&list);
+ *
+ * Boyer-Lindquist t, r, theta, phi; x = sqrt(r^2 + a^2) cos(latitude) cos(phi), y likewise with sin(phi), z = r sin(latitude), the
+ * ellipsoidal coordinates that BL's become for M -> 0. Any thread but for _fill. */
+#ifndef KD_RENDER_OUTPUT_PARTICLE_LIST_H
+#define KD_RENDER_OUTPUT_PARTICLE_LIST_H
+
+#include "physics/plunge.h"
+#include "render/emit/particles.h"
+#include "render/device/renderer.h"
+
+/* COLUMN(name, unit, help) */
+#define KD_PARTICLE_COLUMNS(COLUMN)                                                                            \
+    COLUMN(x, "M", "sqrt(r^2 + a^2) cos(latitude) cos(phi)")                                                   \
+    COLUMN(y, "M", "sqrt(r^2 + a^2) cos(latitude) sin(phi)")                                                   \
+    COLUMN(z, "M", "r sin(latitude)")                                                                          \
+    COLUMN(r, "M", "Boyer-Lindquist radius")                                                                   \
+    COLUMN(phi, "radians", "azimuth, 0 to 2 pi")                                                               \
+    COLUMN(latitude, "radians", "pi/2 - theta")                                                                \
+    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant")                      \
+    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant")            \
+    COLUMN(dr_dt, "1", "by coordinate time")                                                                   \
+    COLUMN(dphi_dt, "1/M", "by coordinate time")                                                               \
+    COLUMN(dlatitude_dt, "1/M", "by coordinate time")
+
+enum kd_particle_column {
+#define COLUMN(name, ...) KD_PARTICLE_##name,
+    KD_PARTICLE_COLUMNS(COLUMN)
+#undef COLUMN
+    KD_PARTICLE_N_COLUMNS
+};
+const char *kd_particle_column_name(enum kd_particle_column column);
+
+#define KD_PARTICLE_LIST_SLICE 131072u /* rows of one fill: some 20 ms of the render thread */
+
+struct kd_particle_list {
+    struct kd_scene scene; /* at the time asked for */
+    struct kd_particle_grid grid;
+    uint32_t first, stride;
+    size_t n; /* rows; 0 before settle: as many as there are */
+    enum kd_particle_column columns[KD_PARTICLE_N_COLUMNS];
+    size_t n_columns;
+    bool orbits;             /* some column needs them */
+    struct kd_plunge plunge; /* then: what falls, falls along it */
+};
+
+/* KD_EINVAL at /disk/model: the scene has no particles. */
+enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene, struct kd_error *error);
+/* KD_EINVAL with "/name", the value and what is allowed. */
+enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text, struct kd_error *error);
+/* KD_EINVAL for more rows than there are, and for more bytes than `most` (0: any). */
+enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t most, struct kd_error *error);
+
+size_t kd_particle_list_row(const struct kd_particle_list *list); /* its bytes */
+/* "x,y,z" */
+enum { KD_PARTICLE_NAMES = 120 };
+void kd_particle_list_names(const struct kd_particle_list *list, char out[KD_PARTICLE_NAMES]);
+
+/* Render thread only: n <= KD_PARTICLE_LIST_SLICE rows from row `from` on. */
+enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct kd_particle_list *list, size_t from, size_t n,
+                                     float *rows, struct kd_error *error);
+
+#endif

@@ -1,0 +1,81 @@
+#include "render/plan/plan.h"
+
+#include "base/json.h"
+
+#include <math.h>
+
+static void add_passes(struct kd_json *json, const struct kd_plan *plan)
+{
+    kd_json_array(json, "passes");
+    for (size_t i = 0; i < plan->n_passes; i++) {
+        const struct kd_plan_pass *pass = &plan->passes[i];
+        kd_json_object(json, NULL);
+        kd_json_string(json, "name", pass->name);
+        if (*pass->kernel)
+            kd_json_string(json, "kernel", pass->kernel);
+        kd_json_number(json, "invocations", (double)pass->invocations);
+        kd_json_number(json, "estimate_ms", pass->estimate_ms);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+}
+
+static void add_constants(struct kd_json *json, const struct kd_plan *plan)
+{
+    kd_json_object(json, "specialisation");
+    kd_json_number(json, "orders", plan->orders);
+    kd_json_number(json, "steps", plan->setting.steps);
+    kd_json_number(json, "samples", plan->side);
+    kd_json_bool(json, "radius_only", plan->path == KD_LENS_RADIUS);
+    kd_json_bool(json, "phi", plan->phi);
+    kd_json_bool(json, "sky", plan->sky);
+    kd_json_end(json);
+}
+
+static void add_accuracy(struct kd_json *json, const struct kd_plan *plan)
+{
+    const struct kd_setting *by = &plan->setting;
+    kd_json_object(json, "accuracy");
+    kd_json_string(json, "engine", kd_engine_name(by->engine));
+    kd_json_string(json, "precision", kd_precision_name(by->precision));
+    kd_json_number(json, "steps", by->steps);
+    if (isfinite(by->holds))
+        kd_json_number(json, "holds", by->holds);
+    kd_json_string(json, "table", plan->accuracy_measured ? "measured" : "built-in");
+    kd_json_end(json);
+}
+
+static void add_bytes(struct kd_json *json, const struct kd_plan *plan)
+{
+    kd_json_object(json, "bytes");
+    kd_json_number(json, "lens_map", (double)plan->lens_bytes);
+    kd_json_number(json, "device", (double)plan->device_bytes);
+    kd_json_number(json, "host", (double)plan->host_bytes);
+    kd_json_end(json);
+}
+
+enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out)
+{
+    struct kd_json whole = kd_json_begin_lines(out), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_number(json, "rays", (double)plan->rays);
+    kd_json_number(json, "critical_pixels", (double)plan->critical_pixels);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
+    kd_json_number(json, "width", plan->width);
+    kd_json_number(json, "height", plan->height);
+    add_passes(json, plan);
+    add_constants(json, plan);
+    add_accuracy(json, plan);
+    add_bytes(json, plan);
+    kd_json_number(json, "bands", plan->bands);
+    kd_json_bool(json, "lens_map_cacheable", plan->cacheable);
+    kd_json_string(json, "lens_map_key", plan->lens_key);
+    kd_json_number(json, "estimate_ms", plan->estimate_ms);
+    kd_json_string(json, "estimate_basis", plan->measured ? "measured" : "guess");
+    kd_json_array(json, "approximations");
+    for (size_t i = 0; i < plan->n_approximations; i++)
+        kd_json_string(json, NULL, plan->approximations[i]);
+    kd_json_end(json);
+    kd_json_end(json);
+    return kd_json_finish(json);
+}

@@ -1,0 +1,429 @@
+#include "render/plan/plan.h"
+
+#include "interface.h"
+#include "physics/angle.h"
+#include "physics/kerr.h"
+#include "render/accuracy/table.h"
+#include "render/view/critical_pixels.h"
+#include "render/emit/plunging.h"
+#include "render/emit/sky_noise.h"
+#include "render/plan/photometry.h"
+
+#include <math.h>
+#include <string.h>
+
+static void say(struct kd_plan *plan, bool condition, const char *sentence)
+{
+    if (condition && plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS)
+        plan->approximations[plan->n_approximations++] = sentence;
+}
+
+static uint32_t spots_of(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    return (uint32_t)kd_scene_spots(scene, on);
+}
+
+static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
+{
+    const struct kd_disk *d = &scene->disk;
+    bool disk = d->model != KD_DISK_NONE;
+    say(plan, disk, "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge");
+    say(plan, disk, "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light");
+    say(plan, disk && d->model == KD_DISK_SHAKURA_SUNYAEV,
+        "disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral");
+    say(plan, disk && d->colour == KD_COLOUR_PEAK,
+        "disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate");
+    say(plan, disk && d->band == KD_BAND_BOLOMETRIC,
+        "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum");
+    say(plan, disk && !d->doppler, "disk: Doppler shift and beaming of the gas are switched off");
+    say(plan, disk && !d->redshift, "disk: gravitational redshift and time dilation of the gas are switched off");
+    say(plan, disk && d->taper > 0, "disk: the outer edge fades out over a chosen range");
+    bool particles = d->model == KD_DISK_PARTICLES;
+    say(plan, particles,
+        "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is");
+    say(plan, particles,
+        "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions");
+    say(plan, particles && !d->slow_light,
+        "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
+    say(plan, particles && d->slow_light, "particles: over the delay of light they go round on their guiding circles");
+    say(plan, plan->fall,
+        "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is "
+        "its surface density over the disk's at the ISCO; no stress, no heating");
+    say(plan, plan->spots, "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
+                           "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place");
+    say(plan, plan->spots, "spots: their brightness and colour are chosen, not computed; they absorb nothing");
+    say(plan, plan->spots && !disk && (!d->doppler || !d->redshift),
+        "spots: the Doppler shift or the gravitational redshift of the gas is switched off");
+    say(plan, plan->spots && !d->slow_light, "spots: fast light: shown where they are at one coordinate time, whatever the light's delay");
+    say(plan, disk && d->opacity < 1, "disk: opacity is a chosen number a crossing, not computed from the gas");
+    say(plan, disk || plan->spots, "disk: image orders beyond accuracy.orders are left out");
+    say(plan, disk || plan->spots, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
+    say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
+    say(plan, plan->sky && kd_sky_is_noise(scene, plan->setting.precision),
+        "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads "
+        "more than 0.1 rad away");
+    say(plan, (disk || plan->spots) && scene->style.ringdown > 0,
+        "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time");
+    say(plan, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4,
+        "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots");
+    say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
+    say(plan, plan->ring,
+        "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale");
+    const struct kd_setting *by = &plan->setting;
+    say(plan, by->precision == KD_PRECISION_F32,
+        "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate");
+    say(plan, by->precision == KD_PRECISION_F64, "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits");
+    say(plan, by->engine >= KD_ENGINE_KS_EULER,
+        "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs");
+}
+
+/* What the lens map depends on, as a scene with all else at its default: its hash is the key of the cache. */
+static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scene)
+{
+    struct kd_scene key;
+    kd_scene_defaults(&key);
+    key.spacetime.spin = scene->spacetime.spin;
+    key.camera = scene->camera;
+    key.camera.azimuth_deg = 0; /* adds a constant to every azimuth: transfer does that */
+    key.image = scene->image;
+    key.image.bit_depth = 8;
+    key.accuracy.orders = scene->accuracy.orders;
+    key.accuracy.engine = (int32_t)plan->setting.engine + 1;
+    key.accuracy.precision = (int32_t)plan->setting.precision + 1;
+    key.accuracy.steps = (int32_t)plan->setting.steps;
+    key.disk.model = plan->phi ? KD_DISK_PARTICLES : KD_DISK_NONE; /* who alone asks for azimuths */
+    key.disk.slow_light = plan->delay;
+    key.disk.plunging = plan->fall ? 0.5 : 0;
+    key.sky.model = plan->sky ? KD_SKY_GRID : KD_SKY_NONE;
+    return kd_scene_hash(&key, plan->lens_key);
+}
+
+static void add_pass(struct kd_plan *plan, const char *name, const char *kernel, uint64_t n, double ns)
+{
+    plan->passes[plan->n_passes++] = (struct kd_plan_pass){ name, kernel, n, (double)n * ns * 1e-6 };
+    plan->estimate_ms += (double)n * ns * 1e-6;
+}
+
+static const char *kernel_of(const struct kd_plan *plan)
+{
+    switch (plan->path) {
+    case KD_LENS_RADIUS: return "lens_radius.comp";
+    case KD_LENS_MAP: return "lens_map.comp";
+    case KD_LENS_LISTED: break;
+    }
+    return plan->setting.engine == KD_ENGINE_CLOSED      ? ""
+           : plan->setting.engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp"
+                                                         : "rays.comp";
+}
+
+#define NS_PER_AUDIT 4000.0 /* the closed form in double, on the CPU, of three orders; the audit runs on one thread */
+#define NS_PER_CLOSED 3000.0
+
+/* What is made of listed rays is estimated from the table; what it does not know, from the steps. */
+static double ns_per_ray(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    const struct kd_setting *by = &plan->setting;
+    if (plan->path != KD_LENS_LISTED)
+        return plan->path == KD_LENS_RADIUS ? c->ns_per_ray_radius : c->ns_per_ray_full;
+    if (by->engine == KD_ENGINE_CLOSED)
+        return NS_PER_CLOSED / (c->cores ? c->cores : 1);
+    for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
+        const struct kd_accuracy_row *row = &c->accuracy->rows[i];
+        double rate = row->sets[KD_ACCURACY_BULK].rays_per_s;
+        if (row->engine == by->engine && row->precision == by->precision && row->steps == by->steps && rate > 0)
+            return 1e9 / rate;
+    }
+    return c->ns_per_ray_full * by->steps * (by->engine >= KD_ENGINE_KS_EULER ? 10 : 0.5);
+}
+
+static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
+{
+    uint64_t pixels = (uint64_t)plan->width * plan->height;
+    plan->trace_ns = ns_per_ray(plan, c);
+    if (plan->planes)
+        add_pass(plan, "trace", kernel_of(plan), kd_plan_rays(plan), plan->trace_ns);
+    if (plan->audit)
+        add_pass(plan, "audit", "", KD_AUDIT_RAYS, NS_PER_AUDIT);
+    if (plan->particles.count)
+        add_pass(plan, "particles", "particles.comp", plan->particles.count, c->ns_per_particle);
+    add_pass(plan, "transfer", "transfer.comp", kd_plan_rays(plan), c->ns_per_sample_transfer);
+    if (plan->light)
+        add_pass(plan, "light", "photometry.comp", pixels, 1.5 * c->ns_per_pixel_post);
+    if (isinf(scene->style.exposure))
+        add_pass(plan, "expose", "expose.comp", pixels, 0.25 * c->ns_per_pixel_post);
+    add_pass(plan, "post", "post.comp", pixels, c->ns_per_pixel_post);
+    add_pass(plan, "readback", "", pixels, 0.1 * c->ns_per_pixel_post);
+}
+
+double kd_plan_exposure(const struct kd_plan *plan, double stops)
+{
+    double share = plan->exposure_share;
+    return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
+}
+
+/* Limits of the device, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize) where the capacity
+ * names none. */
+static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
+static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
+static uint64_t buffer_bytes(const struct kd_capacity *c)
+{
+    uint64_t allocation = c->max_allocation_bytes ? c->max_allocation_bytes : 1ull << 30;
+    return allocation < c->max_binding_bytes ? allocation : c->max_binding_bytes;
+}
+
+static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
+
+/* Rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays; the others go through
+ * the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few hundred groups, is far from it. */
+static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
+    return least(rows, in_line * KD_POST_PIXELS / plan->width);
+}
+
+/* Whether all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
+static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c, struct kd_error *error)
+{
+    const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
+    uint64_t host = 2 * plan->host_bytes, bytes = c->host_memory ? fixed + host : fixed, most = c->memory_bytes;
+    plan->cacheable = bytes + plan->lens_bytes <= most;
+    plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
+    bytes += plan->device_bytes - fixed;
+    if (bytes <= most && !c->host_memory && c->host_bytes && host > c->host_bytes) {
+        where = "host";
+        by = "what the host has left";
+        bytes = host;
+        most = c->host_bytes;
+    }
+    if (bytes <= most)
+        return KD_OK;
+    return kd_error_set(error, KD_ETOOBIG,
+                        "the picture needs %.2f GiB of %s memory, %.2f GiB are allowed (by %s): lower image.width, image.height or "
+                        "image.samples", (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
+}
+
+/* Rows of pixels whose lens map, radiance and packed pixels each fit one buffer and one binding, and whose workgroups one
+ * dispatch. */
+static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                            struct kd_error *error)
+{
+    uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
+    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t widest = row_lens > row_light ? row_lens : row_light;
+    uint64_t rows = (buffer_bytes(c) - 64) / widest, fit = rows_of_groups(plan, c);
+    if (rows < 1)
+        return kd_error_set(error, KD_ETOOBIG, "one row of the picture needs %llu bytes, this device binds %llu at once",
+                            (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
+    if (fit < 1 || (uint64_t)plan->width * plan->side > groups_x(c) * KD_GROUP_SIZE)
+        return kd_error_set(error, KD_ETOOBIG, "one row of the picture has %llu rays, this device dispatches %llu workgroups of %d",
+                            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c), KD_GROUP_SIZE);
+    rows = least(rows, fit);
+    plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
+    plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
+    uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
+    plan->lens_bytes = row_lens * plan->height + at_curve;
+    plan->host_bytes = row_out * plan->height;
+    uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
+                     (plan->light ? 2 * kd_light_bytes(plan) : 0);
+    uint64_t one_band = row_lens * plan->band_rows + at_curve;
+    return fits(plan, fixed, one_band, c, error);
+}
+
+/* The pixels at the critical curve, where the image orders that are thinner than a pixel would show. */
+static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                               struct kd_error *error)
+{
+    struct kd_critical_pixels list;
+    uint64_t side = plan->side * (uint64_t)scene->image.critical_factor;
+    if (side > KD_CRITICAL_SIDE)
+        side = KD_CRITICAL_SIDE;
+    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->sky)) /* the direct image is nowhere thin */
+        return KD_OK;
+    enum kd_status status = kd_critical_pixels_of(scene, &list, error);
+    uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
+    kd_critical_pixels_finish(&list);
+    if (status || !n)
+        return status;
+    most = least(most, groups_x(c) * KD_GROUP_SIZE / (side * side));
+    most = least(most, (1ull << 32) / (4 * (plan->planes * side * side + 2))); /* the kernel counts in 32 bits */
+    if (!most)
+        return KD_OK;
+    plan->critical = (uint32_t)(side * side);
+    plan->critical_pixels = n;
+    plan->critical_part = n < most ? n : most;
+    return KD_OK;
+}
+
+/* A lens map keeps w = 1/r in 32 bits. */
+#define KEPT 6e-8
+
+static enum kd_status too_fine(double tolerance, const struct kd_capacity *c, struct kd_error *error)
+{
+    double best = INFINITY;
+    for (uint32_t i = 0; i < c->accuracy->n; i++)
+        best = fmin(best, kd_accuracy_holds(&c->accuracy->rows[i]));
+    return kd_error_field(error, "/accuracy/tolerance",
+                          "accuracy.tolerance is %.3g: a picture keeps radii in 32 bits and holds %.3g and above; lists of rays "
+                          "(POST /v1/rays, kerrd rays) hold %.3g%s", tolerance, KEPT, 1.01 * best,
+                          c->accuracy_measured ? " on this device" : ", by the table of llvmpipe that stands in for this device's");
+}
+
+static double ergosphere(const struct kd_scene *scene)
+{
+    return kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(scene->camera.inclination_deg));
+}
+
+/* Whether E is positive for each ray of the camera, as the device's engines take it to be where rays are listed. The closed form
+ * needs no more than L/E and Q/E^2. */
+static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
+
+static enum kd_status may_list(const struct kd_scene *scene, const struct kd_setting *by, struct kd_error *error)
+{
+    if (outside(scene) || by->engine == KD_ENGINE_CLOSED)
+        return KD_OK;
+    return kd_error_field(error, "/accuracy/engine",
+                          "accuracy.engine is \"%s\" in %s, allowed inside the ergosphere, camera.r %.9g, are \"auto\", \"closed\" and the Mino "
+                          "engines in f32; or move the camera out of %.9g M", kd_engine_name(by->engine), kd_precision_name(by->precision),
+                          scene->camera.r, ergosphere(scene));
+}
+
+/* Rays that pass the critical curve at 1e-10 are not told apart in 32 bits, nor by few steps. Unless an engine or steps are named,
+ * the closed form: it needs no device, and holds each tolerance that a picture may ask for. The table's rows are judged by other
+ * rays. */
+static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
+{
+    if (wish->precision == KD_PRECISION_F32)
+        return kd_error_field(error, "/accuracy/precision",
+                              "accuracy.precision is \"f32\", allowed in the ring projection are \"f64\" and \"auto\"");
+    wish->precision = KD_PRECISION_F64;
+    wish->profile = KD_PROFILE_REFERENCE;
+    if (wish->engine < 0 && !wish->steps) {
+        wish->engine = KD_ENGINE_CLOSED;
+        wish->tolerance = INFINITY;
+    }
+    return KD_OK;
+}
+
+/* Which kernel, which engine. */
+static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
+                             struct kd_error *error)
+{
+    struct kd_wish wish = kd_wish_of(scene);
+    struct kd_setting *by = &plan->setting;
+    bool radii = isinf(scene->camera.r) && !plan->phi && !plan->fall && !plan->sky;
+    bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
+    if (wish.tolerance < KEPT)
+        return too_fine(wish.tolerance, c, error);
+    enum kd_status status = plan->ring ? ring(&wish, error) : KD_OK;
+    if (!status)
+        status = kd_setting_of(&wish, c->accuracy, c->float64, by, error);
+    if (status)
+        return status;
+    if (isfinite(scene->accuracy.tolerance) && isinf(wish.tolerance))
+        by->holds = KEPT;
+    if (plan->ring && by->precision == KD_PRECISION_F32)
+        return kd_error_field(error, "/accuracy/tolerance",
+                              "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
+                              "\"profile\"", wish.tolerance);
+    if (closed32 && !radii)
+        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 gives radii to an observer at infinity alone, "
+                              "and this scene needs more: allowed is f64");
+    if (radii && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
+        plan->path = KD_LENS_RADIUS;
+        by->engine = KD_ENGINE_CLOSED;
+        by->steps = 0;
+        return KD_OK;
+    }
+    if (!outside(scene) && by->precision == KD_PRECISION_F64 && wish.engine < 0 && !wish.steps) {
+        by->engine = KD_ENGINE_CLOSED;
+        by->steps = 0;
+    }
+    bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32 &&
+               !plan->delay; /* which only listed rays know */
+    plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
+    if (plan->delay && !outside(scene))
+        return kd_error_field(error, "/disk/slow_light", 
+                              "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
+    return map ? KD_OK : may_list(scene, by, error);
+}
+
+/* All but what depends on the pixels at the critical curve. */
+static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity,
+                              struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_plan plan = { 0 };
+    plan.width = (uint32_t)scene->image.width;
+    plan.height = (uint32_t)scene->image.height;
+    plan.side = (uint32_t)scene->image.samples;
+    plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
+    plan.phi = needs->phi;
+    plan.delay = needs->delay;
+    plan.light = needs->light;
+    plan.fall = needs->fall;
+    plan.ring = scene->camera.projection == KD_PROJECTION_RING;
+    plan.sky = needs->sky;
+    plan.particles = kd_particle_grid(scene);
+    plan.spots = spots_of(scene);
+    /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
+    plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
+    if (plan.light && plan.ring)
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"ring\", allowed are \"plane\" and \"pinhole\" where light is measured: "
+                              "areas of the ring projection are not to scale");
+    enum kd_status status = choose(&plan, scene, capacity, error);
+    if (status)
+        return status;
+    plan.planes = plan.orders * (1 + plan.phi + plan.delay + plan.fall) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
+    plan.measured = capacity->measured;
+    plan.accuracy_measured = capacity->accuracy_measured;
+    *out = plan;
+    return bands(out, scene, capacity, error);
+}
+
+enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_plan plan;
+    enum kd_status status = outline(scene, needs, capacity, &plan, error); /* limits first: a list of what is too large takes long */
+    if (!status)
+        status = critical(&plan, scene, capacity, error);
+    if (!status && plan.critical)
+        status = bands(&plan, scene, capacity, error);
+    if (status)
+        return status;
+    plan.audit = plan.cacheable && plan.orders;
+    passes(&plan, scene, capacity);
+    approximations(&plan, scene);
+    if (lens_key(&plan, scene))
+        return kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene");
+    *out = plan;
+    return KD_OK;
+}
+
+struct kd_needs kd_needs_of(const struct kd_scene *scene)
+{
+    bool lumps = scene->disk.model == KD_DISK_PARTICLES || spots_of(scene);
+    return (struct kd_needs) {
+        .disk = scene->disk.model != KD_DISK_NONE,
+        .phi = lumps,
+        .delay = lumps && scene->disk.slow_light,
+        .fall = kd_plunging_is_on(scene) && scene->disk.plunging_temperature > 0,
+        .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
+        .light = spots_of(scene) && scene->camera.projection != KD_PROJECTION_RING,
+    };
+}
+
+enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
+                            struct kd_error *error)
+{
+    const struct kd_needs needs = kd_needs_of(scene);
+    return kd_plan_make_for(scene, &needs, capacity, out, error);
+}
+
+enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error)
+{
+    struct kd_plan plan;
+    const struct kd_needs needs = kd_needs_of(scene);
+    return outline(scene, &needs, capacity, &plan, error);
+}

@@ -1,0 +1,119 @@
+/* What a scene requires and nothing more: passes, specialisation constants, rays, bytes, estimated
+ * time, approximations. Rendering executes the plan; admission control reads it. Any thread. */
+#ifndef KD_RENDER_PLAN_PLAN_H
+#define KD_RENDER_PLAN_PLAN_H
+
+#include "base/buffer.h"
+#include "base/error.h"
+#include "render/accuracy/engine.h"
+#include "render/emit/particles.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_PLAN_MAX_PASSES 10
+#define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
+#define KD_PLAN_MAX_APPROXIMATIONS 32
+
+/* What the device allows and how fast it has been measured to be. */
+struct kd_capacity {
+    uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything on the device */
+    const char *memory_by;                    /* what sets memory_bytes, for a sentence; NULL: the device */
+    bool host_memory;                         /* the device's memory is the host's: pixels on the host count as well */
+    uint64_t host_bytes;                      /* else of pixels on the host; 0: not known */
+    uint64_t max_allocation_bytes;            /* of one buffer; 0: 2^30, the least that Vulkan 1.2 has */
+    uint32_t max_groups_x, max_groups_y;      /* workgroups of one dispatch; 0: 65535, the least that Vulkan has */
+    double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post, ns_per_particle;
+    bool measured; /* false: the figures are a default guess for this type of device */
+    bool float64;  /* the device has double precision */
+    unsigned cores; /* of the host, that the closed form in double runs on */
+    const struct kd_accuracy_table *accuracy; /* of the device, or built in; lives as long as the renderer */
+    bool accuracy_measured;                   /* false: built in */
+};
+
+struct kd_plan_pass {
+    const char *name;   /* "trace", "audit", "particles", "transfer", "light", "expose", "post", "readback" */
+    const char *kernel; /* file under shaders/comp, "" for a copy and for the CPU */
+    uint64_t invocations;
+    double estimate_ms;
+};
+
+struct kd_plan {
+    uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
+    uint64_t rays;                  /* of the grid */
+    uint32_t critical;              /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as of any other */
+    uint64_t critical_pixels;       /* how many they are */
+    uint64_t critical_part;         /* how many one buffer holds the lens map of */
+    enum kd_lens_path {
+        KD_LENS_RADIUS, /* lens_radius.comp: nothing in the scene needs more than the crossing radii, from infinity */
+        KD_LENS_MAP,    /* lens_map.comp */
+        KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine, in either precision */
+    } path;
+    struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
+    struct kd_particle_grid particles;
+    uint32_t spots;                 /* that are on: their own luminance is kept beside the radiance */
+    bool light;                     /* flux and centroid are measured */
+    bool delay;                     /* the lens map holds delays of light, behind its azimuths */
+    bool fall;                      /* and w', the slope of the traced ray's w = 1/r in Mino time, behind those */
+    bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
+    uint32_t orders;                /* crossings a ray */
+    uint32_t planes;                /* 4-byte values a ray in the lens map */
+    uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */
+    bool cacheable;                 /* the whole lens map fits in memory and can be kept */
+    bool audit;                     /* a sample of the lens map is traced again in closed form */
+    uint64_t lens_bytes, device_bytes, host_bytes;
+    struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
+    size_t n_passes;
+    double estimate_ms, trace_ns;     /* of all; of one ray */
+    /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this share of the way
+     * from there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
+    double exposure_from, exposure_share;
+    bool measured, accuracy_measured; /* as in the capacity */
+    const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
+    size_t n_approximations;
+    char lens_key[65]; /* hash of what the lens map depends on */
+};
+
+/* scene must be valid (kd_scene_validate). KD_ETOOBIG, saying how much, when it does not fit; KD_EINVAL at /accuracy/... for an
+ * engine, precision or tolerance that this device or this camera cannot have. */
+enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
+                            struct kd_plan *out, struct kd_error *error);
+
+/* Whether kd_plan_make finds the scene possible, without the list of pixels at the critical curve, which takes milliseconds for
+ * pictures of many pixels. With that list it may still be KD_ETOOBIG. */
+enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error);
+
+/* Buffers that the lens map of the pixels at the critical curve takes, and bytes of one. */
+static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
+{
+    return plan->critical ? (uint32_t)((plan->critical_pixels + plan->critical_part - 1) / plan->critical_part) : 0;
+}
+static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
+{
+    return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
+}
+
+/* All that are followed. */
+static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->rays + plan->critical * plan->critical_pixels; }
+
+/* Of linear light, a pixel. */
+static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->spots ? 16 : 12; }
+
+/* Stops to apply where the picture alone would have `stops`. */
+double kd_plan_exposure(const struct kd_plan *plan, double stops);
+
+/* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
+struct kd_needs {
+    bool disk, phi, delay, fall, sky; /* crossing radii; their azimuths; delays; radial slopes; directions of escape and fates */
+    bool light;                 /* and that flux and centroid be measured, as they are whenever a spot is on */
+};
+struct kd_needs kd_needs_of(const struct kd_scene *scene);
+enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
+                                const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
+
+/* The plan as the JSON of POST /v1/plan. */
+enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);
+
+#endif

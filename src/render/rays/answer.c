@@ -1,0 +1,226 @@
+#include "render/rays/answer.h"
+
+#include "base/decimal.h"
+#include "image/npy.h"
+#include "render/rays/hold.h"
+#include "render/rays/rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t kd_rays_answer_bytes(const struct kd_rays_params *params, size_t n)
+{
+    return n * (2 * sizeof(double) + params->orders * sizeof(struct kd_ray_crossing) + sizeof(struct kd_ray_end));
+}
+
+enum kd_status kd_rays_answer_init(struct kd_rays_answer *answer, const struct kd_rays_params *params,
+                                   double *alpha_beta, size_t n, struct kd_error *error)
+{
+    *answer = (struct kd_rays_answer) { .params = *params, .n = n, .alpha_beta = alpha_beta };
+    answer->crossings = calloc(n * params->orders, sizeof *answer->crossings);
+    answer->ends = calloc(n, sizeof *answer->ends);
+    if (answer->crossings && answer->ends)
+        return KD_OK;
+    kd_rays_answer_finish(answer);
+    return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays at %u orders", n, params->orders);
+}
+
+void kd_rays_answer_finish(struct kd_rays_answer *answer)
+{
+    free(answer->alpha_beta);
+    free(answer->crossings);
+    free(answer->ends);
+    *answer = (struct kd_rays_answer) { 0 };
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd_error *error)
+{
+    double *errors = malloc((answer->n + 1) * sizeof *errors);
+    size_t n = 0;
+    if (!errors)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %zu errors", answer->n);
+    answer->undecided = answer->followed_again = answer->beyond = 0;
+    for (size_t i = 0; i < answer->n; i++) {
+        answer->undecided += answer->ends[i].fate == KD_RAY_UNDECIDED;
+        answer->followed_again += answer->ends[i].again;
+        answer->beyond += answer->params.tolerance > 0 && !kd_rays_held(&answer->ends[i], answer->params.tolerance);
+        if (isfinite(answer->ends[i].error))
+            errors[n++] = answer->ends[i].error;
+    }
+    qsort(errors, n, sizeof *errors, ascending);
+    answer->worst_error = n ? errors[n - 1] : NAN;
+    answer->median_error = n ? errors[(n - 1) / 2] : NAN;
+    free(errors);
+    return KD_OK;
+}
+
+static enum kd_status add_number(struct kd_buffer *out, const char *before, double value)
+{
+    char text[KD_DECIMAL_SIZE];
+    if (!isfinite(value))
+        return KD_OK;
+    kd_decimal_print(text, value);
+    return kd_buffer_printf(out, "%s%s", before, text);
+}
+
+static enum kd_status json_accuracy(const struct kd_rays_answer *answer, struct kd_buffer *out)
+{
+    const struct kd_rays_params *p = &answer->params;
+    enum kd_status status =
+        kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\",\"steps\":%u,\"rays\":%zu,\"undecided\":%zu",
+                         kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n,
+                         answer->undecided);
+    if (!status && p->tolerance > 0)
+        status = add_number(out, ",\"tolerance\":", p->tolerance);
+    if (!status && p->tolerance > 0)
+        status = kd_buffer_printf(out, ",\"followed_again\":%zu,\"beyond\":%zu", answer->followed_again, answer->beyond);
+    if (!status && p->holds > 0)
+        status = add_number(out, ",\"holds\":", p->holds);
+    if (!status)
+        status = add_number(out, ",\"worst_error\":", answer->worst_error);
+    if (!status)
+        status = add_number(out, ",\"median_error\":", answer->median_error);
+    return status ? status : kd_buffer_printf(out, "}");
+}
+
+const char *kd_rays_approximation(const struct kd_rays_params *params, size_t index)
+{
+    const char *const all[] = {
+        "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing",
+        "g is that of gas on circular equatorial orbits outside the ISCO and, inside it, of gas that falls with the energy "
+        "and angular momentum of the ISCO; neither feels pressure",
+        isinf(params->r) ? NULL
+                         : "g is relative to infinity: an observer at a finite radius multiplies by its own nu/E_infinity",
+        params->precision == KD_PRECISION_F32 && !(params->tolerance > 0)
+            ? "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong"
+            : NULL,
+        params->engine >= KD_ENGINE_KS_EULER ? "the engine takes rays from infinity up at 1000 M, where their constants put them exactly, and "
+                                               "takes the momentum they leave with for their direction of escape, good to 1e-6 rad"
+                                             : NULL,
+        params->tolerance > 0 && params->engine != KD_ENGINE_CLOSED
+            ? "rays beyond the tolerance by their own error were followed again in double precision, at last in closed form; what is still beyond "
+              "it says so by its error"
+            : NULL,
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i] && !index--)
+            return all[i];
+    return NULL;
+}
+
+static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
+{
+    const struct kd_rays_params *p = &answer->params;
+    const char *sentence;
+    enum kd_status status = add_number(out, "{\"spin\":", p->spin);
+    if (!status)
+        status = isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
+                             : add_number(out, ",\"observer\":{\"r\":", p->r);
+    if (!status)
+        status = add_number(out, ",\"inclination_deg\":", p->inclination_deg);
+    if (!status)
+        status = kd_buffer_printf(out, "},\"orders\":%u,\"accuracy\":", p->orders);
+    if (!status)
+        status = json_accuracy(answer, out);
+    if (!status)
+        status = kd_buffer_printf(out, ",\"approximations\":[");
+    for (size_t i = 0; !status && (sentence = kd_rays_approximation(p, i)); i++)
+        status = kd_buffer_printf(out, "%s\"%s\"", i ? "," : "", sentence);
+    return status ? status : kd_buffer_printf(out, "],\"rays\":[");
+}
+
+static enum kd_status npy_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
+{
+    uint32_t orders = answer->params.orders;
+    const struct kd_npy array = {
+        .fields = { { "fate", KD_NPY_U1, 0 }, { "n_crossings", KD_NPY_U1, 0 }, { "error", KD_NPY_F8, 0 },
+                    { "sky_theta", KD_NPY_F8, 0 }, { "sky_phi", KD_NPY_F8, 0 }, { "r", KD_NPY_F8, orders },
+                    { "phi", KD_NPY_F8, orders }, { "delay", KD_NPY_F8, orders }, { "g", KD_NPY_F8, orders } },
+        .n_fields = 9,
+        .shape = { answer->n },
+        .n_dimensions = 1,
+    };
+    return kd_npy_write_header(&array, out);
+}
+
+static enum kd_status csv_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_printf(out, "alpha,beta,fate,n_crossings,error,sky_theta,sky_phi");
+    for (uint32_t n = 0; n < answer->params.orders && !status; n++)
+        status = kd_buffer_printf(out, ",r%u,phi%u,delay%u,g%u", n, n, n, n);
+    return status ? status : kd_buffer_printf(out, "\n");
+}
+
+enum kd_status kd_rays_stream_init(struct kd_rays_stream *stream, const struct kd_rays_answer *answer,
+                                   enum kd_rays_format format, struct kd_error *error)
+{
+    static enum kd_status (*const heads[])(const struct kd_rays_answer *, struct kd_buffer *) = {
+        [KD_RAYS_JSON] = json_head,
+        [KD_RAYS_NPY] = npy_head,
+        [KD_RAYS_CSV] = csv_head,
+    };
+    stream->answer = answer;
+    stream->format = format;
+    stream->head = (struct kd_buffer) { 0 };
+    stream->head_at = stream->next = stream->row_size = stream->row_at = 0;
+    stream->tail_done = false;
+    if (heads[format](answer, &stream->head))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the answer");
+    return KD_OK;
+}
+
+void kd_rays_stream_finish(struct kd_rays_stream *stream)
+{
+    kd_buffer_finish(&stream->head);
+}
+
+size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
+{
+    if (stream->format != KD_RAYS_NPY)
+        return 0;
+    return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)stream->answer->params.orders));
+}
+
+/* The next ray, or what closes the list, to stream->row. False at the end. */
+static bool refill(struct kd_rays_stream *stream)
+{
+    static const char tail[] = "]}\n";
+    stream->row_at = stream->row_size = 0;
+    if (stream->next < stream->answer->n) {
+        stream->row_size = kd_rays_row(stream->answer, stream->format, stream->next++, stream->row);
+        return true;
+    }
+    if (stream->tail_done || stream->format != KD_RAYS_JSON)
+        return false;
+    stream->tail_done = true;
+    stream->row_size = sizeof tail - 1;
+    memcpy(stream->row, tail, sizeof tail - 1);
+    return true;
+}
+
+static size_t hand_out(char *to, size_t room, const void *from, size_t size, size_t *at)
+{
+    size_t n = size - *at < room ? size - *at : room;
+    if (n)
+        memcpy(to, (const char *)from + *at, n);
+    *at += n;
+    return n;
+}
+
+size_t kd_rays_stream_read(struct kd_rays_stream *stream, void *to, size_t size)
+{
+    size_t used = hand_out(to, size, stream->head.data, stream->head.size, &stream->head_at);
+    while (used < size) {
+        if (stream->row_at == stream->row_size && !refill(stream))
+            break;
+        used += hand_out((char *)to + used, size - used, stream->row, stream->row_size, &stream->row_at);
+    }
+    return used;
+}

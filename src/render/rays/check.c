@@ -1,0 +1,82 @@
+#include "render/rays/check.h"
+
+#include "physics/angle.h"
+#include "physics/kerr.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_error *error)
+{
+    if (!(fabs(p->spin) < 1))
+        return kd_error_field(error, "/spin", "spin is %.16g, allowed are numbers above -1 and below 1", p->spin);
+    double horizon = kd_kerr_horizon(p->spin);
+    if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
+        return kd_error_field(error, "/observer/r",
+                              "r is %.16g, allowed are \"infinity\" and radii above that of the horizon, %.9g at this "
+                              "spin, up to %g",
+                              p->r, horizon, KD_RAYS_FAR);
+    if (!(p->r > 0))
+        return kd_error_field(error, "/observer/r", "r is negative");
+    if (!(p->inclination_deg >= 0 && p->inclination_deg <= 180))
+        return kd_error_field(error, "/observer/inclination_deg",
+                              "inclination_deg is %.16g, allowed are 0 to 180 degrees", p->inclination_deg);
+    return KD_OK;
+}
+
+static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_error *error)
+{
+    bool closed = p->engine == KD_ENGINE_CLOSED;
+    if (!p->orders || p->orders > KD_RAYS_MAX_ORDERS)
+        return kd_error_field(error, "/orders", "orders is %u, allowed are whole numbers from 1 to %d", p->orders,
+                              KD_RAYS_MAX_ORDERS);
+    if ((unsigned)p->engine >= KD_ENGINE_COUNT || (unsigned)p->precision > KD_PRECISION_F64)
+        return kd_error_field(error, "/accuracy", "there is no such engine or precision");
+    if (closed && p->precision != KD_PRECISION_F64)
+        return kd_error_field(error, "/accuracy/precision",
+                              "the closed engine works in double precision: allowed is \"f64\", or another engine");
+    if (closed && p->steps)
+        return kd_error_field(error, "/accuracy/steps", "the closed engine takes no steps: allowed is 0, or another engine");
+    if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
+        return kd_engine_steps_error(p->engine, p->steps, error);
+    return KD_OK;
+}
+
+static enum kd_status check_number(double value, size_t ray, int component, struct kd_error *error)
+{
+    char pointer[64];
+    if (fabs(value) <= KD_RAYS_FAR)
+        return KD_OK;
+    snprintf(pointer, sizeof pointer, "/rays/%zu/%d", ray, component);
+    return kd_error_field(error, pointer, "%s of ray %zu is %.16g, allowed are -1e7 to 1e7 M",
+                          component ? "beta" : "alpha", ray, value);
+}
+
+enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha_beta, size_t n,
+                             struct kd_error *error)
+{
+    enum kd_status status = check_observer(p, error);
+    if (!status)
+        status = check_accuracy(p, error);
+    if (!status && (!n || n > KD_RAYS_MAX))
+        status = kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX);
+    double s = kd_sin_deg(p->inclination_deg), u = kd_cos_deg(p->inclination_deg), u2 = u * u, a = p->spin, r = p->r;
+    double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    for (size_t i = 0; i < n && !status; i++) {
+        double alpha = alpha_beta[2 * i], beta = alpha_beta[2 * i + 1];
+        status = check_number(alpha, i, 0, error);
+        if (!status)
+            status = check_number(beta, i, 1, error);
+        if (status || isinf(r))
+            continue;
+        /* The radial potential, negative where light with these constants never comes. */
+        double lambda = -alpha * s, eta = (alpha * alpha - a * a) * u2 + beta * beta, w = r * r + a * a - a * lambda;
+        if (w > 0 && w * w >= delta * (eta + (lambda - a) * (lambda - a)))
+            continue;
+        char pointer[32];
+        snprintf(pointer, sizeof pointer, "/rays/%zu", i);
+        status = kd_error_field(error, pointer, "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, "
+                                "reaches an observer at r = %.9g", i, alpha, beta, r);
+    }
+    return status;
+}

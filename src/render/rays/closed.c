@@ -1,0 +1,164 @@
+#include "render/rays/closed.h"
+
+#include "physics/angle.h"
+#include "physics/disk.h"
+#include "physics/kerr.h"
+#include "physics/null_geodesic.h"
+#include "base/cores.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+
+#define SLICE 1024 /* rays: some milliseconds, and small beside what is worth another thread */
+#define THREADS_MAX 16
+
+_Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
+
+static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta, bool outward)
+{
+    return (struct kd_null_ray) { .spin = p->spin,
+                                  .radius = p->r,
+                                  .cos_theta = kd_cos_deg(p->inclination_deg),
+                                  .sin_theta = kd_sin_deg(p->inclination_deg),
+                                  .alpha = alpha_beta[0],
+                                  .beta = alpha_beta[1],
+                                  .outward = outward && isfinite(p->r),
+                                  .orders = (int)p->orders };
+}
+
+/* outwards: of the real photon, as it leaves the gas. */
+static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
+{
+    double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
+    double alpha = alpha_beta[0], beta = alpha_beta[1], lambda = -alpha * s;
+    if (r >= kd_kerr_isco(a))
+        return kd_disk_redshift(a, r, lambda);
+    return kd_disk_redshift_plunging(a, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
+}
+
+static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, bool outward, bool errors,
+                      struct kd_ray_crossing *crossings, struct kd_ray_end *end)
+{
+    const struct kd_null_ray ray = ray_of(p, alpha_beta, outward);
+    const struct kd_null_path path = errors ? kd_null_trace(&ray) : kd_null_trace_fast(&ray);
+    bool sound = path.status == KD_NULL_OK || path.status == KD_NULL_IN_PLANE;
+    *end = (struct kd_ray_end) {
+        .fate = !sound                            ? KD_RAY_UNDECIDED
+                : path.fate == KD_NULL_ESCAPED ? KD_RAY_ESCAPED
+                                                  : KD_RAY_CAPTURED,
+        .n_crossings = (uint32_t)path.crossings,
+        .theta = NAN,
+        .phi = NAN,
+        .error = NAN,
+    };
+    if (end->fate == KD_RAY_ESCAPED) {
+        end->theta = acos(fmax(-1, fmin(1, path.sky_u)));
+        end->phi = remainder(path.sky_phi, 2 * M_PI); /* a direction: turns do not count */
+        end->error = path.crossings || !errors ? NAN : path.sky_error;
+    }
+    for (uint32_t k = 0; k < p->orders; k++) {
+        const struct kd_null_crossing *c = &path.crossing[k];
+        crossings[k] = (struct kd_ray_crossing) { NAN, NAN, NAN, NAN };
+        if (k >= end->n_crossings)
+            continue;
+        crossings[k] = (struct kd_ray_crossing) { c->r, c->phi, c->delay, NAN };
+        if (!errors)
+            continue;
+        crossings[k].g = redshift(p, alpha_beta, c->r, c->sense > 0);
+        end->error = fmax(end->error, fmin(c->error_r, 1)); /* fmax passes over NaN; infinite: it may not be there */
+    }
+    if (path.doubtful)
+        end->error = 1;
+}
+
+struct share {
+    const struct kd_rays_params *params;
+    const struct kd_ray_labels *rays;
+    bool errors;
+    struct kd_ray_crossing *crossings;
+    struct kd_ray_end *ends;
+    _Atomic size_t next;
+    _Atomic bool stop;
+};
+
+/* False when there is no more to do. */
+static bool trace_slice(struct share *share)
+{
+    const struct kd_ray_labels *rays = share->rays;
+    size_t first = atomic_load(&share->stop) ? rays->n : atomic_fetch_add(&share->next, SLICE);
+    for (size_t i = first; i < rays->n && i < first + SLICE; i++)
+        trace_one(share->params, rays->alpha_beta + 2 * i, rays->outward && rays->outward[i], share->errors,
+                  share->crossings + i * share->params->orders, &share->ends[i]);
+    return first < rays->n;
+}
+
+static void *work(void *user)
+{
+    while (trace_slice(user))
+        ;
+    return NULL;
+}
+
+/* Threads beside the calling one that are worth their start. */
+static size_t helpers(size_t n)
+{
+    size_t cores = kd_cores(), most = n / (8 * SLICE) + 1;
+    cores = cores > THREADS_MAX ? THREADS_MAX : cores;
+    return (cores < most ? cores : most) - 1;
+}
+
+enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
+                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
+                              void *user, struct kd_error *error)
+{
+    struct share share = { .params = params, .rays = rays, .errors = errors, .crossings = crossings, .ends = ends };
+    size_t n = rays->n;
+    pthread_t threads[THREADS_MAX];
+    size_t begun = 0, wanted = helpers(n);
+    while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* fewer will do as well */
+        begun++;
+    while (trace_slice(&share)) {
+        size_t taken = atomic_load(&share.next);
+        if (progress && !progress(user, taken < n ? (double)taken / (double)n : 1))
+            atomic_store(&share.stop, true);
+    }
+    for (size_t i = 0; i < begun; i++)
+        pthread_join(threads[i], NULL);
+    return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
+}
+
+/* Which way the photon moves inside the ISCO the closed form says; a ray that set out inwards and falls in never turned. */
+static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
+                            uint32_t crossing)
+{
+    if (end->fate == KD_RAY_CAPTURED && !outward)
+        return true;
+    const struct kd_null_ray ray = ray_of(p, alpha_beta, outward);
+    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    return (int)crossing >= path.crossings || path.crossing[crossing].sense > 0;
+}
+
+void kd_rays_redshift(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                      struct kd_ray_crossing *crossings, const struct kd_ray_end *ends)
+{
+    double isco = kd_kerr_isco(params->spin);
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
+            struct kd_ray_crossing *c = &crossings[i * params->orders + k];
+            bool outwards = c->r >= isco || leaves_outwards(params, alpha_beta + 2 * i, false, &ends[i], k);
+            c->g = redshift(params, alpha_beta + 2 * i, c->r, outwards);
+        }
+}
+
+/* w'^2 = W^2 - D K w^2, as in shaders/ray/radial_step.glsl, which keeps its digits next to the horizon. */
+double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
+                     uint32_t k, double r)
+{
+    double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), w2 = 1 / (r * r);
+    double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;
+    double d = (1 - kd_kerr_horizon(a) / r) * (1 - kd_kerr_inner_horizon(a) / r);
+    double carter = (alpha - a) * (alpha + a) * c * c + beta * beta + j * j;
+    double slope = sqrt(fmax(0, all * all - d * carter * w2));
+    return leaves_outwards(p, alpha_beta, outward, end, k) ? slope : -slope;
+}

@@ -1,0 +1,17 @@
+/* The engines of the device. Private to src/render; render thread only. */
+#ifndef KD_RENDER_RAYS_DEVICE_H
+#define KD_RENDER_RAYS_DEVICE_H
+
+#include "render/rays/rays.h"
+
+/* kd_rays_trace for any engine but KD_ENGINE_CLOSED, params checked; g is left NaN, and the Kerr-Schild engines' errors. */
+enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                              const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
+
+/* One ray, and the records that trace.glsl describes, as doubles: room for `numbers` of them. */
+enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const double alpha_beta[2],
+                                   struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
+                                   struct kd_error *error);
+
+#endif

@@ -1,0 +1,123 @@
+#include "render/rays/hold.h"
+
+#include "render/device/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define SLICE ((size_t)16384) /* rays that are followed again together: a tenth of a second */
+/* Rays for which the device is asked once more: fewer take the closed form less time than a kernel takes to be compiled. */
+#define WORTH_A_KERNEL 8192
+#define MORE_STEPS 4 /* times as many: order 6 then loses 4096 times less */
+
+/* The rays of one slice that are followed again. */
+struct batch {
+    size_t n, *which;
+    double *alpha_beta;
+    struct kd_ray_crossing *crossings;
+    struct kd_ray_end *ends;
+};
+
+static void finish(struct batch *b)
+{
+    free(b->which);
+    free(b->alpha_beta);
+    free(b->crossings);
+    free(b->ends);
+}
+
+static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd_error *error)
+{
+    *b = (struct batch) { .which = malloc(n * sizeof *b->which), .alpha_beta = malloc(2 * n * sizeof *b->alpha_beta),
+                          .crossings = malloc(n * orders * sizeof *b->crossings), .ends = malloc(n * sizeof *b->ends) };
+    if (b->which && b->alpha_beta && b->crossings && b->ends)
+        return KD_OK;
+    finish(b);
+    return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays that are followed again", n);
+}
+
+/* From *at on, as many as fit; *at moves on. */
+static void gather(struct batch *b, const double *alpha_beta, const struct kd_ray_end *ends, size_t n, double tolerance, size_t *at)
+{
+    for (b->n = 0; *at < n && b->n < SLICE; ++*at) {
+        if (kd_rays_held(&ends[*at], tolerance))
+            continue;
+        memcpy(b->alpha_beta + 2 * b->n, alpha_beta + 2 * *at, 2 * sizeof *alpha_beta);
+        b->which[b->n++] = *at;
+    }
+}
+
+/* A finer setting is believed, but for one that leaves open what another has decided. */
+static void adopt(const struct batch *b, uint32_t orders, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
+{
+    for (size_t i = 0; i < b->n; i++) {
+        size_t k = b->which[i];
+        ends[k].again = true;
+        if (b->ends[i].fate == KD_RAY_UNDECIDED && ends[k].fate != KD_RAY_UNDECIDED)
+            continue;
+        ends[k] = b->ends[i];
+        ends[k].again = true;
+        memcpy(crossings + k * orders, b->crossings + i * orders, orders * sizeof *crossings);
+    }
+}
+
+static enum kd_status follow(struct kd_renderer *renderer, const struct kd_rays_params *finer, double tolerance, const double *alpha_beta,
+                             size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
+                             struct kd_error *error)
+{
+    struct batch b;
+    enum kd_status status = init(&b, n < SLICE ? n : SLICE, finer->orders, error);
+    if (status)
+        return status;
+    for (size_t at = 0; at < n && !status;) {
+        gather(&b, alpha_beta, ends, n, tolerance, &at);
+        if (b.n)
+            status = kd_rays_trace(renderer, finer, b.alpha_beta, b.n, b.crossings, b.ends, NULL, NULL, error);
+        if (!status)
+            adopt(&b, finer->orders, crossings, ends);
+        if (!status && progress && !progress(user, 1))
+            status = kd_error_set(error, KD_ECANCELLED, "the rays were cancelled");
+    }
+    finish(&b);
+    return status;
+}
+
+static size_t beyond(const struct kd_ray_end *ends, size_t n, double tolerance)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++)
+        count += !kd_rays_held(&ends[i], tolerance);
+    return count;
+}
+
+/* False: the device has nothing finer to offer. */
+static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params, struct kd_rays_params *out)
+{
+    enum { FINEST = 128 }; /* beyond them rounding takes over */
+    uint32_t steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
+    bool mino = params->engine == KD_ENGINE_MINO_RKN6;
+    if (!kd_vk_info(renderer->vk)->float64 || (mino && params->precision == KD_PRECISION_F64 && MORE_STEPS * steps > FINEST))
+        return false;
+    out->engine = KD_ENGINE_MINO_RKN6;
+    out->precision = KD_PRECISION_F64;
+    out->steps = mino ? MORE_STEPS * steps : kd_engine_steps(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64);
+    out->steps = out->steps > FINEST ? FINEST : out->steps;
+    return true;
+}
+
+enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                            struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
+                            struct kd_error *error)
+{
+    struct kd_rays_params finer = *params;
+    enum kd_status status = KD_OK;
+    finer.tolerance = finer.holds = 0;
+    if (beyond(ends, n, params->tolerance) >= WORTH_A_KERNEL && finer_on_device(renderer, params, &finer))
+        status = follow(renderer, &finer, params->tolerance, alpha_beta, n, crossings, ends, progress, user, error);
+    finer.engine = KD_ENGINE_CLOSED;
+    finer.precision = KD_PRECISION_F64;
+    finer.steps = 0;
+    if (!status && beyond(ends, n, params->tolerance))
+        status = follow(NULL, &finer, params->tolerance, alpha_beta, n, crossings, ends, progress, user, error);
+    return status;
+}

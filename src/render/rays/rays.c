@@ -1,0 +1,113 @@
+#include "render/rays/rays.h"
+
+#include "render/rays/check.h"
+#include "render/rays/closed.h"
+#include "render/rays/device.h"
+#include "render/rays/hold.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Between the directions of two rays that escape. */
+bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b)
+{
+    const double x[] = { a->theta, a->phi, a->error }, y[] = { b->theta, b->phi, b->error };
+    return a->fate == b->fate && a->n_crossings == b->n_crossings && a->again == b->again && !memcmp(x, y, sizeof x);
+}
+
+static double angle(const struct kd_ray_end *a, const struct kd_ray_end *b)
+{
+    double s = sin((a->theta - b->theta) / 2), t = sin((a->phi - b->phi) / 2);
+    return 2 * asin(fmin(1, sqrt(s * s + sin(a->theta) * sin(b->theta) * t * t)));
+}
+
+/* How far a ray is from its truth, which has an error of its own. */
+static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_end *end, const struct kd_ray_crossing *truth,
+                       const struct kd_ray_end *true_end)
+{
+    bool other = end->fate != true_end->fate || end->n_crossings != true_end->n_crossings;
+    double worst = other;
+    if (!other && !end->n_crossings)
+        return end->fate == KD_RAY_ESCAPED ? angle(end, true_end) + true_end->error : NAN;
+    for (uint32_t k = 0; k < end->n_crossings && k < true_end->n_crossings; k++)
+        worst = fmax(worst, fabs(found[k].r / truth[k].r - 1));
+    return worst + (1 + worst) * (fmax(true_end->error, 0) + 2 * DBL_EPSILON); /* fmax passes over NaN: a captured ray without crossings */
+}
+
+#define SLICE ((size_t)16384) /* rays: a tenth of a second */
+
+/* The Kerr-Schild engines have no estimate of their own. They are there to be compared, and so they are: with the closed form,
+ * which takes less time than they do. */
+static enum kd_status compare(const struct kd_rays_params *params, const double *alpha_beta, size_t n,
+                              const struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
+                              void *user, struct kd_error *error)
+{
+    struct kd_rays_params closed = *params;
+    closed.engine = KD_ENGINE_CLOSED;
+    closed.precision = KD_PRECISION_F64;
+    closed.steps = 0;
+    size_t most = n < SLICE ? n : SLICE;
+    struct kd_ray_crossing *truth = malloc(most * params->orders * sizeof *truth);
+    struct kd_ray_end *true_ends = malloc(most * sizeof *true_ends);
+    enum kd_status status = KD_OK;
+    if (!truth || !true_ends)
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", most);
+    for (size_t first = 0, m; first < n && !status; first += m) {
+        m = n - first < SLICE ? n - first : SLICE;
+        const struct kd_ray_labels labels = { alpha_beta + 2 * first, NULL, m };
+        status = kd_rays_closed(&closed, &labels, true, truth, true_ends, NULL, NULL, error);
+        for (size_t i = 0; i < m && !status; i++)
+            ends[first + i].error = error_of(crossings + (first + i) * params->orders, &ends[first + i],
+                                             truth + i * params->orders, &true_ends[i]);
+        if (!status && progress && !progress(user, 1))
+            status = kd_error_set(error, KD_ECANCELLED, "the rays were cancelled");
+    }
+    free(truth);
+    free(true_ends);
+    return status;
+}
+
+static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                                      const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                                      struct kd_ray_end *ends, kd_progress_fn progress, void *user,
+                                      struct kd_error *error)
+{
+    if (!renderer)
+        return kd_error_field(error, "/accuracy/engine", "engine %s needs a device", kd_engine_name(params->engine));
+    enum kd_status status =
+        kd_rays_device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, crossings, ends, progress, user, error);
+    if (!status)
+        kd_rays_redshift(params, alpha_beta, n, crossings, ends);
+    if (!status && params->engine >= KD_ENGINE_KS_EULER)
+        status = compare(params, alpha_beta, n, crossings, ends, progress, user, error);
+    if (!status && params->tolerance > 0)
+        status = kd_rays_hold(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+    return status;
+}
+
+/* One rule for all engines: a ray without a crossing that does not escape tells no number, so there is none to be wrong, unless
+ * a crossing may be missing. */
+static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!ends[i].n_crossings && ends[i].fate != KD_RAY_ESCAPED && !(ends[i].error >= 1))
+            ends[i].error = NAN;
+}
+
+enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params,
+                             const double *alpha_beta, size_t n, struct kd_ray_crossing *crossings,
+                             struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
+{
+    enum kd_status status = kd_rays_check(params, alpha_beta, n, error);
+    if (status)
+        return status;
+    if (params->engine == KD_ENGINE_CLOSED)
+        status = kd_rays_closed(params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, true, crossings, ends, progress, user, error);
+    else
+        status = trace_on_device(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+    if (!status)
+        drop_idle_errors(ends, n);
+    return status;
+}

@@ -1,0 +1,11 @@
+/* One ray of an answer as text or bytes. Private to src/render. */
+#ifndef KD_RENDER_RAYS_ROWS_H
+#define KD_RENDER_RAYS_ROWS_H
+
+#include "render/rays/answer.h"
+
+/* Bytes written, without a NUL. In JSON a comma comes before all but the first. */
+size_t kd_rays_row(const struct kd_rays_answer *answer, enum kd_rays_format format, size_t ray,
+                   char out[KD_RAYS_ROW_MAX]);
+
+#endif

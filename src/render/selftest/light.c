@@ -1,0 +1,144 @@
+/* Brightness: from a ray to the numbers of a file. */
+#include "render/selftest/parts.h"
+
+#include "interface.h"
+#include "render/device/internal.h"
+#include "render/view/layout.h"
+
+#include <float.h>
+#include <math.h>
+
+#define LEVELS 65535.0
+
+/* The curve of IEC 61966-2-1 the other way round. */
+static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
+
+/* A scene whose one pixel is that ray's, exposed so that the luminance comes out as 0.2: the deepest red of the gamut then
+ * is 0.94. */
+static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double brightness)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = ray->spin;
+    scene.camera.inclination_deg = ray->inclination_deg;
+    scene.camera.centre_alpha = ray->alpha;
+    scene.camera.centre_beta = ray->beta;
+    scene.disk.outer = 1000;
+    scene.disk.taper = 0;
+    scene.image.width = scene.image.height = 1;
+    scene.image.critical_factor = 1;
+    scene.image.bit_depth = 16;
+    scene.style.tone_map = KD_TONE_SRGB;
+    scene.style.dither = false;
+    scene.style.exposure = log2(0.2 / brightness);
+    scene.accuracy.orders = 1;
+    return scene;
+}
+
+/* Luminance of the pixel, by the weights of the primaries in IEC 61966-2-1. */
+static enum kd_status luminance(const struct kd_selftest *test, const struct kd_scene *scene, double *out)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(test->renderer, &capacity);
+    enum kd_status status = kd_scene_validate(scene, test->error);
+    if (!status)
+        status = kd_plan_make(scene, &capacity, &plan, test->error);
+    if (!status)
+        status = kd_render(test->renderer, scene, &plan, NULL, NULL, &frame, test->error);
+    if (status)
+        return status;
+    const uint16_t *rgb = frame.pixels;
+    *out = (0.2126 * decode(rgb[0] / LEVELS) + 0.7152 * decode(rgb[1] / LEVELS) + 0.0722 * decode(rgb[2] / LEVELS)) *
+           exp2(-scene->style.exposure);
+    kd_frame_finish(&frame);
+    return KD_OK;
+}
+
+/* g^4 F/F_max. A file's 16 bits round a luminance of 0.2 to 0.9 (1/2)/65535 of it, 3.4e-5; the tables between whose
+ * entries T is interpolated are good to 1e-6, T^4 to four times that; roundoff comes with the gain of r, once for F and four
+ * times that of g. */
+static enum kd_status brightness(const struct kd_selftest *test)
+{
+    struct kd_selftest_row row;
+    kd_selftest_begin(&row, "metric, Page & Thorne by quadrature, ray by Taylor series", "transfer, post f32",
+                      "brightness of a pixel, g^4 F (relative)");
+    for (size_t i = 0; i < test->reference->n_pixels; i++) {
+        const struct kd_selftest_pixel *p = &test->reference->pixels[i];
+        const struct kd_selftest_ray *ray = &test->reference->rays[p->ray];
+        const struct kd_selftest_crossing *k = &ray->crossing[0];
+        const struct kd_scene scene = pixel_scene(ray, p->brightness);
+        double found;
+        enum kd_status status = luminance(test, &scene, &found);
+        if (status)
+            return status;
+        double roundoff = KD_SELFTEST_OPERATIONS * (double)(FLT_EPSILON / 2);
+        kd_selftest_compare(&row, found / p->brightness - 1, 4e-5 + roundoff * (1 + 3 * k->r_gain + 4 * k->g_gain));
+    }
+    return kd_selftest_end(test, &row);
+}
+
+/* Greys through the post kernel alone, four of each since an invocation makes four pixels; words[6 i] starts grey i. */
+static enum kd_status encode(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance, struct kd_vk_buffer *words)
+{
+    struct kd_renderer *r = test->renderer;
+    const struct kd_vk_pipeline *post;
+    uint32_t pixels = 4 * (uint32_t)test->reference->n_greys;
+    const struct kd_post_push push = { .gain = 1, .levels = (float)LEVELS, .pixels = pixels, .pixels_x = pixels };
+    float *at = kd_vk_buffer_map(radiance);
+    for (uint32_t i = 0; i < 3 * pixels; i++)
+        at[i] = (float)test->reference->greys[i / 12].linear;
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_POST, (uint32_t[]) { film, true }, 2, &post, test->error);
+    const struct kd_vk_dispatch d = {
+        "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push,
+        { (pixels / 4 + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
+    };
+    if (!status)
+        status = kd_vk_dispatch(r->vk, &d, test->error);
+    if (!status)
+        status = kd_vk_submit(r->vk, NULL, test->error);
+    if (!status)
+        status = kd_vk_wait(r->vk, 0, test->error);
+    return status;
+}
+
+/* In steps of 1/65535: half a step of rounding, and Vulkan's pow, which may be wrong by 16 units in the last place of log2 and
+ * as many of exp2 (4e-6 near 1, a quarter of a step). */
+static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance, struct kd_vk_buffer *words)
+{
+    struct kd_selftest_row row;
+    kd_selftest_begin(&row, film ? "S. Hill 2016, in 38 digits" : "IEC 61966-2-1", "post f32",
+                      film ? "film-like curve of greys (1/65535)" : "sRGB of greys (1/65535)");
+    enum kd_status status = encode(test, film, radiance, words);
+    const uint16_t *found = kd_vk_buffer_map(words);
+    for (size_t i = 0; i < test->reference->n_greys && !status; i++) {
+        const struct kd_selftest_grey *g = &test->reference->greys[i];
+        for (int k = 0; k < 12; k++)
+            kd_selftest_compare(&row, found[12 * i + k] - LEVELS * (film ? g->film[k % 3] : g->srgb), 1);
+    }
+    return status ? status : kd_selftest_end(test, &row);
+}
+
+static enum kd_status encoding(const struct kd_selftest *test)
+{
+    struct kd_vk *vk = test->renderer->vk;
+    struct kd_vk_buffer *radiance = NULL, *words = NULL;
+    uint64_t pixels = 4 * test->reference->n_greys;
+    enum kd_status status = kd_vk_buffer_create(vk, 12 * pixels, KD_VK_UPLOAD, "greys", &radiance, test->error);
+    if (!status)
+        status = kd_vk_buffer_create(vk, 6 * pixels, KD_VK_READBACK, "encoded greys", &words, test->error);
+    for (int film = 0; film < 2 && !status; film++)
+        status = greys(test, film, radiance, words);
+    if (status)
+        kd_vk_discard(vk);
+    kd_vk_buffer_destroy(vk, radiance);
+    kd_vk_buffer_destroy(vk, words);
+    return status;
+}
+
+enum kd_status kd_selftest_light(const struct kd_selftest *test)
+{
+    enum kd_status status = brightness(test);
+    return status ? status : encoding(test);
+}

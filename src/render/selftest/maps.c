@@ -1,0 +1,139 @@
+/* The kernels of the lens map against known rays, each the one ray of a picture of one pixel. */
+#include "render/selftest/parts.h"
+
+#include "interface.h"
+
+#include <float.h>
+#include <math.h>
+
+#define ORDERS 3
+#define STEPS 16
+#define PLANES (2 * ORDERS + 3)
+
+/* As in rays.c: roundoff, and what 16 steps of order 6 lose. The camera adds the operations from pixel to ray; the
+ * azimuth comes from a series that is good to 1e-7 a half turn (polar_azimuth.glsl). */
+static double unit_of(void) { return KD_SELFTEST_OPERATIONS * (double)(FLT_EPSILON / 2) + 1e-3 * pow(M_PI / STEPS, 6); }
+
+static double turn(double x) { return remainder(x, 2 * M_PI); }
+
+static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct kd_selftest_camera *camera)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = ray->spin;
+    scene.camera.inclination_deg = ray->inclination_deg;
+    scene.camera.r = ray->radius;
+    scene.image.width = scene.image.height = 1;
+    scene.accuracy.orders = ORDERS;
+    if (camera) {
+        scene.camera.observer = camera->zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC;
+        scene.camera.yaw_deg = camera->yaw_deg;
+        scene.camera.pitch_deg = camera->pitch_deg;
+    } else {
+        scene.camera.centre_alpha = ray->alpha;
+        scene.camera.centre_beta = ray->beta;
+    }
+    return scene;
+}
+
+/* The planes of the one ray. */
+static enum kd_status trace(const struct kd_selftest *test, const struct kd_scene *scene, const struct kd_needs *needs,
+                            float planes[PLANES])
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_renderer_capacity(test->renderer, &capacity);
+    enum kd_status status = kd_scene_validate(scene, test->error);
+    if (!status)
+        status = kd_plan_make_for(scene, needs, &capacity, &plan, test->error);
+    return status ? status : kd_render_lens(test->renderer, scene, &plan, planes, NULL, test->error);
+}
+
+/* Radii; a plane holds w = 1/r, or 0 where there is no crossing. */
+static void judge_radii(const struct kd_selftest_ray *ray, const float *planes, struct kd_selftest_row *row)
+{
+    for (int n = 0; n < ORDERS; n++) {
+        const struct kd_selftest_crossing *k = &ray->crossing[n];
+        bool has = n < ray->n_crossings;
+        if (has != (planes[n] > 0))
+            kd_selftest_compare(row, INFINITY, unit_of());
+        else if (has)
+            kd_selftest_compare(row, 1 / (planes[n] * k->r) - 1, unit_of() * (1 + k->r_gain));
+    }
+}
+
+static void judge_angles(const struct kd_selftest_ray *ray, const float *planes, struct kd_selftest_row *phi,
+                         struct kd_selftest_row *sky)
+{
+    for (int n = 0; n < ray->n_crossings; n++)
+        kd_selftest_compare(phi, turn(planes[ORDERS + n] - ray->crossing[n].phi),
+                            unit_of() * (M_PI * (n + 1) + ray->crossing[n].phi_gain));
+    const float *end = planes + 2 * ORDERS;
+    double allowed = unit_of() * (M_PI * (ray->n_crossings + 1) + ray->sky_gain);
+    if (ray->captured || end[2] != KD_FATE_ESCAPED)
+        kd_selftest_compare(sky, ray->captured && end[2] == KD_FATE_CAPTURED ? 0 : INFINITY, allowed);
+    else
+        kd_selftest_compare(sky, hypot(acos(end[0]) - ray->theta, sin(ray->theta) * turn(end[1] - ray->phi)), allowed);
+}
+
+/* From infinity: radii in closed form, then everything by steps. */
+static enum kd_status far(const struct kd_selftest *test)
+{
+    static const char taylor[] = "equations of motion by Taylor series, 38 digits";
+    struct kd_selftest_row closed, r, phi, sky;
+    kd_selftest_begin(&closed, taylor, "lens_radius f32", "lens map: r (relative)");
+    kd_selftest_begin(&r, taylor, "lens_map f32", "lens map: r (relative)");
+    kd_selftest_begin(&phi, taylor, "lens_map f32", "lens map: phi (rad)");
+    kd_selftest_begin(&sky, taylor, "lens_map f32", "lens map: fate, direction (rad)");
+    for (size_t i = 0; i < test->reference->n_rays; i++) {
+        const struct kd_selftest_ray *ray = &test->reference->rays[i];
+        struct kd_scene scene = scene_of(ray, NULL);
+        float planes[PLANES];
+        if (!isinf(ray->radius))
+            continue;
+        enum kd_status status = trace(test, &scene, &(struct kd_needs) { .disk = true }, planes);
+        if (status)
+            return status;
+        judge_radii(ray, planes, &closed);
+        scene.accuracy.steps = STEPS;
+        status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, planes);
+        if (status)
+            return status;
+        judge_radii(ray, planes, &r);
+        judge_angles(ray, planes, &phi, &sky);
+    }
+    enum kd_status status = kd_selftest_end(test, &closed);
+    status = status ? status : kd_selftest_end(test, &r);
+    status = status ? status : kd_selftest_end(test, &phi);
+    return status ? status : kd_selftest_end(test, &sky);
+}
+
+static enum kd_status near(const struct kd_selftest *test)
+{
+    static const char tetrad[] = "tetrad by Gram-Schmidt, ray by Taylor series";
+    struct kd_selftest_row r, phi, sky;
+    kd_selftest_begin(&r, tetrad, "lens_map f32", "lens map of a camera nearby: r (relative)");
+    kd_selftest_begin(&phi, tetrad, "lens_map f32", "lens map of a camera nearby: phi (rad)");
+    kd_selftest_begin(&sky, tetrad, "lens_map f32", "lens map of a camera nearby: direction (rad)");
+    for (size_t i = 0; i < test->reference->n_cameras; i++) {
+        const struct kd_selftest_camera *camera = &test->reference->cameras[i];
+        struct kd_scene scene = scene_of(&camera->ray, camera);
+        const struct kd_needs needs = { .disk = true, .phi = true, .sky = true };
+        scene.accuracy.steps = STEPS;
+        float planes[PLANES];
+        enum kd_status status = trace(test, &scene, &needs, planes);
+        if (status)
+            return status;
+        judge_radii(&camera->ray, planes, &r);
+        judge_angles(&camera->ray, planes, &phi, &sky);
+    }
+    enum kd_status status = kd_selftest_end(test, &r);
+    status = status ? status : kd_selftest_end(test, &phi);
+    return status ? status : kd_selftest_end(test, &sky);
+}
+
+enum kd_status kd_selftest_maps(const struct kd_selftest *test)
+{
+    enum kd_status status = far(test);
+    return status ? status : near(test);
+}

@@ -1,0 +1,121 @@
+#include "render/view/camera.h"
+
+#include "physics/angle.h"
+#include "physics/kerr.h"
+#include "physics/tetrad.h"
+
+#include <math.h>
+
+struct vec { double x, y, z; };
+static struct vec mix(double a, struct vec p, double b, struct vec q)
+{
+    return (struct vec){ a * p.x + b * q.x, a * p.y + b * q.y, a * p.z + b * q.z };
+}
+
+static void set_directions(struct kd_camera_exact *o, struct vec c0, struct vec cx, struct vec cy)
+{
+    o->c0x = c0.x, o->c0y = c0.y, o->c0z = c0.z;
+    o->cxx = cx.x, o->cxy = cx.y, o->cxz = cx.z;
+    o->cyx = cy.x, o->cyy = cy.y, o->cyz = cy.z;
+}
+
+/* Image plane: (alpha, beta) of the middle, and of one step to the right and up. A camera that rolls clockwise has its
+ * right-hand side pointing down. */
+static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double step)
+{
+    double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
+    set_directions(o, (struct vec){ c->centre_alpha, c->centre_beta, 0 }, (struct vec){ step * cr, -step * sr, 0 },
+                   (struct vec){ step * sr, step * cr, 0 });
+}
+
+/* Pinhole: look directions in the local frame (e_r, e_theta, e_phi). Unturned, the camera looks along -e_r, with +e_phi to
+ * the right and -e_theta up. */
+static void pinhole(struct kd_camera_exact *o, const struct kd_camera *c, double step)
+{
+    const struct vec inwards = { -1, 0, 0 }, right = { 0, 0, 1 }, up = { 0, -1, 0 };
+    double cy = kd_cos_deg(c->yaw_deg), sy = kd_sin_deg(c->yaw_deg);
+    double cp = kd_cos_deg(c->pitch_deg), sp = kd_sin_deg(c->pitch_deg);
+    double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
+    struct vec level = mix(cy, inwards, sy, right);
+    struct vec forward = mix(cp, level, sp, up), upward = mix(cp, up, -sp, level);
+    struct vec side = mix(cy, right, -sy, inwards);
+    set_directions(o, forward, mix(step * cr, side, -step * sr, upward), mix(step * sr, side, step * cr, upward));
+}
+
+/* E and L/sin(theta) of a photon of unit local energy and direction m. */
+static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, double u, double s)
+{
+    double a = scene->spacetime.spin, r = scene->camera.r;
+    bool zamo = scene->camera.observer == KD_OBSERVER_ZAMO; /* a valid scene has no static one in the ergosphere */
+    struct kd_tetrad t = (zamo ? kd_tetrad_zamo : kd_tetrad_static)(a, r, u, s);
+    o->e0 = t.e0;
+    o->e1 = t.e1;
+    o->l0 = t.l0;
+    o->l1 = t.l1;
+    o->cp = t.p;
+    o->cw = -t.p * t.root_delta / (r * r);
+    o->w0 = 1 / r;
+}
+
+double kd_camera_pixel(const struct kd_scene *scene)
+{
+    const struct kd_camera *c = &scene->camera;
+    return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
+}
+
+struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
+{
+    struct kd_camera_exact o = { 0 };
+    const struct kd_camera *c = &scene->camera;
+    double width = (double)scene->image.width * scene->image.samples;
+    double height = (double)scene->image.height * scene->image.samples;
+    double u = kd_cos_deg(c->inclination_deg), s = kd_sin_deg(c->inclination_deg);
+
+    o.middle_x = 0.5 * width - 0.5;
+    o.middle_y = 0.5 * height - 0.5;
+    o.width = (uint32_t)width;
+    o.spin = scene->spacetime.spin;
+    o.u = u;
+    o.s = s;
+    o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
+    o.horizon = 1 / kd_kerr_horizon(scene->spacetime.spin);
+    if (isinf(c->r)) {
+        plane(&o, c, kd_camera_pixel(scene) / scene->image.samples);
+    } else {
+        pinhole(&o, c, kd_camera_pixel(scene) / scene->image.samples);
+        frame(&o, scene, u, s);
+    }
+    return o;
+}
+
+struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
+{
+    const struct kd_camera_exact exact = kd_camera_exact(scene);
+    struct kd_camera_push o = { 0 };
+#define F(name) o.name = (float)kd_lifted(exact.name);
+#define U(name) o.name = exact.name;
+    KD_CAMERA_FIELDS_(F, U)
+#undef F
+#undef U
+    return o;
+}
+
+void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, struct kd_camera_label *out)
+{
+    double x = px - c->middle_x, y = c->middle_y - py;
+    double kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
+    if (c->w0 == 0) {
+        *out = (struct kd_camera_label) { .alpha = kx, .beta = ky, .energy = 1 };
+        return;
+    }
+    double kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
+    double m_phi = -kz * n;
+    kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
+}
+
+/* Labels have no place for E = 0; a ray next to it is the same to 1e-12 of what the observer measures. */
+void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
+{
+    double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;
+    *out = (struct kd_camera_label) { .alpha = -momentum / e, .beta = up / fabs(e), .outward = outward, .energy = e };
+}

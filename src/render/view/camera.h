@@ -1,0 +1,34 @@
+/* From the camera of a scene to the constants from which a kernel makes each ray. Double precision, pure, any thread. */
+#ifndef KD_RENDER_VIEW_CAMERA_H
+#define KD_RENDER_VIEW_CAMERA_H
+
+#include "render/view/layout.h"
+#include "scene/scene.h"
+
+/* The push constants of the kernels before they are rounded. */
+#define F(name) double name;
+#define U(name) uint32_t name;
+struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
+#undef F
+#undef U
+
+/* Everything but the rows of a slice (row0, rows, band0, stride). The scene must be valid. */
+struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene);
+struct kd_camera_push kd_camera_push(const struct kd_scene *scene);
+
+/* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. */
+double kd_camera_pixel(const struct kd_scene *scene);
+
+/* The ray at (x, y) by its labels (render/rays/rays.h), as shaders/ray/camera.glsl makes it, in double. In the ergosphere E may be
+ * negative: r and theta along the ray are those of the labels L/E and Q/E^2 all the same, as if E were positive; azimuth and time run
+ * the other way. */
+struct kd_camera_label {
+    double alpha, beta;
+    bool outward; /* at a finite radius: the traced ray starts away from the hole */
+    double energy; /* at infinity, per unit that the observer measures; not 0 */
+};
+/* From E, L/sin(theta), and what beta is times |E|. */
+void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
+void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);
+
+#endif

@@ -1,0 +1,187 @@
+#include "render/view/critical_pixels.h"
+
+#include "physics/critical.h"
+#include "render/view/camera.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { DEEPEST = 14, PIECES = 16 };
+static const double straight = 0.05; /* pixels that a chord may be off the curve in its middle */
+
+struct work {
+    struct kd_critical curve;
+    struct kd_camera_exact camera;
+    uint32_t width, height;
+    uint64_t *marks; /* a bit a pixel */
+};
+
+/* A point of the curve in the picture, in pixels. */
+struct spot {
+    double x, y;
+    bool seen; /* in front of the camera */
+};
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* The inverse of kd_camera_label. half: 1, the upper half, or -1. */
+static struct spot project(const struct work *w, double along, double half)
+{
+    const struct kd_critical_point p = kd_critical_upper(&w->curve, along);
+    const struct kd_camera_exact *c = &w->camera;
+    const double right[] = { c->cxx, c->cxy, c->cxz }, up[] = { c->cyx, c->cyy, c->cyz };
+    double d[3] = { -p.inwards, -half * p.up, p.right };
+    if (isinf(w->curve.observer.radius)) {
+        d[0] = p.alpha - c->c0x;
+        d[1] = half * p.beta - c->c0y;
+        d[2] = 0;
+    } else {
+        const double forward[] = { c->c0x, c->c0y, c->c0z };
+        double depth = dot(d, forward);
+        if (!(depth > 1e-6))
+            return (struct spot) { .seen = false };
+        for (int i = 0; i < 3; i++)
+            d[i] /= depth;
+    }
+    return (struct spot) { c->middle_x + dot(d, right) / dot(right, right), c->middle_y - dot(d, up) / dot(up, up), true };
+}
+
+static double clamp(double x, double least, double most) { return fmin(fmax(x, least), most); }
+
+/* Mark what is near the straight line from a to b. */
+static void mark(struct work *w, struct spot a, struct spot b)
+{
+    const double near = KD_CRITICAL_NEAR;
+    double top = clamp(ceil(fmin(a.y, b.y) - near), 0, w->height), bottom = clamp(floor(fmax(a.y, b.y) + near), -1, w->height - 1.0);
+    double left = clamp(ceil(fmin(a.x, b.x) - near), 0, w->width), right = clamp(floor(fmax(a.x, b.x) + near), -1, w->width - 1.0);
+    double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+    for (double y = top; y <= bottom; y++)
+        for (double x = left; x <= right; x++) {
+            double t = length2 > 0 ? clamp(((x - a.x) * dx + (y - a.y) * dy) / length2, 0, 1) : 0;
+            double off_x = x - a.x - t * dx, off_y = y - a.y - t * dy;
+            size_t at = (size_t)y * w->width + (size_t)x;
+            if (off_x * off_x + off_y * off_y <= near * near)
+                w->marks[at / 64] |= 1ull << (at % 64);
+        }
+}
+
+/* Whether the curve between two spots may come into the picture: it is not much longer than their distance. */
+static bool meets(const struct work *w, struct spot a, struct spot b)
+{
+    double room = KD_CRITICAL_NEAR + hypot(a.x - b.x, a.y - b.y);
+    return fmax(a.x, b.x) + room >= 0 && fmin(a.x, b.x) - room <= w->width && fmax(a.y, b.y) + room >= 0 &&
+           fmin(a.y, b.y) - room <= w->height;
+}
+
+/* The curve from one place to another in pieces that are straight, and short: what mark looks at is their bounding boxes. */
+static void draw(struct work *w, double half, double from, struct spot a, double to, struct spot b, int depth)
+{
+    if (a.seen && b.seen && depth > 0 && !meets(w, a, b))
+        return;
+    double middle = 0.5 * (from + to);
+    struct spot m = project(w, middle, half);
+    bool whole = a.seen && m.seen && b.seen;
+    if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight && fabs(m.y - 0.5 * (a.y + b.y)) < straight &&
+                                       hypot(b.x - a.x, b.y - a.y) < 24))) {
+        mark(w, a, m);
+        mark(w, m, b);
+    } else if (depth < DEEPEST && (a.seen || m.seen || b.seen || depth < 4)) {
+        draw(w, half, from, a, middle, m, depth + 1);
+        draw(w, half, middle, m, to, b, depth + 1);
+    }
+}
+
+static enum kd_status list(const struct work *w, struct kd_critical_pixels *out, struct kd_error *error)
+{
+    size_t words = ((size_t)w->width * w->height + 63) / 64, n = 0;
+    for (size_t i = 0; i < words; i++)
+        n += (size_t)__builtin_popcountll(w->marks[i]);
+    if (!n)
+        return KD_OK;
+    out->pixels = malloc(n * sizeof *out->pixels);
+    if (!out->pixels)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the %zu pixels at the critical curve", n);
+    for (size_t i = 0; i < words; i++)
+        for (uint64_t left = w->marks[i]; left; left &= left - 1) {
+            size_t at = 64 * i + (size_t)__builtin_ctzll(left);
+            out->pixels[out->n++] = (struct kd_pixel) { (uint32_t)(at % w->width), (uint32_t)(at / w->width) };
+        }
+    return KD_OK;
+}
+
+enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
+{
+    const struct kd_scene camera = kd_critical_camera(scene, 1);
+    struct work w = {
+        .camera = kd_camera_exact(&camera), .width = (uint32_t)scene->image.width, .height = (uint32_t)scene->image.height,
+    };
+    const struct kd_critical_observer observer = {
+        .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,
+        .frame = scene->camera.observer == KD_OBSERVER_ZAMO ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC,
+    };
+    *out = (struct kd_critical_pixels) { 0 };
+    w.curve = kd_critical_of(&observer);
+    if (w.curve.status) /* not of a valid scene */
+        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin, observer.radius);
+    w.marks = calloc(((size_t)w.width * w.height + 63) / 64, sizeof *w.marks);
+    if (!w.marks)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for marks of %u x %u pixels", w.width, w.height);
+    for (int half = -1; half <= 1; half += 2)
+        for (int i = 0; i < PIECES; i++) {
+            double from = (double)i / PIECES, to = (i + 1.0) / PIECES;
+            draw(&w, half, from, project(&w, from, half), to, project(&w, to, half), 0);
+        }
+    enum kd_status status = list(&w, out, error);
+    free(w.marks);
+    return status;
+}
+
+void kd_critical_pixels_finish(struct kd_critical_pixels *pixels)
+{
+    free(pixels->pixels);
+    *pixels = (struct kd_critical_pixels) { 0 };
+}
+
+size_t kd_critical_pixels_above(const struct kd_critical_pixels *pixels, uint32_t y)
+{
+    size_t low = 0, high = pixels->n;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (pixels->pixels[middle].y < y)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays)
+{
+    struct kd_scene camera = *scene;
+    camera.image.samples = (int32_t)rays;
+    return camera;
+}
+
+/* Square of the distance between the nearest points, the pixel repeated endlessly. */
+static uint32_t apart(uint32_t rays, uint32_t generator)
+{
+    uint32_t least = rays * rays;
+    for (uint32_t k = 1; k < rays; k++) {
+        uint32_t y = k * generator % rays, dx = k < rays - k ? k : rays - k, dy = y < rays - y ? y : rays - y;
+        if (dx * dx + dy * dy < least)
+            least = dx * dx + dy * dy;
+    }
+    return least;
+}
+
+static uint32_t common(uint32_t a, uint32_t b) { return b ? common(b, a % b) : a; }
+
+struct kd_critical_lattice kd_critical_lattice(uint32_t rays)
+{
+    struct kd_critical_lattice l = { .rays = rays, .generator = 1 };
+    for (uint32_t g = 2; g < rays; g++)
+        if (common(g, rays) == 1 && apart(rays, g) > apart(rays, l.generator))
+            l.generator = g;
+    l.shift = (l.generator % 2 ? l.generator - 1 : l.generator - 1 + rays) / 2 % rays; /* ray K - 1 - k is opposite to ray k */
+    return l;
+}

@@ -1,0 +1,48 @@
+/* The pixels that the critical curve passes, and the rays there. Image orders from 2 on, and from far away order 1, are rings
+ * thinner than a pixel: one ray a pixel finds them here and there and shows dots. So these pixels are given more rays than the
+ * others. Double precision; pure, any thread.
+ *
+ * In units of the shadow's radius the images of order n lie within some e^(-pi n) of the curve (lensing.h): those that are thinner
+ * than a pixel lie in the pixels listed here, whose middles are within KD_CRITICAL_NEAR of it. */
+#ifndef KD_RENDER_VIEW_CRITICAL_PIXELS_H
+#define KD_RENDER_VIEW_CRITICAL_PIXELS_H
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_CRITICAL_NEAR 2.5 /* pixels */
+#define KD_CRITICAL_SIDE 16  /* rays along each side of such a pixel, at most */
+
+struct kd_pixel { uint32_t x, y; };
+struct kd_critical_pixels {
+    struct kd_pixel *pixels; /* row by row; NULL: none */
+    size_t n;
+};
+
+/* Of a picture of a valid scene, plane or pinhole. KD_ENOMEM. */
+enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error);
+void kd_critical_pixels_finish(struct kd_critical_pixels *pixels);
+
+/* How many pixels of the list are above row y. */
+size_t kd_critical_pixels_above(const struct kd_critical_pixels *pixels, uint32_t y);
+
+/* The camera of these rays, which are `rays` a pixel: kd_camera_exact and kd_camera_push of it count its pixels in `rays` steps each
+ * way, from one of which to the next it is as far as from ray to ray. */
+struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays);
+
+/* The rays of a pixel: ray number k of K stands in column k and row (generator k + shift) mod K of K x K. A lattice: no two rays
+ * share a row or a column, so that whichever way the curve goes through the pixel they stand at different distances from it; of all
+ * such ones the one whose nearest points are furthest apart; and symmetric about the middle of the pixel. As place.glsl does it. */
+struct kd_critical_lattice { uint32_t rays, generator, shift; };
+struct kd_critical_lattice kd_critical_lattice(uint32_t rays); /* 1 to 256 */
+
+/* In steps of kd_critical_camera. */
+static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice *l, struct kd_pixel pixel, uint32_t ray)
+{
+    return (struct kd_pixel) { pixel.x * l->rays + ray, pixel.y * l->rays + (ray * l->generator + l->shift) % l->rays };
+}
+
+#endif

@@ -1,0 +1,29 @@
+/* The ring projection: across, the angle round the critical curve; upwards, the distance to it as a signed logarithm. Every image
+ * order is then as wide as the first. Double precision; pure, any thread. The scene must be valid and project a ring.
+ *
+ * Across, left to right: a turn about the curve's centre, camera.roll_deg in the middle, 0 where alpha > 0 is (physics/critical.h).
+ * Upper half: outside the curve, from d = 10^ring_decades_max at the top to 10^ring_decades_min at the middle; lower half: inside,
+ * its mirror image; d = rho/rho_c - 1 (physics/lensing.h). Rays go through the middles of their rows and columns. */
+#ifndef KD_RENDER_VIEW_RING_H
+#define KD_RENDER_VIEW_RING_H
+
+#include "physics/critical.h"
+#include "render/view/camera.h"
+
+struct kd_ring {
+    struct kd_critical curve;
+    double middle;          /* angle                      */
+    double most, least;     /* decades                    */
+    uint32_t width, height; /* rays across and down       */
+};
+
+struct kd_ring kd_ring_of(const struct kd_scene *scene);
+
+/* The curve's point of a column, and d of a row. */
+struct kd_critical_point kd_ring_column(const struct kd_ring *ring, uint32_t x);
+double kd_ring_distance(const struct kd_ring *ring, uint32_t y);
+
+/* The ray there. alpha and beta hold d to 1e-15 / d. */
+struct kd_camera_label kd_ring_label(const struct kd_ring *ring, const struct kd_critical_point *column, uint32_t y);
+
+#endif

@@ -1,0 +1,78 @@
+/* GET /metrics: counters and gauges in Prometheus's text format 0.0.4. */
+#include "server/http/reply.h"
+#include "server/render/queue.h"
+#include "server/job/jobs.h"
+#include "server/session/sessions.h"
+
+static enum kd_status add(struct kd_buffer *out, const char *name, const char *type, const char *help, double value)
+{
+    return kd_buffer_printf(out, "# HELP kerrd_%s %s\n# TYPE kerrd_%s %s\nkerrd_%s %.17g\n", name, help, name, type, name, value);
+}
+
+static enum kd_status add_answers(struct kd_buffer *out, struct kd_server *server)
+{
+    enum kd_status status = kd_buffer_printf(out, "# HELP kerrd_answers_total Requests answered, by the first digit of the status.\n"
+                                                  "# TYPE kerrd_answers_total counter\n");
+    for (unsigned i = 1; i < KD_STATUS_CLASSES && !status; i++)
+        status = kd_buffer_printf(out, "kerrd_answers_total{status=\"%uxx\"} %lu\n", i, atomic_load(&server->answers[i]));
+    return status;
+}
+
+static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_counts *jobs)
+{
+    return kd_buffer_printf(out, "# HELP kerrd_jobs Jobs that are kept, by state.\n# TYPE kerrd_jobs gauge\n"
+                                 "kerrd_jobs{state=\"waiting\"} %u\nkerrd_jobs{state=\"running\"} %u\n"
+                                 "kerrd_jobs{state=\"done\"} %u\nkerrd_jobs{state=\"failed\"} %u\n",
+                            jobs->waiting, jobs->running, jobs->done, jobs->failed);
+}
+
+struct counts {
+    struct kd_sessions_counts sessions;
+    struct kd_jobs_counts jobs;
+};
+
+/* This answers on the thread of the health routes, which waits for nobody: a lock that is held long, while a job is written to a
+ * slow disk, leaves the numbers of the last time. */
+static struct counts count(struct kd_server *server)
+{
+    struct counts now;
+    bool sessions = kd_sessions_counts(server->sessions, &now.sessions), jobs = kd_jobs_counts(server->jobs, &now.jobs);
+    pthread_mutex_lock(&server->lock);
+    if (sessions)
+        server->sessions_counts = now.sessions;
+    if (jobs)
+        server->jobs_counts = now.jobs;
+    now = (struct counts) { server->sessions_counts, server->jobs_counts };
+    pthread_mutex_unlock(&server->lock);
+    return now;
+}
+
+enum MHD_Result kd_handle_metrics(struct kd_request *request)
+{
+    struct kd_server *s = request->server;
+    struct kd_buffer text = { 0 };
+    struct counts now = count(s);
+    const struct { const char *name, *type, *help; double value; } rows[] = {
+        { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
+        { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
+          kd_render_queue_unfinished(s->renders) },
+        { "render_backlog_seconds", "gauge", "Estimated time of what waits for the device.", 1e-3 * kd_render_queue_backlog_ms(s->renders) },
+        { "rays_unfinished", "gauge", "Requests for rays under way.", kd_turns_unfinished(s->rays) },
+        { "turns_unfinished", "gauge", "Orbits, long quantities and checks of jobs under way.", kd_turns_unfinished(s->turns) },
+        { "sessions", "gauge", "Live sessions.", now.sessions.sessions },
+        { "session_viewers", "gauge", "Requests and streams that follow sessions.", now.sessions.viewers },
+        { "session_frames_total", "counter", "Frames of sessions encoded.", (double)now.sessions.frames },
+        { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)now.sessions.bytes },
+        { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
+        { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },
+        { "bodies_bytes", "gauge", "Bodies being received.", (double)kd_bodies_bytes(s->bodies) },
+        { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
+        { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
+    };
+    enum kd_status status = add_answers(&text, s);
+    if (!status)
+        status = add_jobs(&text, &now.jobs);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
+        status = add(&text, rows[i].name, rows[i].type, rows[i].help, rows[i].value);
+    return kd_reply_json(request, status, &text, request->route->answer);
+}

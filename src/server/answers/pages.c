@@ -1,0 +1,32 @@
+#include "server/http/assets.h"
+#include "server/http/reply.h"
+#include "server/http/route.h"
+
+#include <string.h>
+
+static const struct kd_asset *find(const char *name)
+{
+    for (size_t i = 0; i < kd_n_assets; i++)
+        if (!strcmp(kd_assets[i].name, name))
+            return &kd_assets[i];
+    return NULL;
+}
+
+/* "/" and what lies below "/web/". A page is small and may change with the next version of the program: it is asked for again each time, and
+ * 304 says that it has not. */
+enum MHD_Result kd_handle_page(struct kd_request *request)
+{
+    const struct kd_asset *asset = find(strcmp(request->route->path, "/") ? request->target.text + strlen("/web/") : "index.html");
+    if (!asset)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND });
+    bool same;
+    struct MHD_Response *response = kd_reply_asset(request, asset, &same);
+    if (!response)
+        return kd_reply_no_memory(request);
+    /* blob: is how a picture whose headers were read gets into an <img>. */
+    MHD_add_response_header(response, "Content-Security-Policy",
+                            "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'self'; "
+                            "frame-ancestors 'none'");
+    MHD_add_response_header(response, "Referrer-Policy", "no-referrer");
+    return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
+}

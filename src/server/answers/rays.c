@@ -1,0 +1,173 @@
+/* POST /v1/rays, from the request to the stream of the answer. */
+#include "server/http/negotiate.h"
+#include "server/answers/rays_work.h"
+#include "server/http/reply.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+#define OFFERED JSON_TYPE ", " KD_NPY_TYPE
+#define BLOCK (64u << 10) /* of the answer made at a time, some tenths of a millisecond */
+#define TEXT_PER_RAY 180  /* bytes, without its crossings; a guess for the deadline of taking the answer */
+#define TEXT_PER_CROSSING 110
+
+/* The answer on its way out; it outlives the request where a client takes it slowly. */
+struct outgoing {
+    struct kd_server *server;
+    size_t held;
+    struct kd_rays_answer answer;
+    struct kd_rays_stream stream;
+};
+
+static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
+{
+    struct outgoing *out = cls;
+    (void)position; /* asked for in order */
+    size_t n = kd_rays_stream_read(&out->stream, to, size);
+    return n ? (ssize_t)n : MHD_CONTENT_READER_END_OF_STREAM;
+}
+
+static void release(void *cls)
+{
+    struct outgoing *out = cls;
+    atomic_fetch_sub(&out->server->reply_bytes, out->held);
+    kd_rays_stream_finish(&out->stream);
+    kd_rays_answer_finish(&out->answer);
+    free(out);
+}
+
+static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_format format)
+{
+    struct kd_rays_job *job = (struct kd_rays_job *)request->task;
+    struct outgoing *out = calloc(1, sizeof *out);
+    if (!out)
+        return NULL;
+    out->server = request->server;
+    out->held = job->task.held;
+    out->answer = job->answer;
+    job->task.held = 0;
+    job->answer = (struct kd_rays_answer) { 0 };
+    if (!kd_rays_stream_init(&out->stream, &out->answer, format, NULL))
+        return out;
+    release(out);
+    return NULL;
+}
+
+/* What the JSON form says in its first members, for readers of either. */
+static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
+{
+    struct kd_buffer text = { 0 };
+    char timing[120], accuracy[240];
+    const char *sentence;
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, read;dur=%.3f, trace;dur=%.3f",
+             job->task.begun_ms - job->task.submitted_ms, job->read_ms, job->trace_ms);
+    MHD_add_response_header(response, "Server-Timing", timing);
+    MHD_add_response_header(response, "Vary", "Accept");
+    int n = snprintf(accuracy, sizeof accuracy, "rays=%zu engine=%s precision=%s steps=%u undecided=%zu", answer->n,
+                     kd_engine_name(answer->params.engine), kd_precision_name(answer->params.precision),
+                     answer->params.steps, answer->undecided);
+    if (answer->params.tolerance > 0)
+        n += snprintf(accuracy + n, sizeof accuracy - (size_t)n, " tolerance=%.3g followed_again=%zu beyond=%zu", answer->params.tolerance,
+                      answer->followed_again, answer->beyond);
+    if (!isnan(answer->worst_error))
+        snprintf(accuracy + n, sizeof accuracy - (size_t)n, " median=%.1e worst=%.1e", answer->median_error,
+                 answer->worst_error);
+    MHD_add_response_header(response, "Kerrd-Accuracy", accuracy);
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; !status && (sentence = kd_rays_approximation(&answer->params, i)); i++)
+        status = kd_reply_quote(&text, sentence);
+    if (!status)
+        MHD_add_response_header(response, "Kerrd-Approximations", (const char *)text.data);
+    kd_buffer_finish(&text);
+}
+
+/* The format that Accept would rather have, JSON if it does not care; -1: neither. */
+static int choose_format(struct kd_request *request)
+{
+    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
+    int json = kd_accept_weight((const char *)accept.data, JSON_TYPE);
+    int npy = kd_accept_weight((const char *)accept.data, KD_NPY_TYPE);
+    kd_buffer_finish(&accept);
+    return npy > json ? KD_RAYS_NPY : json ? KD_RAYS_JSON : -1;
+}
+
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed, bool quota)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    if (quota)
+        problem.type = KD_PROBLEM_QUOTA;
+    if (error->status == KD_EINVAL)
+        problem.type = malformed ? KD_PROBLEM_MALFORMED_JSON : KD_PROBLEM_INVALID_RAYS;
+    return kd_reply_problem(request, &problem);
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    struct kd_rays_job *job = (struct kd_rays_job *)request->task;
+    if (job->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (job->task.status)
+        return refuse(request, &job->task.error, job->malformed, job->quota);
+    enum kd_rays_format format = (enum kd_rays_format)choose_format(request);
+    struct outgoing *out = take_answer(request, format);
+    if (!out)
+        return kd_reply_no_memory(request);
+    size_t size = kd_rays_stream_size(&out->stream);
+    request->reply_bytes = out->held;
+    if (!size)
+        request->reply_bytes = out->answer.n * (TEXT_PER_RAY + TEXT_PER_CROSSING * out->answer.params.orders);
+    struct MHD_Response *response =
+        MHD_create_response_from_callback(size ? size : MHD_SIZE_UNKNOWN, BLOCK, produce, out, release);
+    if (!response) {
+        release(out);
+        return kd_reply_no_memory(request);
+    }
+    MHD_add_response_header(response, "Content-Type", format == KD_RAYS_NPY ? KD_NPY_TYPE : JSON_TYPE);
+    if (format == KD_RAYS_NPY)
+        kd_reply_file(request, KD_ATTACHMENT, "rays.npy");
+    describe(response, job, &out->answer);
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+/* Parameters that an array has no place for; a JSON body has a place for all of them. */
+static enum kd_status read_query(const struct kd_target *target, bool npy, struct kd_rays_request *request,
+                                 struct kd_error *error)
+{
+    enum kd_status status = kd_target_distinct(target, error);
+    if (!status && target->n_pairs && !npy)
+        status = kd_error_field(error, "", "the query may hold parameters beside a body of " KD_NPY_TYPE
+                                " only; in JSON they belong to the document");
+    for (size_t i = 0; i < target->n_pairs && !status; i++)
+        status = kd_rays_request_set(request, target->pairs[i].name, target->pairs[i].value, error);
+    return status;
+}
+
+enum MHD_Result kd_handle_rays(struct kd_request *request)
+{
+    struct kd_rays_request rays;
+    struct kd_error error = { 0 };
+    enum MHD_Result refused;
+
+    if (request->task)
+        return deliver(request);
+    if (choose_format(request) < 0)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                                                .offered = OFFERED,
+                                                                .detail = "rays are offered as " OFFERED });
+    bool npy = kd_media_type_is(request->header.content_type, KD_NPY_TYPE);
+    kd_rays_request_init(&rays);
+    if (read_query(&request->target, npy, &rays, &error))
+        return refuse(request, &error, false, false);
+    if (!kd_task_admit(request, request->server->rays, "requests for rays", &refused))
+        return refused;
+    struct kd_rays_job *job = kd_rays_job_create(request);
+    if (!job)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    job->request = rays;
+    job->npy = npy;
+    request->task = &job->task;
+    return kd_task_submit(&job->task);
+}

@@ -1,0 +1,154 @@
+#include "server/answers/rays_work.h"
+
+#include "base/clock.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SLICE 4096 /* rays: some 35 ms of one core */
+
+/* Rays of a turn with the device: few at first, then as many as take TURN_MS. From the fastest engine to the dearest, from a GPU to
+ * one core, a ray's cost varies by a factor of a million. */
+#define FIRST_TURN 256
+#define TURN_MS 40.0
+
+static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
+{
+    struct kd_server *server = job->task.request->server;
+    struct kd_rays_request *request = &job->request;
+    const struct kd_buffer *body = &job->task.request->body;
+    const char *text = body->data ? (const char *)body->data : "";
+    enum kd_status status = job->npy ? kd_rays_request_npy(request, text, body->size, error)
+                                     : kd_rays_request_json(request, text, body->size, error);
+    job->malformed = status == KD_EINVAL && !*error->pointer;
+    kd_task_drop_body(job->task.request);
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(server->renders, &capacity);
+    if (!status)
+        status = kd_rays_request_settle(request, &capacity, error);
+    if (!status)
+        status = kd_rays_request_check(request, error);
+    if (!status)
+        status = kd_task_hold(server, kd_rays_answer_bytes(&request->params, request->n), &job->task.held, error);
+    if (status)
+        return status;
+    double *alpha_beta = request->alpha_beta;
+    request->alpha_beta = NULL;
+    return kd_rays_answer_init(&job->answer, &request->params, alpha_beta, request->n, error);
+}
+
+/* With the device. */
+static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_renderer *renderer,
+                                      kd_progress_fn progress, void *progress_user)
+{
+    struct kd_rays_job *job = device->user;
+    struct kd_rays_answer *answer = &job->answer;
+    size_t first = job->traced, left = answer->n - first, n = left < job->turn ? left : job->turn;
+    double begun = kd_clock_ms();
+    enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
+                                          answer->crossings + first * answer->params.orders, answer->ends + first, progress,
+                                          progress_user, &device->error);
+    job->traced += n;
+    job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
+    device->more = job->traced < answer->n;
+    /* A device without double precision is not a lost one. */
+    return status == KD_EDEVICE && *device->error.pointer ? KD_EINVAL : status;
+}
+
+static void device_done(struct kd_render_job *device)
+{
+    struct kd_rays_job *job = device->user;
+    kd_task_fail(&job->task, device->status, &device->error);
+    kd_turns_wake(job->task.queue, &job->task.turns);
+}
+
+static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *error)
+{
+    struct kd_render_queue *renders = job->task.request->server->renders;
+    struct kd_capacity capacity;
+    enum kd_status status = kd_render_queue_admit(renders, job->task.request->client, &job->quota, error);
+    if (status)
+        return status;
+    kd_render_queue_capacity(renders, &capacity);
+    job->device = (struct kd_render_job) {
+        .claim.class = KD_CLASS_RAYS, .run = trace_on_device, .socket = kd_connection_socket(job->task.request->connection), .done = device_done, .user = job,
+    };
+    memcpy(job->device.claim.client, job->task.request->client, sizeof job->device.claim.client);
+    job->turn = FIRST_TURN;
+    job->device.plan.estimate_ms = (double)job->answer.n * job->answer.params.orders * capacity.ns_per_ray_full * 1e-6;
+    kd_render_queue_push(renders, &job->device);
+    return KD_OK;
+}
+
+static enum kd_turn begin(struct kd_rays_job *job)
+{
+    struct kd_error error = { 0 };
+    enum kd_status status = read_body(job, &error);
+    job->traced_from_ms = kd_clock_ms();
+    job->read_ms = job->traced_from_ms - job->task.begun_ms;
+    bool device = !status && job->answer.params.engine != KD_ENGINE_CLOSED;
+    job->where = device ? KD_RAYS_ON_DEVICE : KD_RAYS_HERE;
+    job->task.turns.shared = !device;
+    if (device)
+        status = push_to_device(job, &error);
+    kd_task_fail(&job->task, status, &error);
+    return status ? KD_TURN_LAST : device ? KD_TURN_AWAY : KD_TURN_MORE;
+}
+
+static enum kd_turn trace_slice(struct kd_rays_job *job)
+{
+    struct kd_rays_answer *answer = &job->answer;
+    struct kd_error error = { 0 };
+    size_t first = atomic_fetch_add(&job->begun, SLICE);
+    if (first >= answer->n)
+        return KD_TURN_LAST;
+    size_t n = answer->n - first < SLICE ? answer->n - first : SLICE;
+    struct kd_ray_crossing *crossings = answer->crossings + first * answer->params.orders;
+    enum kd_status status = kd_rays_trace(NULL, &answer->params, answer->alpha_beta + 2 * first, n, crossings, answer->ends + first,
+                                          NULL, NULL, &error);
+    kd_task_fail(&job->task, status, &error);
+    return status || first + n == answer->n ? KD_TURN_LAST : KD_TURN_MORE;
+}
+
+static enum kd_turn work(struct kd_task *task, double until_ms)
+{
+    struct kd_rays_job *job = (struct kd_rays_job *)task;
+    (void)until_ms;
+    switch (job->where) {
+    case KD_RAYS_NEW: return begin(job);
+    case KD_RAYS_HERE: return trace_slice(job);
+    case KD_RAYS_ON_DEVICE: break; /* which is done */
+    }
+    return KD_TURN_LAST;
+}
+
+static void last(struct kd_task *task)
+{
+    struct kd_rays_job *job = (struct kd_rays_job *)task;
+    struct kd_error error = { 0 };
+    job->trace_ms = kd_clock_ms() - job->traced_from_ms;
+    if (!task->status)
+        kd_task_fail(task, kd_rays_answer_summarise(&job->answer, &error), &error);
+}
+
+static void destroy(struct kd_task *task)
+{
+    struct kd_rays_job *job = (struct kd_rays_job *)task;
+    kd_rays_request_finish(&job->request);
+    kd_rays_answer_finish(&job->answer);
+    free(job);
+}
+
+struct kd_rays_job *kd_rays_job_create(struct kd_request *request)
+{
+    struct kd_rays_job *job = calloc(1, sizeof *job);
+    if (!job)
+        return NULL;
+    kd_task_init(&job->task, request, request->server->rays);
+    job->task.work = work;
+    job->task.last = last;
+    job->task.free = destroy;
+    job->task.deadline_ms = INFINITY; /* their number is bounded */
+    return job;
+}

@@ -1,0 +1,32 @@
+/* A request for rays on its way through the workers: read, traced in slices by as many as are free, or by the device, some at each turn
+ * that the render queue gives it, and summed up. */
+#ifndef KD_SERVER_ANSWERS_RAYS_WORK_H
+#define KD_SERVER_ANSWERS_RAYS_WORK_H
+
+#include "server/render/task.h"
+
+#include "render/rays/answer.h"
+#include "render/rays/request.h"
+#include "server/render/queue.h"
+
+struct kd_rays_job {
+    struct kd_task task;            /* first */
+    struct kd_rays_request request; /* initialised; a body that is JSON is merged into it */
+    bool npy;                       /* the body */
+    /* the outcome, beside the task's */
+    bool malformed; /* KD_EINVAL because the body is no JSON document */
+    struct kd_rays_answer answer;
+    double read_ms, trace_ms;
+    /* its own */
+    enum { KD_RAYS_NEW, KD_RAYS_HERE, KD_RAYS_ON_DEVICE } where;
+    double traced_from_ms;
+    _Atomic size_t begun; /* rays handed to workers */
+    struct kd_render_job device;
+    size_t traced, turn; /* rays, on the device: so far, and those of the next turn */
+    bool quota; /* KD_EBUSY because the client has its share */
+};
+
+/* To be submitted, and then filled in: `request`, `npy`. NULL: no memory. */
+struct kd_rays_job *kd_rays_job_create(struct kd_request *request);
+
+#endif

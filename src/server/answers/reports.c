@@ -1,0 +1,50 @@
+/* What the server says of itself: health, device, and the documents that are kept. */
+#include "server/openapi/kept.h"
+#include "server/http/reply.h"
+#include "server/http/request.h"
+#include "server/render/queue.h"
+#include "scene/scene.h"
+
+enum MHD_Result kd_handle_health(struct kd_request *request)
+{
+    static const char alive[] = "{\"status\":\"alive\"}\n";
+    return kd_reply_send(request, MHD_HTTP_OK,
+                         kd_reply_static(alive, sizeof alive - 1, request->route->answer));
+}
+
+enum MHD_Result kd_handle_ready(struct kd_request *request)
+{
+    static const char ready[] = "{\"status\":\"ready\"}\n";
+    struct kd_error error;
+    if (kd_render_queue_lost(request->server->renders, &error))
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .detail = error.message });
+    if (atomic_load(&request->server->phase) != KD_SERVING)
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                                       .retry_after = 1,
+                                                       .detail = "the server has been asked to stop" });
+    return kd_reply_send(request, MHD_HTTP_OK,
+                         kd_reply_static(ready, sizeof ready - 1, request->route->answer));
+}
+
+enum MHD_Result kd_handle_device(struct kd_request *request)
+{
+    struct kd_buffer json = { 0 };
+    enum kd_status status = kd_render_queue_device_json(request->server->renders, &json);
+    return kd_reply_json(request, status, &json, request->route->answer);
+}
+
+enum MHD_Result kd_handle_kept(struct kd_request *request)
+{
+    const struct kd_asset *document = kd_kept_find(request->server->kept, request->target.path);
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    bool same;
+    if (document) {
+        struct MHD_Response *response = kd_reply_asset(request, document, &same);
+        return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
+    }
+    kd_scene_preset(&scene, request->rest, &error); /* it says which there are */
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
+}

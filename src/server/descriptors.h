@@ -1,9 +1,0 @@
-/* How many connections this process has descriptors for. */
-#ifndef KD_SERVER_DESCRIPTORS_H
-#define KD_SERVER_DESCRIPTORS_H
-
-/* Raises the soft limit to the hard one. As many connections as are wanted, or as few as leave descriptors for all else: then no accept
- * and no open fails for want of one, and who is one too many is told so. */
-unsigned kd_descriptors_for(unsigned connections);
-
-#endif

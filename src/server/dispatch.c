@@ -1,0 +1,323 @@
+#include "server/dispatch.h"
+
+#include "base/log.h"
+#include "orbit/request.h"
+#include "render/rays/request.h"
+#include "base/clock.h"
+#include "server/http/library.h"
+#include "server/http/negotiate.h"
+#include "server/answers/orbits.h"
+#include "server/http/reply.h"
+#include "server/render/task.h"
+#include "server/job/jobs.h"
+#include "server/render/queue.h"
+#include "server/session/sessions.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BODY_TOO_LARGE "a body may hold 1048576 bytes"
+#define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
+#define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
+#define JOB_TOO_LARGE "a body of a job may hold 4194304 bytes"
+#define BODIES_TOO_MANY "too many bodies are being received"
+#define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
+#define PACE ((size_t)960000) /* bytes of a body within the time for one that is small: 32 kB/s of the default */
+
+static int socket_of(struct MHD_Connection *mhd)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
+    return info ? info->connect_fd : -1;
+}
+
+static struct kd_connection *connection_of(struct MHD_Connection *mhd)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
+    return info ? info->socket_context : NULL;
+}
+
+void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_context,
+                           enum MHD_ConnectionNotificationCode what)
+{
+    struct kd_server *server = cls;
+    if (what == MHD_CONNECTION_NOTIFY_STARTED) {
+        int socket = socket_of(mhd);
+        kd_library_works_on(socket);
+        *socket_context = kd_connections_find(server->connections, socket);
+    } else {
+        kd_connections_remove(server->connections, *socket_context);
+        *socket_context = NULL;
+    }
+}
+
+static void stage(struct kd_request *request, enum kd_stage to)
+{
+    kd_connections_stage(request->server->connections, request->connection, to, 0);
+}
+
+/* libmicrohttpd takes the query apart by itself, into memory of the connection; some hundred parameters exhaust that, and it then waits for
+ * ever (0.9.75). Here it has not begun yet, and without "&" there is one: target.c reads the query from our copy. */
+static void hide_pairs(const char *uri)
+{
+    union {
+        const char *in;
+        char *out;
+    } text = { uri }; /* the library's own copy, in which it decodes escapes in place */
+    for (char *p = text.out; *p; p++)
+        if (*p == '&')
+            *p = '_';
+}
+
+void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
+{
+    struct kd_server *server = cls;
+    struct kd_request *request = calloc(1, sizeof *request);
+    kd_library_works_on(socket_of(mhd));
+    if (!request)
+        return NULL;
+    request->server = server;
+    request->mhd = mhd;
+    request->connection = connection_of(mhd);
+    request->close = kd_connection_is_health(request->connection); /* its next request may be anything, and is for the other daemon */
+    kd_client_of(mhd, request->client);
+    request->raw = strdup(uri);
+    hide_pairs(uri);
+    request->start_ms = kd_clock_ms();
+    atomic_fetch_add(&server->requests, 1);
+    stage(request, KD_STAGE_HEADER);
+    return request;
+}
+
+#define SECRET 16    /* hexadecimal digits in a row: an id or a token, and whoever has it may read or change what it names */
+#define SHOWN 4      /* of them in the log */
+
+static void target_for_log(const char *raw, char *out, size_t size)
+{
+    size_t n = 0;
+    while (*raw && n + 6 + 4 < size) {
+        size_t digits = strspn(raw, "0123456789abcdefABCDEF");
+        bool secret = digits >= SECRET, token = !strncmp(raw, "token=", 6);
+        size_t take = token ? 6 : secret ? SHOWN : 1;
+        for (size_t i = 0; i < take; i++)
+            out[n++] = (char)(raw[i] > ' ' && raw[i] < 0x7f ? raw[i] : '?'); /* no second line in the log */
+        raw += token ? 6 + strcspn(raw + 6, "&") : secret ? digits : 1;
+        for (int i = 0; i < 3 && (token || secret); i++)
+            out[n++] = '.';
+    }
+    out[n] = 0;
+}
+
+static void write_log(const struct kd_request *request, enum MHD_RequestTerminationCode why)
+{
+    char target[200];
+    target_for_log(request->raw ? request->raw : "", target, sizeof target);
+    kd_log(KD_LOG_INFO, "%s %s %u %.1f ms%s", request->method ? request->method : "-", target,
+           request->status, kd_clock_ms() - request->start_ms,
+           why == MHD_REQUEST_TERMINATED_COMPLETED_OK ? "" : " (cut off)");
+}
+
+void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
+                      enum MHD_RequestTerminationCode why)
+{
+    struct kd_server *server = cls;
+    struct kd_request *request = *state;
+    kd_library_works_on(socket_of(mhd));
+    if (!request)
+        return;
+    write_log(request, why);
+    atomic_fetch_add(&server->answers[request->status / 100 % KD_STATUS_CLASSES], 1);
+    stage(request, KD_STAGE_IDLE);
+    kd_bodies_give(server->bodies, request->client, request->body.size);
+    if (request->job) {
+        kd_buffer_finish(&request->job->png);
+        kd_frame_finish(&request->job->frame);
+        free(request->job);
+    }
+    kd_orbits_job_abandon(request->orbits);
+    kd_particles_job_destroy(request->particles);
+    kd_task_destroy(request->task);
+    kd_live_abandon(request);
+    kd_buffer_finish(&request->body);
+    kd_target_finish(&request->target);
+    free(request->raw);
+    free(request);
+    *state = NULL;
+    atomic_fetch_sub(&server->requests, 1);
+}
+
+static size_t body_max(const struct kd_request *request)
+{
+    switch (request->route->takes) {
+    case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
+    case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
+    case KD_TAKES_JOB: return KD_JOB_BODY_MAX;
+    default: return KD_BODY_MAX;
+    }
+}
+
+static const char *too_large(const struct kd_request *request)
+{
+    switch (request->route->takes) {
+    case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
+    case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
+    case KD_TAKES_JOB: return JOB_TOO_LARGE;
+    default: return BODY_TOO_LARGE;
+    }
+}
+
+static bool media_type_fault(const struct kd_request *request, bool patch, struct kd_problem *problem)
+{
+#define SAY "a body must say Content-Type: application/json"
+#define OR(other) { other, "application/json, " other, SAY " or " other }
+    static const struct { const char *other, *offered, *detail; } all[] = {
+        { "application/json", "application/json", SAY }, OR(KD_NPY_TYPE), OR(KD_PATCH_TYPE),
+    };
+#undef OR
+#undef SAY
+    size_t i = patch ? 2 : request->route->takes == KD_TAKES_RAYS;
+    const char *type = request->header.content_type;
+    *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
+    return !kd_media_type_is(type, "application/json") && !kd_media_type_is(type, all[i].other);
+}
+
+static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
+{
+    bool patch = !strcmp(request->method, "PATCH");
+    if (!patch && strcmp(request->method, "POST")) {
+        *problem =
+            (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
+        return request->body_announced;
+    }
+    if (request->route->takes == KD_TAKES_STRIKE && !request->body_announced)
+        return false;
+    if (media_type_fault(request, patch, problem))
+        return true;
+    if (request->header.content_length > body_max(request)) {
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request) };
+        return true;
+    }
+    bool quota, refused = kd_bodies_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
+    *problem = (struct kd_problem) { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_CROWDED, .retry_after = 1,
+                                     .detail = quota ? BODIES_OF_CLIENT : BODIES_TOO_MANY };
+    return refused;
+}
+
+/* True when the request may go on; else *result is that of having refused it. */
+/* A page of another site may have anything loaded by its visitors' browsers, which say so (Fetch Metadata, W3C). What it could make a
+ * server do that it cannot reach itself is refused, but for a visit: a link to a picture is one. */
+static bool is_foreign(const struct kd_request *request)
+{
+    const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
+    const char *mode = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Mode");
+    const char *to = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Dest");
+    if (request->server->cross_site || !site || strcmp(site, "cross-site"))
+        return false;
+    bool visit = mode && !strcmp(mode, "navigate") && to && !strcmp(to, "document") && strcmp(request->method, "POST");
+    return !visit && !strncmp(request->route->path, "/v1/", 4);
+}
+
+static bool choose(struct kd_request *request, enum MHD_Result *result)
+{
+    struct kd_problem problem;
+    struct kd_error error;
+
+    if (kd_target_parse(&request->target, request->raw, &error))
+        problem = (struct kd_problem) { .detail = error.message,
+                                        .type = error.status == KD_ENOMEM ? KD_PROBLEM_NO_MEMORY
+                                                                          : KD_PROBLEM_BAD_REQUEST };
+    else if (!kd_route_is_health(request->raw) && kd_connections_crowded(request->server->connections, request->connection))
+        problem = (struct kd_problem) { .type = KD_PROBLEM_CROWDED,
+                                        .retry_after = 1,
+                                        .close = true,
+                                        .detail = "more connections are open than this server takes" };
+    else if (!kd_route_find(request, &problem))
+        request->route = NULL;
+    else if (is_foreign(request))
+        problem = (struct kd_problem) { .type = KD_PROBLEM_CROSS_SITE, .close = request->body_announced,
+                                        .detail = "the browser says that a page of another site has asked for this (Sec-Fetch-Site: cross-site), "
+                                                  "which this server takes with --allow-cross-site only" };
+    else if (!body_fault(request, &problem))
+        return true;
+    *result = kd_reply_problem(request, &problem);
+    return false;
+}
+
+/* The header is complete. What announces a body is refused by its header where it can be. The library closes
+ * the connection after an answer at this point, so all else is answered at the next call. */
+static enum MHD_Result begin(struct kd_request *request, const char *version)
+{
+    struct kd_server *server = request->server;
+    struct kd_problem problem;
+    enum MHD_Result result;
+
+    if (!request->raw) {
+        return kd_reply_no_memory(request);
+    }
+    if (!kd_guard_check(request->mhd, version, server->hosts, kd_route_is_health(request->raw),
+                        &request->header, &problem)) {
+        kd_connection_linger(request->connection);
+        return kd_reply_problem(request, &problem);
+    }
+    request->body_announced = request->header.content_length > 0 || request->header.chunked;
+    if (request->body_announced && !choose(request, &result)) {
+        kd_connection_linger(request->connection);
+        return result;
+    }
+    kd_connections_stage(server->connections, request->connection, KD_STAGE_BODY, 0);
+    return MHD_YES;
+}
+
+/* libmicrohttpd takes no reply in the middle of a body, so this one goes round it and the connection ends. */
+static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type type, const char *detail)
+{
+    request->status = kd_problem_status(type);
+    kd_connection_linger(request->connection);
+    if (request->connection)
+        kd_problem_send_raw(kd_connection_socket(request->connection), type, detail);
+    return MHD_NO;
+}
+
+static enum MHD_Result receive(struct kd_request *request, const char *data, size_t *size)
+{
+    struct kd_server *server = request->server;
+
+    if (*size > body_max(request) - request->body.size)
+        return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request));
+    size_t all = request->body.size + *size;
+    bool quota;
+    if (kd_bodies_take(server->bodies, request->client, *size, all > request->header.content_length ? all : request->header.content_length, &quota))
+        return quota ? cut_body(request, KD_PROBLEM_QUOTA, BODIES_OF_CLIENT) : cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
+    if (kd_buffer_append(&request->body, data, *size)) {
+        kd_bodies_give(server->bodies, request->client, *size);
+        return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
+    }
+    *size = 0;
+    if (all - request->body_mark >= PACE) { /* it keeps up, and has as long for the next part */
+        request->body_mark = all;
+        stage(request, KD_STAGE_BODY);
+    }
+    return MHD_YES;
+}
+
+enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const char *url, const char *method,
+                                  const char *version, const char *data, size_t *size, void **state)
+{
+    struct kd_request *request = *state;
+    (void)cls, (void)url;
+    kd_library_works_on(socket_of(mhd));
+    if (!request) /* no memory for it */
+        return kd_reply_bare(mhd);
+    if (!request->begun) {
+        request->begun = true;
+        request->method = method;
+        request->head = !strcmp(method, "HEAD");
+        return begin(request, version);
+    }
+    if (*size)
+        return receive(request, data, size);
+    stage(request, KD_STAGE_WORK);
+    enum MHD_Result result;
+    if (!request->route && !choose(request, &result))
+        return result;
+    return request->route->handle(request);
+}

@@ -1,0 +1,14 @@
+/* Who a request is from, for shares and limits: there are no accounts, so that it is where it comes from. An IPv4 address; of an IPv6
+ * address the first half, as a host has all of the other. All that comes through a proxy is one client. */
+#ifndef KD_SERVER_HTTP_CLIENT_H
+#define KD_SERVER_HTTP_CLIENT_H
+
+#include "server/http/shares.h"
+
+#include <microhttpd.h>
+
+/* "" where it cannot be told: all of those are one client. */
+void kd_client_of(struct MHD_Connection *mhd, char out[KD_CLIENT]); /* HTTP thread only */
+void kd_client_at(const struct sockaddr *address, char out[KD_CLIENT]);
+
+#endif

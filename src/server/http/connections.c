@@ -1,0 +1,346 @@
+#include "server/http/connections.h"
+
+#include "base/clock.h"
+#include "server/http/problem.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define IDLE_MS 60e3          /* past libmicrohttpd's idle timeout: only for those that trickle */
+#define CROWDED_MS 2e3        /* to say what it wants, for a connection accepted beyond the limit */
+#define REPLY_MS 30e3         /* to take an answer, and besides ... */
+#define BYTES_PER_MS 32       /* ... the time it takes at 32 kB/s, a poor mobile line */
+
+#define STALL_MS 2e3 /* a client that reads takes something in less, over nearly any line */
+#define LINGER_MS 2e3 /* round trips and a few MiB; then a client that goes on is reset after all */
+#define LINGER_BYTES ((size_t)16 << 20)
+#define LINGERING 64 /* at once */
+#define SILENT 32    /* connections that may wait without a word when all others are in use */
+
+struct kd_connection {
+    struct kd_connection *previous, *next;
+    int socket;
+    char client[KD_CLIENT];
+    bool linger, handed_on, health, cut; /* cut: shut down for another */
+    size_t discarded;
+    enum kd_stage stage;
+    double deadline; /* on kd_clock_ms; 0: none */
+    int unsent;      /* bytes, when it was last looked at */
+    double stalled_ms; /* since then there are as many; 0: it has not been looked at */
+};
+
+struct kd_connections {
+    pthread_mutex_t lock;
+    struct kd_connection *first;
+    unsigned count, limit, share; /* the health routes' do not count */
+    unsigned n_handed_on, n_health;
+    struct kd_connection *lingering; /* no longer connections; singly linked */
+    unsigned n_lingering;
+    double header_ms, body_ms;
+};
+
+struct kd_connections *kd_connections_create(unsigned limit, unsigned share, unsigned header_ms, unsigned body_ms)
+{
+    struct kd_connections *all = calloc(1, sizeof *all);
+    if (!all)
+        return NULL;
+    all->limit = limit;
+    all->share = share;
+    all->header_ms = header_ms;
+    all->body_ms = body_ms;
+    pthread_mutex_init(&all->lock, NULL);
+    return all;
+}
+
+static void drop(struct kd_connections *all, struct kd_connection **link)
+{
+    struct kd_connection *one = *link;
+    *link = one->next;
+    all->n_lingering--;
+    close(one->socket);
+    free(one);
+}
+
+void kd_connections_destroy(struct kd_connections *all)
+{
+    if (!all)
+        return;
+    while (all->lingering)
+        drop(all, &all->lingering);
+    pthread_mutex_destroy(&all->lock);
+    free(all);
+}
+
+static struct kd_connection *find(const struct kd_connections *all, int socket)
+{
+    struct kd_connection *one = all->first;
+    while (one && one->socket != socket)
+        one = one->next;
+    return one;
+}
+
+static void unlink_one(struct kd_connections *all, struct kd_connection *one)
+{
+    if (one->previous)
+        one->previous->next = one->next;
+    else
+        all->first = one->next;
+    if (one->next)
+        one->next->previous = one->previous;
+    all->count -= !one->health;
+    all->n_health -= one->health;
+    all->n_handed_on -= one->handed_on && !one->health;
+}
+
+struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client)
+{
+    struct kd_connection *one = calloc(1, sizeof *one);
+    if (!one)
+        return NULL;
+    one->socket = socket;
+    snprintf(one->client, sizeof one->client, "%s", client);
+    pthread_mutex_lock(&all->lock);
+    struct kd_connection *stale = find(all, socket); /* whose daemon closed it without a word: its number would not be free else */
+    if (stale) {
+        unlink_one(all, stale);
+        free(stale);
+    }
+    one->next = all->first;
+    if (one->next)
+        one->next->previous = one;
+    all->first = one;
+    all->count++;
+    bool crowded = all->count > all->limit;
+    one->deadline = kd_clock_ms() + (crowded && all->header_ms > CROWDED_MS ? CROWDED_MS : all->header_ms);
+    pthread_mutex_unlock(&all->lock);
+    return one;
+}
+
+/* Whoever asks for health in earnest has sent it all at once, and has been answered long ago. */
+static void cut_oldest_health(struct kd_connections *all)
+{
+    struct kd_connection *oldest = NULL;
+    unsigned alive = 0;
+    for (struct kd_connection *one = all->first; one; one = one->next)
+        if (one->health && !one->cut)
+            oldest = one, alive++;
+    if (alive <= KD_HEALTH_CONNECTIONS)
+        return;
+    oldest->cut = true;
+    oldest->deadline = 0;
+    shutdown(oldest->socket, SHUT_RDWR);
+}
+
+/* Of the client of one, itself among them. handed_on: without those that have not said anything yet. */
+static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
+{
+    unsigned n = 0;
+    for (const struct kd_connection *other = all->first; other; other = other->next)
+        n += !other->health && (other == one || !handed_on || other->handed_on) && !strcmp(other->client, one->client);
+    return n;
+}
+
+enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health)
+{
+    pthread_mutex_lock(&all->lock);
+    bool over = !health && all->share < all->limit && of_client(all, one, true) > all->share;
+    bool yes = health || (!over && all->n_handed_on < kd_connections_most(all->limit));
+    one->handed_on = yes;
+    if (health) {
+        one->health = true;
+        one->deadline = kd_clock_ms() + (all->header_ms > CROWDED_MS ? CROWDED_MS : all->header_ms);
+        all->count--;
+        all->n_health++;
+        cut_oldest_health(all);
+    } else if (yes) {
+        all->n_handed_on++;
+    }
+    pthread_mutex_unlock(&all->lock);
+    return yes ? KD_HANDED_ON : over ? KD_OVER_SHARE : KD_OVER_LIMIT;
+}
+
+struct kd_connection *kd_connections_find(struct kd_connections *all, int socket)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_connection *one = find(all, socket);
+    pthread_mutex_unlock(&all->lock);
+    return one;
+}
+
+bool kd_connection_is_health(const struct kd_connection *one)
+{
+    return one && one->health;
+}
+
+/* A descriptor of our own keeps the socket when the library closes its one. */
+static bool keep(struct kd_connections *all, struct kd_connection *one)
+{
+    int socket = all->n_lingering < LINGERING ? fcntl(one->socket, F_DUPFD_CLOEXEC, 0) : -1;
+    if (socket < 0)
+        return false;
+    shutdown(socket, SHUT_WR);
+    one->socket = socket;
+    one->deadline = kd_clock_ms() + LINGER_MS;
+    one->next = all->lingering;
+    all->lingering = one;
+    all->n_lingering++;
+    return true;
+}
+
+void kd_connections_remove(struct kd_connections *all, struct kd_connection *one)
+{
+    if (!one)
+        return;
+    pthread_mutex_lock(&all->lock);
+    unlink_one(all, one);
+    bool kept = one->linger && keep(all, one);
+    pthread_mutex_unlock(&all->lock);
+    if (!kept)
+        free(one);
+}
+
+void kd_connection_linger(struct kd_connection *one)
+{
+    if (one)
+        one->linger = true;
+}
+
+int kd_connection_socket(const struct kd_connection *one)
+{
+    return one->socket;
+}
+
+static double allowance(const struct kd_connections *all, enum kd_stage stage, unsigned long bytes)
+{
+    switch (stage) {
+    case KD_STAGE_OPEN:
+    case KD_STAGE_HEADER: return all->header_ms;
+    case KD_STAGE_BODY: return all->body_ms + (double)bytes / BYTES_PER_MS;
+    case KD_STAGE_WORK: return 0;
+    case KD_STAGE_REPLY: return REPLY_MS + (double)bytes / BYTES_PER_MS;
+    case KD_STAGE_IDLE: return IDLE_MS;
+    }
+    return 0;
+}
+
+void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
+                          unsigned long bytes)
+{
+    if (!one)
+        return;
+    pthread_mutex_lock(&all->lock);
+    double ms = allowance(all, stage, bytes);
+    one->stage = stage;
+    one->deadline = ms > 0 ? kd_clock_ms() + ms : 0;
+    pthread_mutex_unlock(&all->lock);
+}
+
+void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_connection *one = find(all, socket);
+    if (one && one->stage != KD_STAGE_WORK && one->stage != KD_STAGE_REPLY) {
+        kd_problem_send_raw(socket, type, detail);
+        one->linger = true;
+        shutdown(socket, SHUT_WR);
+    }
+    pthread_mutex_unlock(&all->lock);
+}
+
+bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one)
+{
+    pthread_mutex_lock(&all->lock);
+    bool crowded = all->count > all->limit && (!one || of_client(all, one, false) > all->limit - all->share);
+    pthread_mutex_unlock(&all->lock);
+    return crowded;
+}
+
+/* The daemon takes some more than are served: those are told why they are not. */
+unsigned kd_connections_most(unsigned limit)
+{
+    return limit + limit / 4 + 16;
+}
+
+bool kd_connections_full(struct kd_connections *all)
+{
+    pthread_mutex_lock(&all->lock);
+    bool full = all->count > kd_connections_most(all->limit) + SILENT;
+    pthread_mutex_unlock(&all->lock);
+    return full;
+}
+
+/* Nothing of an answer is on the wire in these stages, so a whole one may be put there from outside. */
+static void answer_late(const struct kd_connection *one)
+{
+    if (one->stage == KD_STAGE_HEADER)
+        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's header took too long to arrive");
+    else if (one->stage == KD_STAGE_BODY)
+        kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive");
+}
+
+/* Throw away what has arrived. False when there is no more to wait for. */
+static bool empty(struct kd_connection *one)
+{
+    char scrap[16384];
+    ssize_t n;
+    while ((n = recv(one->socket, scrap, sizeof scrap, MSG_DONTWAIT)) > 0)
+        if ((one->discarded += (size_t)n) > LINGER_BYTES)
+            return false;
+    return n < 0 && (errno == EAGAIN || errno == EINTR);
+}
+
+static void empty_lingering(struct kd_connections *all, double now)
+{
+    for (struct kd_connection **link = &all->lingering; *link;) {
+        if (now < (*link)->deadline && empty(*link))
+            link = &(*link)->next;
+        else
+            drop(all, link);
+    }
+}
+
+void kd_connections_sweep(struct kd_connections *all)
+{
+    pthread_mutex_lock(&all->lock);
+    double now = kd_clock_ms();
+    for (struct kd_connection *one = all->first; one; one = one->next) {
+        if (one->deadline <= 0 || now < one->deadline)
+            continue;
+        answer_late(one);
+        shutdown(one->socket, SHUT_RDWR);
+        one->deadline = 0;
+    }
+    empty_lingering(all, now);
+    pthread_mutex_unlock(&all->lock);
+}
+
+void kd_connections_cut_stalled(struct kd_connections *all)
+{
+    double now = kd_clock_ms();
+    pthread_mutex_lock(&all->lock);
+    for (struct kd_connection *one = all->first; one; one = one->next) {
+        int unsent = 0;
+        if (ioctl(one->socket, SIOCOUTQ, &unsent) || !unsent || unsent != one->unsent || !(one->stalled_ms > 0)) {
+            one->unsent = unsent;
+            one->stalled_ms = now;
+        } else if (now - one->stalled_ms > STALL_MS) {
+            shutdown(one->socket, SHUT_RDWR);
+        }
+    }
+    pthread_mutex_unlock(&all->lock);
+}
+
+bool kd_socket_abandoned(int socket)
+{
+    struct pollfd p = { .fd = socket, .events = POLLRDHUP };
+    return poll(&p, 1, 0) > 0 && (p.revents & (POLLRDHUP | POLLHUP | POLLERR));
+}

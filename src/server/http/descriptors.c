@@ -1,0 +1,33 @@
+#include "server/http/descriptors.h"
+
+#include "base/log.h"
+#include "server/http/connections.h"
+
+#include <stdbool.h>
+#include <sys/resource.h>
+
+#define MOST 65536u  /* more is not asked for: each costs the kernel memory */
+#define RESERVE 200u /* the device, files of frames under way, those who linger or wait to say what they want, those who ask for health */
+
+/* Of so many connections: their sockets, and a file that each may be sent. */
+static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
+
+unsigned kd_descriptors_for(unsigned connections)
+{
+    struct rlimit limit;
+    unsigned n = connections;
+    if (getrlimit(RLIMIT_NOFILE, &limit))
+        return n;
+    rlim_t wanted = limit.rlim_max < MOST ? limit.rlim_max : MOST;
+    if (limit.rlim_cur < wanted) {
+        struct rlimit raised = { wanted, limit.rlim_max };
+        if (!setrlimit(RLIMIT_NOFILE, &raised))
+            limit.rlim_cur = wanted;
+    }
+    while (n > 4 && !fit(n, limit.rlim_cur))
+        n--;
+    if (n < connections)
+        kd_log(KD_LOG_WARN, "%llu descriptors (ulimit -n) are enough for %u connections, not for %u", (unsigned long long)limit.rlim_cur, n,
+               connections);
+    return n;
+}

@@ -1,0 +1,227 @@
+#include "server/http/front.h"
+
+#include "base/log.h"
+#include "server/http/client.h"
+#include "server/http/problem.h"
+#include "server/http/route.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#define BATCH 64 /* events, and connections accepted between two looks at them */
+
+/* A connection that has not said yet what it wants. Its deadline is that of a header (connections.h). */
+struct guest {
+    struct guest *previous, *next;
+    struct kd_connection *connection;
+    int socket;
+    struct sockaddr_storage address;
+    socklen_t address_size;
+};
+
+struct kd_front {
+    struct kd_front_params params;
+    int epoll, stop, reserve; /* reserve: a descriptor to give up where there is no other */
+    struct guest *first, *last; /* the latest first */
+    pthread_t thread;
+};
+
+static void unlink_guest(struct kd_front *front, struct guest *guest)
+{
+    *(guest->previous ? &guest->previous->next : &front->first) = guest->next;
+    *(guest->next ? &guest->next->previous : &front->last) = guest->previous;
+}
+
+static void send_away(struct kd_front *front, struct guest *guest)
+{
+    unlink_guest(front, guest);
+    /* A socket that lingers stays open under another number, and would go on having events for a guest that is gone. */
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
+    kd_connections_remove(front->params.connections, guest->connection);
+    close(guest->socket);
+    free(guest);
+}
+
+static void refuse(struct kd_front *front, struct guest *guest, bool quota)
+{
+    if (quota)
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_QUOTA, "as many of your connections are open as one client may have");
+    else
+        kd_problem_send_raw(guest->socket, KD_PROBLEM_CROWDED, "more connections are open than this server takes");
+    kd_connection_linger(guest->connection);
+    send_away(front, guest);
+}
+
+static void hand_on(struct kd_front *front, struct guest *guest, bool health)
+{
+    struct MHD_Daemon *daemon = health ? front->params.health : front->params.others;
+    enum kd_handed handed = kd_connections_hand_on(front->params.connections, guest->connection, health);
+    if (handed) {
+        refuse(front, guest, handed == KD_OVER_SHARE);
+        return;
+    }
+    unlink_guest(front, guest);
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* it may have been handed on before it was watched */
+    if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
+        kd_connections_remove(front->params.connections, guest->connection); /* the library has closed the socket */
+    free(guest);
+}
+
+/* Hand it on once its first bytes say whose it is. gone: no more bytes will come. True while it is still a guest. */
+static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
+{
+    char begin[32];
+    ssize_t n = recv(guest->socket, begin, sizeof begin, MSG_PEEK | MSG_DONTWAIT);
+    bool wait = n < 0 && (errno == EAGAIN || errno == EINTR);
+    enum kd_begins begins = n > 0 ? kd_route_begins(begin, (size_t)n) : KD_BEGINS_UNCLEAR;
+    if (begins != KD_BEGINS_UNCLEAR)
+        hand_on(front, guest, begins == KD_BEGINS_HEALTH);
+    else if (gone || (n <= 0 && !wait))
+        send_away(front, guest);
+    else
+        return true;
+    return false;
+}
+
+static struct guest *admit(struct kd_front *front, int socket, const struct sockaddr_storage *address, socklen_t size)
+{
+    struct guest *guest = calloc(1, sizeof *guest);
+    char client[KD_CLIENT];
+    kd_client_at((const struct sockaddr *)address, client);
+    struct kd_connection *connection = guest ? kd_connections_add(front->params.connections, socket, client) : NULL;
+    if (!connection) {
+        free(guest);
+        close(socket);
+        return NULL;
+    }
+    *guest = (struct guest) { .next = front->first, .connection = connection, .socket = socket, .address = *address, .address_size = size };
+    *(guest->next ? &guest->next->previous : &front->last) = guest;
+    front->first = guest;
+    return guest;
+}
+
+/* Edges, because bytes that are only looked at would make a level stay high. */
+static void watch(struct kd_front *front, struct guest *guest)
+{
+    struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
+    if (epoll_ctl(front->epoll, EPOLL_CTL_ADD, guest->socket, &event))
+        send_away(front, guest);
+}
+
+/* Every descriptor is in use: who has waited longest without a word goes, else the one that has just come, with a reason. */
+static void make_room(struct kd_front *front)
+{
+    if (front->last) {
+        send_away(front, front->last);
+        return;
+    }
+    close(front->reserve);
+    int socket = accept4(front->params.listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (socket >= 0) {
+        kd_problem_send_raw(socket, KD_PROBLEM_CROWDED, "this server has no descriptor left for another connection");
+        close(socket);
+    }
+    front->reserve = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    kd_log(KD_LOG_WARN, "no descriptor is left for another connection");
+}
+
+/* False when nobody waits any more. */
+static bool accept_one(struct kd_front *front)
+{
+    struct sockaddr_storage address = { 0 };
+    socklen_t size = sizeof address;
+    int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
+        make_room(front);
+        return false;
+    }
+    if (socket < 0)
+        return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL && errno != EBADF; /* one that has gone already */
+    struct guest *guest = admit(front, socket, &address, size);
+    if (!guest)
+        return true;
+    while (front->last != guest && kd_connections_full(front->params.connections))
+        send_away(front, front->last);
+    if (look_at(front, guest, false)) /* what it wants has mostly come with it, and there is nothing to watch */
+        watch(front, guest);
+    return true;
+}
+
+static void *run(void *user)
+{
+    struct kd_front *front = user;
+    for (;;) {
+        struct epoll_event events[BATCH];
+        int n = epoll_wait(front->epoll, events, BATCH, -1);
+        bool more = false;
+        for (int i = 0; i < n; i++) {
+            if (events[i].data.ptr == &front->stop)
+                return NULL;
+            if (events[i].data.ptr == front)
+                more = true;
+            else
+                look_at(front, events[i].data.ptr, events[i].events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR));
+        }
+        for (int i = 0; more && i < BATCH; i++) /* last: it may send away guests that have events */
+            more = accept_one(front);
+    }
+}
+
+static enum kd_status start(struct kd_front *front, struct kd_error *error)
+{
+    struct epoll_event listening = { .events = EPOLLIN, .data.ptr = front }, stopping = { .events = EPOLLIN, .data.ptr = &front->stop };
+    front->epoll = epoll_create1(EPOLL_CLOEXEC);
+    front->stop = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    front->reserve = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (front->epoll < 0 || front->stop < 0 || front->reserve < 0 ||
+        epoll_ctl(front->epoll, EPOLL_CTL_ADD, front->params.listener, &listening) ||
+        epoll_ctl(front->epoll, EPOLL_CTL_ADD, front->stop, &stopping))
+        return kd_error_set(error, KD_EIO, "no descriptor for the listening thread: %s", strerror(errno));
+    return pthread_create(&front->thread, NULL, run, front) ? kd_error_set(error, KD_ENOMEM, "the listening thread could not be started")
+                                                            : KD_OK;
+}
+
+static void finish(struct kd_front *front)
+{
+    const int all[] = { front->epoll, front->stop, front->reserve, front->params.listener };
+    while (front->first)
+        send_away(front, front->first);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i] >= 0)
+            close(all[i]);
+    free(front);
+}
+
+enum kd_status kd_front_create(const struct kd_front_params *params, struct kd_front **out, struct kd_error *error)
+{
+    struct kd_front *front = calloc(1, sizeof *front);
+    if (!front) {
+        close(params->listener);
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    }
+    *front = (struct kd_front) { .params = *params, .epoll = -1, .stop = -1, .reserve = -1 };
+    enum kd_status status = start(front, error);
+    if (status)
+        finish(front);
+    else
+        *out = front;
+    return status;
+}
+
+void kd_front_destroy(struct kd_front *front)
+{
+    uint64_t one = 1;
+    if (!front)
+        return;
+    while (write(front->stop, &one, sizeof one) < 0 && errno == EINTR) {
+    }
+    pthread_join(front->thread, NULL);
+    finish(front);
+}

@@ -1,0 +1,122 @@
+#include "server/http/guard.h"
+
+#include "scene/text.h"
+#include "server/http/negotiate.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+struct scan {
+    struct kd_header *header;
+    unsigned hosts, lengths, encodings, types;
+    const char *fault;
+};
+
+static bool parse_length(const char *text, uint64_t *out)
+{
+    uint64_t value = 0;
+    if (!*text || strlen(text) > 18) /* fits in 64 bits */
+        return false;
+    for (; *text; text++) {
+        if (*text < '0' || *text > '9')
+            return false;
+        value = value * 10 + (uint64_t)(*text - '0');
+    }
+    *out = value;
+    return true;
+}
+
+static bool is_token(const char *text, size_t size)
+{
+    for (size_t i = 0; i < size; i++)
+        if (text[i] <= ' ' || text[i] >= 0x7f || strchr("\"(),/:;<=>?@[\\]{}", text[i]))
+            return false;
+    return size > 0;
+}
+
+static enum MHD_Result look(void *cls, enum MHD_ValueKind kind, const char *key, size_t key_size,
+                            const char *value, size_t value_size)
+{
+    struct scan *scan = cls;
+    (void)kind;
+    if (!value)
+        value = "", value_size = 0;
+    if (!is_token(key, key_size))
+        scan->fault = "a header field's name is not a token";
+    else if (strlen(value) != value_size || strpbrk(value, "\r\n"))
+        scan->fault = "a header field's value holds a control character";
+    else if (!strcasecmp(key, "Host"))
+        scan->hosts++, scan->header->host = value;
+    else if (!strcasecmp(key, "Content-Type"))
+        scan->types++, scan->header->content_type = value;
+    else if (!strcasecmp(key, "Transfer-Encoding")) {
+        scan->encodings++;
+        if (strcasecmp(value, "chunked"))
+            scan->fault = "the only Transfer-Encoding taken is chunked";
+    } else if (!strcasecmp(key, "Content-Length")) {
+        scan->lengths++;
+        if (!parse_length(value, &scan->header->content_length))
+            scan->fault = "Content-Length must be one decimal number";
+    }
+    return MHD_YES;
+}
+
+static const char *framing_fault(const struct scan *scan, bool http10)
+{
+    if (scan->fault)
+        return scan->fault;
+    if (scan->lengths > 1)
+        return "Content-Length is given more than once";
+    if (scan->encodings > 1)
+        return "Transfer-Encoding is given more than once";
+    if (scan->lengths && scan->encodings)
+        return "Content-Length and Transfer-Encoding are both given";
+    if (scan->encodings && http10)
+        return "HTTP/1.0 has no Transfer-Encoding";
+    if (scan->types > 1)
+        return "Content-Type is given more than once";
+    return NULL;
+}
+
+static bool refuse(struct kd_problem *problem, enum kd_problem_type type, const char *detail)
+{
+    *problem = (struct kd_problem) { .type = type, .detail = detail, .close = true };
+    return false;
+}
+
+static const char *wrong_host(struct kd_header *header)
+{
+    char given[80], name[80];
+    size_t size = *header->host == '[' ? strcspn(header->host, "]") + 1 : strcspn(header->host, ":");
+    kd_text_clip(given, sizeof given, header->host);
+    bool whole = size < sizeof name && size <= strspn(header->host, "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-_[:]");
+    snprintf(name, sizeof name, "%.*s", whole && size ? (int)size : 4, whole && size ? header->host : "NAME");
+    snprintf(header->wrong_host, sizeof header->wrong_host,
+             "the Host is \"%s\", none of the names this server answers to; kerrd serve --host %s adds it", given, name);
+    return header->wrong_host;
+}
+
+bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts,
+                    bool hostless, struct kd_header *header, struct kd_problem *problem)
+{
+    struct scan scan = { .header = header };
+    bool http10 = !strcmp(version, "HTTP/1.0");
+
+    *header = (struct kd_header) { 0 };
+    if (!http10 && strcmp(version, "HTTP/1.1"))
+        return refuse(problem, KD_PROBLEM_HTTP_VERSION, version);
+    MHD_get_connection_values_n(connection, MHD_HEADER_KIND, look, &scan);
+    const char *fault = framing_fault(&scan, http10);
+    if (fault)
+        return refuse(problem, KD_PROBLEM_BAD_REQUEST, fault);
+    header->has_length = scan.lengths;
+    header->chunked = scan.encodings;
+    if (!scan.hosts && http10 && hostless)
+        return true;
+    if (scan.hosts != 1)
+        return refuse(problem, KD_PROBLEM_MISDIRECTED, "exactly one Host is required");
+    if (!kd_host_listed(header->host, hosts))
+        return refuse(problem, KD_PROBLEM_MISDIRECTED, wrong_host(header));
+    return true;
+}

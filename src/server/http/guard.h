@@ -1,0 +1,24 @@
+/* What must hold of a request's header before anything of it is believed. libmicrohttpd lets through
+ * differing Content-Lengths, Content-Length beside Transfer-Encoding and several Hosts, each of which lets a
+ * proxy in front and this server disagree on where a request ends or for whom it is. */
+#ifndef KD_SERVER_HTTP_GUARD_H
+#define KD_SERVER_HTTP_GUARD_H
+
+#include "server/http/problem.h"
+
+#include <microhttpd.h>
+#include <stdint.h>
+
+struct kd_header {
+    char wrong_host[280]; /* what is wrong with it, for the answer */
+    const char *host, *content_type;
+    uint64_t content_length;
+    bool has_length, chunked;
+};
+
+/* hosts: NULL-terminated names. hostless: HTTP/1.0 without a Host is let through, as load balancers ask for
+ * health. True when sound, with *header filled; else *problem, which closes the connection. HTTP thread. */
+bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *const *hosts,
+                    bool hostless, struct kd_header *header, struct kd_problem *problem);
+
+#endif

@@ -1,0 +1,98 @@
+#include "server/http/keeper.h"
+
+#include "base/log.h"
+#include "base/clock.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#define TICK_MS 100          /* how late a deadline or a vanished client may be noticed */
+#define LAST_ANSWERS_MS 10e3 /* for clients to take the answers under way when nothing else is left */
+
+static void sleep_a_tick(struct kd_server *server)
+{
+    struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
+    /* Once readable it stays so: on the way down the tick is a plain sleep. */
+    if (atomic_load(&server->phase) == KD_SERVING)
+        poll(&p, 1, TICK_MS);
+    else
+        poll(NULL, 0, TICK_MS / 4);
+}
+
+static void enter(struct kd_server *server, enum kd_phase phase, double *since)
+{
+    atomic_store(&server->phase, phase);
+    *since = kd_clock_ms();
+}
+
+static void stop_listening(struct kd_server *server)
+{
+    kd_front_destroy(server->front);
+    server->front = NULL;
+}
+
+static bool cut_short(struct kd_server *server)
+{
+    return atomic_load(&server->abandon) || kd_render_queue_lost(server->renders, NULL);
+}
+
+/* One look; *since is when the present phase began. True when all is done. */
+static bool step_down(struct kd_server *server, double *since)
+{
+    double age = kd_clock_ms() - *since;
+
+    switch (atomic_load(&server->phase)) {
+    case KD_SERVING:
+        if (cut_short(server))
+            enter(server, KD_REFUSING, since);
+        *since = kd_clock_ms();
+        return false;
+    case KD_DRAINING:
+        if (age >= server->drain_ms || cut_short(server))
+            enter(server, KD_REFUSING, since);
+        return false;
+    case KD_REFUSING:
+        kd_sessions_close(server->sessions);
+        kd_jobs_close(server->jobs);
+        if (atomic_load(&server->abandon)) {
+            kd_render_queue_cancel(server->renders);
+            kd_turns_cancel(server->rays);
+            kd_turns_cancel(server->turns);
+        }
+        if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
+            kd_turns_unfinished(server->turns))
+            return false;
+        stop_listening(server);
+        enter(server, KD_CLOSING, since);
+        return false;
+    default:
+        kd_connections_cut_stalled(server->connections);
+        return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
+    }
+}
+
+void *kd_keeper_main(void *user)
+{
+    struct kd_server *server = user;
+    double since = kd_clock_ms();
+
+    do {
+        sleep_a_tick(server);
+        kd_connections_sweep(server->connections);
+        kd_render_queue_sweep(server->renders);
+        kd_sessions_sweep(server->sessions);
+        kd_jobs_sweep(server->jobs);
+    } while (!step_down(server, &since));
+    stop_listening(server);
+    MHD_stop_daemon(server->daemon); /* nothing is suspended: the queues have finished, and take no more */
+    MHD_stop_daemon(server->health_daemon);
+    server->daemon = server->health_daemon = NULL;
+    atomic_store(&server->phase, KD_STOPPED);
+    kd_log(KD_LOG_INFO, "stopped");
+
+    pthread_mutex_lock(&server->lock);
+    server->stopped = true;
+    pthread_cond_broadcast(&server->changed);
+    pthread_mutex_unlock(&server->lock);
+    return NULL;
+}

@@ -1,0 +1,10 @@
+/* The thread that watches the clock: deadlines, clients that went away, and the way down. */
+#ifndef KD_SERVER_HTTP_KEEPER_H
+#define KD_SERVER_HTTP_KEEPER_H
+
+#include "server/http/service.h"
+
+/* pthread_create's argument: the struct kd_server. Returns when the server has stopped. */
+void *kd_keeper_main(void *server);
+
+#endif

@@ -1,0 +1,12 @@
+/* A listening TCP socket from a numeric address. */
+#ifndef KD_SERVER_HTTP_LISTEN_H
+#define KD_SERVER_HTTP_LISTEN_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+/* address: "127.0.0.1", "::1" or "[::1]"; *port 0 is replaced by the one chosen. The caller closes *out. */
+enum kd_status kd_listen_open(const char *address, uint16_t *port, int *out, struct kd_error *error);
+
+#endif

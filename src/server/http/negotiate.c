@@ -1,0 +1,163 @@
+#include "server/http/negotiate.h"
+
+#include <stddef.h>
+#include <string.h>
+#include <strings.h>
+
+struct span {
+    const char *at;
+    size_t size;
+};
+
+static bool blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+static struct span trim(struct span s)
+{
+    while (s.size && blank(*s.at))
+        s.at++, s.size--;
+    while (s.size && blank(s.at[s.size - 1]))
+        s.size--;
+    return s;
+}
+
+static bool equals(struct span s, const char *text)
+{
+    return s.size == strlen(text) && !strncasecmp(s.at, text, s.size);
+}
+
+/* What comes before the separator; *rest moves behind it, to NULL at the end. Quoted text is passed over. */
+static struct span take(const char **rest, char separator)
+{
+    const char *start = *rest, *p = start;
+    bool quoted = false;
+
+    for (; *p && (quoted || *p != separator); p++) {
+        if (*p == '"')
+            quoted = !quoted;
+        else if (quoted && *p == '\\' && p[1])
+            p++;
+    }
+    *rest = *p ? p + 1 : NULL;
+    return trim((struct span) { start, (size_t)(p - start) });
+}
+
+/* The weight in thousandths, -1 when it is none: 0, 0.5, 1.000 (RFC 9110, 12.4.2). */
+static int weight(struct span s)
+{
+    if (!s.size || s.size > 5 || (s.at[0] != '0' && s.at[0] != '1') || (s.size > 1 && s.at[1] != '.'))
+        return -1;
+    int value = (s.at[0] - '0') * 1000, place = 100;
+    for (size_t i = 2; i < s.size; i++, place /= 10) {
+        if (s.at[i] < '0' || s.at[i] > '9')
+            return -1;
+        value += (s.at[i] - '0') * place;
+    }
+    return value <= 1000 ? value : -1;
+}
+
+/* How closely a media range fits: 3 the type itself, 2 its family, 1 anything, 0 not. */
+static int fit(struct span range, const char *type)
+{
+    size_t family = strcspn(type, "/") + 1;
+    if (equals(range, type))
+        return 3;
+    if (range.size == family + 1 && !strncasecmp(range.at, type, family) && range.at[family] == '*')
+        return 2;
+    return equals(range, "*/*") ? 1 : 0;
+}
+
+static int entry_weight(const char *parameters)
+{
+    int q = 1000;
+    while (parameters) {
+        struct span parameter = take(&parameters, ';');
+        if (parameter.size >= 2 && (parameter.at[0] | 0x20) == 'q' && parameter.at[1] == '=')
+            q = weight((struct span) { parameter.at + 2, parameter.size - 2 });
+    }
+    return q;
+}
+
+int kd_accept_weight(const char *accept, const char *type)
+{
+    int best = 0, best_weight = 0;
+
+    if (!accept || !accept[strspn(accept, " \t")])
+        return 1000;
+    while (accept) {
+        struct span entry = take(&accept, ',');
+        char text[256];
+        if (!entry.size || entry.size >= sizeof text)
+            continue;
+        memcpy(text, entry.at, entry.size);
+        text[entry.size] = 0;
+        const char *rest = text;
+        int how = fit(take(&rest, ';'), type), q = entry_weight(rest);
+        if (q >= 0 && (how > best || (how == best && q > best_weight))) {
+            best = how;
+            best_weight = q;
+        }
+    }
+    return best ? best_weight : 0;
+}
+
+bool kd_accepts(const char *accept, const char *type)
+{
+    return kd_accept_weight(accept, type) > 0;
+}
+
+bool kd_accepts_coding(const char *accept_encoding, const char *coding)
+{
+    int named = -1, any = -1;
+
+    while (accept_encoding) {
+        struct span entry = take(&accept_encoding, ',');
+        char text[256];
+        if (!entry.size || entry.size >= sizeof text)
+            continue;
+        memcpy(text, entry.at, entry.size);
+        text[entry.size] = 0;
+        const char *rest = text;
+        struct span name = take(&rest, ';');
+        if (equals(name, coding))
+            named = entry_weight(rest);
+        else if (equals(name, "*"))
+            any = entry_weight(rest);
+    }
+    return (named >= 0 ? named : any) > 0;
+}
+
+bool kd_etag_listed(const char *if_none_match, const char *etag)
+{
+    while (if_none_match) {
+        struct span tag = take(&if_none_match, ',');
+        if (equals(tag, "*"))
+            return true;
+        if (tag.size > 2 && tag.at[0] == 'W' && tag.at[1] == '/')
+            tag.at += 2, tag.size -= 2;
+        if (tag.size == strlen(etag) && !memcmp(tag.at, etag, tag.size))
+            return true;
+    }
+    return false;
+}
+
+bool kd_media_type_is(const char *content_type, const char *type)
+{
+    return content_type && equals(take(&content_type, ';'), type);
+}
+
+bool kd_host_listed(const char *host, const char *const *names)
+{
+    size_t size = *host == '[' ? strcspn(host, "]") + 1 : strcspn(host, ":");
+    if (*host == '[' && !strchr(host, ']'))
+        return false;
+    const char *port = host + size;
+    if (*port && (*port != ':' || strlen(port) > 6 || port[1 + strspn(port + 1, "0123456789")]))
+        return false;
+    for (; *names; names++)
+        if (equals((struct span) { host, size }, *names))
+            return true;
+    return false;
+}

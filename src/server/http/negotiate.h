@@ -1,0 +1,25 @@
+/* Header values that choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any thread. */
+#ifndef KD_SERVER_HTTP_NEGOTIATE_H
+#define KD_SERVER_HTTP_NEGOTIATE_H
+
+#include <stdbool.h>
+
+/* Whether an Accept value (RFC 9110, 12.5.1) admits the type: the most specific range that matches it
+ * decides, by a weight above zero. Malformed entries match nothing; NULL or a blank value admits all. */
+bool kd_accepts(const char *accept, const char *type);
+/* That weight in thousandths, 0 when the type is not admitted: to choose between several. */
+int kd_accept_weight(const char *accept, const char *type);
+
+/* Whether an Accept-Encoding value (RFC 9110, 12.5.3) names the coding, or "*", by a weight above zero. NULL: no. */
+bool kd_accepts_coding(const char *accept_encoding, const char *coding);
+
+/* Whether an If-None-Match value names the entity tag (with its quotes), compared weakly, or is "*". */
+bool kd_etag_listed(const char *if_none_match, const char *etag);
+
+/* Whether a Content-Type value is this media type, whatever its parameters. */
+bool kd_media_type_is(const char *content_type, const char *type);
+
+/* Whether a Host value, without its port, is one of the NULL-terminated names. IPv6 literals in brackets. */
+bool kd_host_listed(const char *host, const char *const *names);
+
+#endif

@@ -1,0 +1,240 @@
+#include "server/http/reply.h"
+
+#include "image/gzip.h"
+#include "server/http/negotiate.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
+{
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(body->size, body->data, MHD_RESPMEM_MUST_FREE);
+    if (!response)
+        free(body->data);
+    *body = (struct kd_buffer) { 0 };
+    if (response)
+        MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+/* Below, a header costs what is saved; above, the HTTP thread would be held up for more than some 20 ms. */
+enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
+
+struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
+{
+    struct kd_buffer codings = kd_reply_header_list(request, "Accept-Encoding");
+    bool packed = body->size >= PACK_LEAST && body->size <= PACK_MOST && kd_accepts_coding((const char *)codings.data, "gzip") && kd_gzip(body);
+    kd_buffer_finish(&codings);
+    struct MHD_Response *response = kd_reply_take(body, type);
+    if (response)
+        MHD_add_response_header(response, "Vary", "Accept-Encoding");
+    if (response && packed)
+        MHD_add_response_header(response, "Content-Encoding", "gzip");
+    return response;
+}
+
+struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type)
+{
+    union {
+        const void *in;
+        void *out;
+    } bytes = { data }; /* libmicrohttpd only reads them */
+    struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
+    if (response)
+        MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+struct MHD_Response *kd_reply_asset(struct kd_request *request, const struct kd_asset *asset, bool *same)
+{
+    struct kd_buffer encodings = kd_reply_header_list(request, "Accept-Encoding");
+    struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
+    bool gzip = asset->gzip.data && kd_accepts_coding((const char *)encodings.data, "gzip");
+    const struct kd_asset_form *form = gzip ? &asset->gzip : &asset->plain;
+    *same = kd_etag_listed((const char *)known.data, form->etag);
+    kd_buffer_finish(&encodings);
+    kd_buffer_finish(&known);
+
+    struct MHD_Response *response = kd_reply_static(form->data, form->size, asset->type);
+    if (!response)
+        return NULL;
+    if (gzip)
+        MHD_add_response_header(response, "Content-Encoding", "gzip");
+    MHD_add_response_header(response, "ETag", form->etag);
+    MHD_add_response_header(response, "Vary", "Accept-Encoding");
+    MHD_add_response_header(response, "Cache-Control", "no-cache");
+    return response;
+}
+
+static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
+{
+    (void)cls, (void)position, (void)to, (void)size;
+    return MHD_CONTENT_READER_END_OF_STREAM;
+}
+
+struct MHD_Response *kd_reply_empty(const char *type)
+{
+    struct MHD_Response *response =
+        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
+    /* Else libmicrohttpd announces chunks and sends the last one, "0", which belongs to no body and which a client that keeps the
+     * connection takes for the beginning of the next answer. Without chunks it closes the connection. */
+    if (response)
+        MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
+    if (response && type)
+        MHD_add_response_header(response, "Content-Type", type);
+    return response;
+}
+
+void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
+{
+    char name[60];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    snprintf(request->file, sizeof request->file, "%s; filename=\"%s\"", disposition == KD_INLINE ? "inline" : "attachment", name);
+}
+
+/* Takes no memory of ours. */
+enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
+{
+    static const char text[] = "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran out\",\"status\":503,"
+                               "\"detail\":\"there is no memory, not even to say for what\"}\n";
+    struct MHD_Response *response = kd_reply_static(text, sizeof text - 1, "application/problem+json");
+    if (!response)
+        return MHD_NO;
+    MHD_add_response_header(response, "Retry-After", "5");
+    MHD_add_response_header(response, "Cache-Control", "no-store");
+    MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
+    MHD_add_response_header(response, "Connection", "close");
+    enum MHD_Result result = MHD_queue_response(mhd, MHD_HTTP_SERVICE_UNAVAILABLE, response);
+    MHD_destroy_response(response);
+    return result;
+}
+
+enum MHD_Result kd_reply_no_memory(struct kd_request *request)
+{
+    request->status = MHD_HTTP_SERVICE_UNAVAILABLE;
+    return kd_reply_bare(request->mhd);
+}
+
+enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response)
+{
+    struct kd_server *server = request->server;
+    if (!response)
+        return kd_reply_no_memory(request);
+    MHD_add_response_header(response, "X-Content-Type-Options", "nosniff");
+    MHD_add_response_header(response, "Cross-Origin-Resource-Policy", server->cross_site ? "cross-origin" : "same-site");
+    if (!MHD_get_response_header(response, "Cache-Control"))
+        MHD_add_response_header(response, "Cache-Control", "no-store");
+    if (*request->file && status == MHD_HTTP_OK)
+        MHD_add_response_header(response, "Content-Disposition", request->file);
+    /* On the way down a kept-alive client should look for another server. */
+    if (request->close || atomic_load(&server->phase) != KD_SERVING)
+        MHD_add_response_header(response, "Connection", "close");
+    kd_connections_stage(server->connections, request->connection, KD_STAGE_REPLY, request->reply_bytes);
+    request->status = status;
+    enum MHD_Result result = MHD_queue_response(request->mhd, status, response);
+    MHD_destroy_response(response);
+    return result;
+}
+
+enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem)
+{
+    struct kd_buffer body = { 0 };
+    if (kd_problem_to_json(problem, &body)) {
+        kd_buffer_finish(&body);
+        return kd_reply_no_memory(request);
+    }
+    struct MHD_Response *response = kd_reply_take(&body, "application/problem+json");
+    if (!response)
+        return kd_reply_no_memory(request);
+    if (problem->allow)
+        MHD_add_response_header(response, "Allow", problem->allow);
+    if (problem->retry_after) {
+        char seconds[12];
+        snprintf(seconds, sizeof seconds, "%u", problem->retry_after);
+        MHD_add_response_header(response, "Retry-After", seconds);
+    }
+    request->close |= problem->close;
+    return kd_reply_send(request, kd_problem_status(problem->type), response);
+}
+
+enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    return kd_reply_problem(request, &problem);
+}
+
+bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused)
+{
+    struct kd_error error = { 0 };
+    if (!kd_target_only(&request->target, known, &error))
+        return true;
+    struct kd_problem problem = kd_problem_from(&error);
+    problem.type = KD_PROBLEM_INVALID_PARAMETERS;
+    *refused = kd_reply_problem(request, &problem);
+    return false;
+}
+
+enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
+                              const char *type)
+{
+    if (status) {
+        struct kd_error error;
+        kd_error_set(&error, status, "the document could not be made");
+        kd_buffer_finish(json);
+        return kd_reply_error(request, &error);
+    }
+    return kd_reply_send(request, MHD_HTTP_OK, kd_reply_text(request, json, type));
+}
+
+struct joined {
+    const char *name;
+    struct kd_buffer text;
+    bool failed;
+};
+
+static enum MHD_Result join(void *cls, enum MHD_ValueKind kind, const char *key, const char *value)
+{
+    struct joined *all = cls;
+    (void)kind;
+    if (value && !strcasecmp(key, all->name))
+        all->failed |= kd_buffer_printf(&all->text, "%s%s", all->text.size ? "," : "", value) != KD_OK;
+    return MHD_YES;
+}
+
+struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name)
+{
+    struct joined all = { .name = name };
+    MHD_get_connection_values(request->mhd, MHD_HEADER_KIND, join, &all);
+    if (all.failed)
+        kd_buffer_finish(&all.text);
+    return all.text;
+}
+
+enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
+{
+    enum kd_status status = kd_buffer_printf(out, "%s\"", out->size ? ", " : "");
+    for (; *text && !status; text++) {
+        unsigned char c = (unsigned char)*text;
+        status = c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
+                                                             : kd_buffer_append(out, &c, 1);
+    }
+    return status ? status : kd_buffer_append(out, "\"", 1);
+}
+
+const char *kd_token_of(struct kd_request *request)
+{
+    const char *header = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Authorization");
+    if (header && !strncasecmp(header, "Bearer ", 7))
+        return header + 7;
+    for (size_t i = 0; i < request->target.n_pairs; i++)
+        if (!strcmp(request->target.pairs[i].name, "token"))
+            return request->target.pairs[i].value;
+    return NULL;
+}

@@ -1,0 +1,52 @@
+/* Answers: the headers that all of them carry, the deadline for taking them. HTTP thread only.
+ *
+ * Functions that return an MHD_Result give MHD_NO when memory ran out, which closes the connection. */
+#ifndef KD_SERVER_HTTP_REPLY_H
+#define KD_SERVER_HTTP_REPLY_H
+
+#include "server/http/assets.h"
+#include "server/http/problem.h"
+#include "server/http/request.h"
+
+/* A response with the buffer's bytes, which it takes over (the buffer is empty afterwards, also on failure);
+ * NULL on failure. */
+struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
+/* The same for text, which goes as gzip where the client takes that and it pays. */
+struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
+/* One with bytes that outlive it. */
+struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
+/* One of a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has it, and 304 sends the
+ * header alone. */
+struct MHD_Response *kd_reply_asset(struct kd_request *request, const struct kd_asset *asset, bool *same);
+/* One for HEAD and 304, where the length of what a GET would give is not known. Closes the
+ * connection. */
+struct MHD_Response *kd_reply_empty(const char *type);
+
+/* The name under which this request's answer is saved. A browser shows what is inline and saves what is an attachment. */
+enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
+void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Queue the response and give up the reference; NULL: kd_reply_no_memory. */
+enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
+
+/* 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first: without a request even. */
+enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
+enum MHD_Result kd_reply_no_memory(struct kd_request *request);
+enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
+/* kd_problem_from, sent. */
+enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
+/* Whether kd_target_only holds; if not *refused is the answer. */
+bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused);
+
+/* All values of a request header that is a list, joined by commas; empty when it is absent or memory ran out. */
+struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
+/* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the commas
+ * between them. */
+enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text);
+
+/* A generated document, or the problem of not having generated it. Empties the buffer. */
+enum MHD_Result kd_reply_json(struct kd_request *request, enum kd_status status, struct kd_buffer *json,
+                              const char *type);
+
+#endif

@@ -1,0 +1,42 @@
+/* One HTTP request from its first line to its last byte. HTTP thread only. */
+#ifndef KD_SERVER_HTTP_REQUEST_H
+#define KD_SERVER_HTTP_REQUEST_H
+
+#include "server/http/client.h"
+#include "server/http/guard.h"
+#include "server/http/route.h"
+#include "server/http/service.h"
+#include "server/http/target.h"
+
+#define KD_NPY_TYPE "application/x-npy"
+#define KD_PATCH_TYPE "application/merge-patch+json"
+
+struct kd_request {
+    struct kd_server *server;
+    struct MHD_Connection *mhd;
+    struct kd_connection *connection;
+    char client[KD_CLIENT]; /* who it is from */
+    char *raw; /* the target as received */
+    struct kd_target target;
+    struct kd_header header;
+    const struct kd_route *route;
+    const char *method, *rest; /* rest: of the path, behind a route that ends in "/" */
+    bool head, begun, body_announced, close;
+    struct kd_buffer body;
+    size_t body_mark; /* how much of it there was when its time was last set */
+    struct kd_render_job *job; /* of a render under way; owned */
+    struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
+    struct kd_particles_job *particles; /* of particles being listed; owned */
+    struct kd_task *task;      /* of what workers compute; owned */
+    struct kd_viewer *viewer;  /* of a request that waits for a session's next frame; owned */
+    char etag[96];
+    char file[96]; /* Content-Disposition of an answer of 200, by kd_reply_file */
+    size_t reply_bytes; /* of a large reply, for its deadline */
+    double start_ms;
+    unsigned status; /* of the reply, for the log */
+};
+
+/* The token that comes with a request, in its header or query; NULL: none. reply.c */
+const char *kd_token_of(struct kd_request *request);
+
+#endif

@@ -1,0 +1,75 @@
+/* What is served where. The table also is the source of /openapi.json and of the Allow header. */
+#ifndef KD_SERVER_HTTP_ROUTE_H
+#define KD_SERVER_HTTP_ROUTE_H
+
+#include "server/http/problem.h"
+
+#include <microhttpd.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+struct kd_request;
+
+enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8 }; /* HEAD goes with GET */
+
+enum kd_takes {
+    KD_TAKES_NOTHING,
+    KD_TAKES_SCENE, /* in the body, or with GET in the query */
+    KD_TAKES_RAYS,  /* in the body, JSON or NPY */
+    KD_TAKES_ORBITS,
+    KD_TAKES_JOB,
+    KD_TAKES_STRIKE,    /* in the body, or none */
+    KD_TAKES_PARTICLES, /* which and what of them, in the query */
+    KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
+};
+
+struct kd_route {
+    const char *path; /* a segment in braces, at most one, stands for any: request->rest */
+    unsigned methods;
+    /* Called when the whole body is there, and again when the render it has asked for is done. */
+    enum MHD_Result (*handle)(struct kd_request *request);
+    const char *answer, *summary; /* media type, and a sentence for openapi.json */
+    enum kd_takes takes;
+    const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
+    unsigned status[2]; /* of an answer that is none of a problem; { 0 }: 200; what DELETE ends is 204 */
+};
+
+/* The table: server/routes.c. */
+extern const struct kd_route kd_routes[];
+extern const size_t kd_n_routes;
+
+/* Sets request->route and ->rest, which point into the target's path; false with *problem filled (404, 405). */
+bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
+/* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics. */
+bool kd_route_is_health(const char *raw);
+/* The same of the first n bytes of a connection, which may end too early to say it. */
+enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
+enum kd_begins kd_route_begins(const char *bytes, size_t n);
+
+/* handlers, by file */
+enum MHD_Result kd_handle_page(struct kd_request *request);   /* answers/pages.c */
+enum MHD_Result kd_handle_health(struct kd_request *request); /* answers/reports.c */
+enum MHD_Result kd_handle_ready(struct kd_request *request);
+enum MHD_Result kd_handle_metrics(struct kd_request *request); /* answers/metrics.c */
+enum MHD_Result kd_handle_device(struct kd_request *request);
+enum MHD_Result kd_handle_kept(struct kd_request *request); /* what openapi/kept.h has */
+enum MHD_Result kd_handle_plan(struct kd_request *request);    /* render/renders.c */
+enum MHD_Result kd_handle_render(struct kd_request *request);
+enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
+enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */
+enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* answers/accuracy.c */
+enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session/routes.c */
+enum MHD_Result kd_handle_session(struct kd_request *request);
+enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);
+enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* session/particles.c */
+enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* session/live.c */
+enum MHD_Result kd_handle_session_frames(struct kd_request *request);
+enum MHD_Result kd_handle_session_events(struct kd_request *request);
+enum MHD_Result kd_handle_jobs(struct kd_request *request); /* job/routes.c */
+enum MHD_Result kd_handle_job(struct kd_request *request);
+enum MHD_Result kd_handle_job_events(struct kd_request *request);
+enum MHD_Result kd_handle_job_result(struct kd_request *request); /* job/result.c */
+enum MHD_Result kd_handle_job_preview(struct kd_request *request); /* job/result.c */
+enum MHD_Result kd_handle_quantity(struct kd_request *request); /* answers/physics.c */
+
+#endif

@@ -1,0 +1,26 @@
+#include "server/http/secret.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/random.h>
+
+bool kd_secret_make(char *out, size_t size)
+{
+    unsigned char bytes[KD_SECRET_TOKEN / 2];
+    size_t n = (size - 1) / 2;
+    if (getrandom(bytes, n, 0) != (ssize_t)n)
+        return false;
+    for (size_t i = 0; i < n; i++)
+        snprintf(out + 2 * i, 3, "%02x", bytes[i]);
+    return true;
+}
+
+bool kd_secret_equal(const char token[KD_SECRET_TOKEN], const char *given)
+{
+    unsigned differ = 0;
+    if (!given || strlen(given) != KD_SECRET_TOKEN - 1)
+        return false;
+    for (size_t i = 0; i < KD_SECRET_TOKEN - 1; i++)
+        differ |= (unsigned)(token[i] ^ given[i]);
+    return !differ;
+}

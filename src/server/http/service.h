@@ -1,0 +1,84 @@
+/* What the parts of the HTTP service share. Private to src/server.
+ *
+ * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health routes, another
+ * every other handler ("the HTTP thread"); the render queue has its render threads and
+ * encoders, those who take turns (turns.h) their workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
+#ifndef KD_SERVER_HTTP_SERVICE_H
+#define KD_SERVER_HTTP_SERVICE_H
+
+#include "server/http/bodies.h"
+#include "server/http/connections.h"
+#include "server/http/counts.h"
+#include "server/http/front.h"
+#include "server/http/turns.h"
+
+#include <microhttpd.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes; those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
+#define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received, */
+#define KD_BODIES_SHARE ((size_t)128 << 20) /* of those of one client: it leaves room for the largest one of another, */
+#define KD_BODIES_SMALL ((size_t)16 << 20) /* and beside all these, of bodies of up to KD_BODY_MAX */
+#define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures and rays not yet taken by their clients; one may exceed it */
+#define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
+#define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
+#define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
+#define KD_JOBS_KEPT 64u                   /* jobs in all, finished ones too */
+#define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
+#define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */
+#define KD_JOB_BYTES ((uint64_t)16 << 30)  /* on disk, of all jobs */
+#define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
+
+#define KD_STATUS_CLASSES 6
+
+/* The way down, in order. */
+enum kd_phase {
+    KD_SERVING,
+    KD_DRAINING, /* /readyz fails, everything else is served */
+    KD_REFUSING, /* new renders are refused, those accepted finish */
+    KD_CLOSING,  /* no longer listening; answers under way are sent */
+    KD_STOPPED,
+};
+
+struct kd_jobs;
+struct kd_kept;
+struct kd_render_queue;
+struct kd_sessions;
+
+struct kd_server {
+    struct MHD_Daemon *daemon, *health_daemon; /* by what connections begin with: front.h */
+    struct kd_front *front;
+    uint16_t port;
+    const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
+    char **own;         /* kd_names_own, where it listens on every address; else NULL */
+    unsigned drain_ms, longest_s;
+    struct kd_connections *connections;
+    struct kd_render_queue *renders;
+    struct kd_turns *rays;  /* requests for them */
+    struct kd_turns *turns; /* orbits, long quantities, jobs being checked */
+    struct kd_sessions *sessions;
+    struct kd_jobs *jobs;
+    struct kd_kept *kept;
+    char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
+
+    _Atomic int phase;
+    _Atomic unsigned requests; /* begun and not yet answered in full */
+    struct kd_bodies *bodies;
+    bool cross_site; /* pages of other sites may use it */
+    _Atomic size_t reply_bytes;
+    _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
+
+    int stop_fd; /* eventfd that wakes the keeper */
+    pthread_t keeper;
+    bool keeper_runs;
+    _Atomic bool abandon; /* destroy without stop: do not wait */
+    pthread_mutex_t lock; /* for what follows */
+    struct kd_sessions_counts sessions_counts; /* as last known */
+    struct kd_jobs_counts jobs_counts;
+    pthread_cond_t changed;
+    bool stopped;
+};
+
+#endif

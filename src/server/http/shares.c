@@ -1,0 +1,129 @@
+#include "server/http/shares.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Who may not be served for a while, for want of memory say, falls behind; so far at most may it draw level again at a stretch. */
+#define CREDIT_MS 200.0
+
+static const double weights[] = {
+#define WEIGHT(name, weight) [KD_CLASS_##name] = weight,
+    KD_CLASSES(WEIGHT)
+#undef WEIGHT
+};
+
+static unsigned hash(const char *name)
+{
+    unsigned h = 2166136261u; /* FNV-1a */
+    for (; *name; name++)
+        h = (h ^ (unsigned char)*name) * 16777619u;
+    return h;
+}
+
+/* The client's own place; else that of one who has nothing here, of those the one whose payments are longest forgotten; else, where
+ * there are too many, one that it shares with others. */
+static struct kd_share_client *place_of(struct kd_shares *shares, const char *name)
+{
+    struct kd_share_client *free = NULL;
+    for (unsigned i = 0; i < KD_SHARE_CLIENTS; i++) {
+        struct kd_share_client *c = &shares->clients[i];
+        if (!strcmp(c->name, name) && (c->claims || c->paid > 0))
+            return c;
+        if (!c->claims && (!free || c->paid < free->paid))
+            free = c;
+    }
+    if (!free)
+        return &shares->clients[hash(name) % KD_SHARE_CLIENTS];
+    *free = (struct kd_share_client) { 0 };
+    snprintf(free->name, sizeof free->name, "%s", name);
+    return free;
+}
+
+void kd_shares_add(struct kd_shares *shares, struct kd_claim *claim)
+{
+    struct kd_share_client *c = place_of(shares, claim->client);
+    struct kd_share_flow *flow = &c->flows[claim->class];
+    if (!c->claims++)
+        c->paid = fmax(c->paid, shares->now);
+    if (!flow->claims++)
+        flow->paid = fmax(flow->paid, c->now);
+    claim->paid = flow->now;
+    claim->owner = c;
+    claim->next = NULL;
+    struct kd_claim **link = &flow->first;
+    while (*link)
+        link = &(*link)->next;
+    *link = claim;
+}
+
+void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
+{
+    (void)shares;
+    struct kd_share_flow *flow = &claim->owner->flows[claim->class];
+    struct kd_claim **link = &flow->first;
+    while (*link != claim)
+        link = &(*link)->next;
+    *link = claim->next;
+    flow->claims--;
+    claim->owner->claims--;
+}
+
+/* What counts as paid by one who may have fallen behind the one that was served last. */
+static double standing(double paid, double now) { return fmax(paid, now - CREDIT_MS); }
+
+static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *), void *user)
+{
+    struct kd_claim *best = NULL;
+    for (struct kd_claim *c = flow->first; c; c = c->next)
+        if ((!best || c->paid + c->left_ms < best->paid + best->left_ms) && may(c, user))
+            best = c;
+    return best;
+}
+
+static struct kd_claim *next_of_client(const struct kd_share_client *client, bool (*may)(const struct kd_claim *, void *), void *user)
+{
+    struct kd_claim *best = NULL, *found;
+    double least = INFINITY;
+    for (unsigned i = 0; i < KD_N_CLASSES; i++) {
+        const struct kd_share_flow *flow = &client->flows[i];
+        if (!flow->claims || standing(flow->paid, client->now) >= least || !(found = next_of_flow(flow, may, user)))
+            continue;
+        least = standing(flow->paid, client->now);
+        best = found;
+    }
+    return best;
+}
+
+struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user), void *user)
+{
+    struct kd_claim *best = NULL, *found;
+    double least = INFINITY;
+    for (unsigned i = 0; i < KD_SHARE_CLIENTS; i++) {
+        const struct kd_share_client *c = &shares->clients[i];
+        if (!c->claims || standing(c->paid, shares->now) >= least || !(found = next_of_client(c, may, user)))
+            continue;
+        least = standing(c->paid, shares->now);
+        best = found;
+    }
+    return best;
+}
+
+/* Its standing when it was served is what those who come are given; then it pays. */
+static void pay(double *paid, double *now, double ms)
+{
+    *paid = standing(*paid, *now);
+    *now = fmax(*now, *paid);
+    *paid += ms;
+}
+
+void kd_shares_charge(struct kd_shares *shares, struct kd_claim *claim, double ms)
+{
+    struct kd_share_client *c = claim->owner;
+    struct kd_share_flow *flow = &c->flows[claim->class];
+    pay(&c->paid, &shares->now, ms);
+    pay(&flow->paid, &c->now, ms / weights[claim->class]);
+    flow->now += ms / flow->claims;
+    claim->paid += ms;
+    claim->left_ms = fmax(claim->left_ms - ms, 0);
+}

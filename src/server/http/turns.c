@@ -1,0 +1,199 @@
+#include "server/http/turns.h"
+#include "base/cores.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#define WORKERS_MAX 16
+
+struct kd_turns {
+    unsigned limit;
+    _Atomic bool cancel;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    bool closing;
+    struct kd_turns_job *first, **end, *parked; /* in the order of their turns; waiting to be woken */
+    unsigned accepted, unfinished;              /* the former no longer counts what is being handed back */
+    pthread_t workers[WORKERS_MAX];
+    unsigned n_workers;
+};
+
+static void append(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    if (job->listed)
+        return;
+    job->next = NULL;
+    job->listed = true;
+    *turns->end = job;
+    turns->end = &job->next;
+    pthread_cond_signal(&turns->changed);
+}
+
+static void take_out(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    if (!job->listed)
+        return;
+    struct kd_turns_job **link = &turns->first;
+    while (*link != job)
+        link = &(*link)->next;
+    *link = job->next;
+    if (turns->end == &job->next)
+        turns->end = link;
+    job->listed = false;
+}
+
+static void unpark(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    struct kd_turns_job **link = &turns->parked;
+    while (*link != job)
+        link = &(*link)->next;
+    *link = job->next;
+    job->parked = false;
+    append(turns, job);
+}
+
+static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
+{
+    if (job->woken || (atomic_load(&turns->cancel) && !away)) {
+        append(turns, job);
+        return;
+    }
+    job->parked = true;
+    job->away = away;
+    job->next = turns->parked;
+    turns->parked = job;
+}
+
+/* Locked on entry and exit; the job is the first in the list. */
+static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    take_out(turns, job);
+    job->workers++;
+    job->woken = false;
+    if (job->shared)
+        append(turns, job); /* for whoever is free */
+    pthread_mutex_unlock(&turns->lock);
+    enum kd_turn turn = job->turn(job);
+    pthread_mutex_lock(&turns->lock);
+    job->workers--;
+    if (turn == KD_TURN_LAST)
+        job->over = true;
+    if (job->over)
+        take_out(turns, job);
+    else if (turn == KD_TURN_PARK || turn == KD_TURN_AWAY)
+        park(turns, job, turn == KD_TURN_AWAY);
+    else
+        append(turns, job);
+    if (!job->over || job->workers)
+        return;
+    turns->accepted--;
+    pthread_mutex_unlock(&turns->lock);
+    job->done(job);
+    pthread_mutex_lock(&turns->lock);
+    turns->unfinished--;
+}
+
+static void *work(void *user)
+{
+    struct kd_turns *turns = user;
+    pthread_mutex_lock(&turns->lock);
+    while (!turns->closing) {
+        if (turns->first)
+            give_turn(turns, turns->first);
+        else
+            pthread_cond_wait(&turns->changed, &turns->lock);
+    }
+    pthread_mutex_unlock(&turns->lock);
+    return NULL;
+}
+
+static unsigned cores(void)
+{
+    unsigned n = kd_cores();
+    return n > WORKERS_MAX ? WORKERS_MAX : n;
+}
+
+enum kd_status kd_turns_create(unsigned limit, struct kd_turns **out, struct kd_error *error)
+{
+    struct kd_turns *turns = calloc(1, sizeof *turns);
+    if (!turns)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    turns->limit = limit;
+    turns->end = &turns->first;
+    pthread_mutex_init(&turns->lock, NULL);
+    pthread_cond_init(&turns->changed, NULL);
+    for (unsigned n = cores(); turns->n_workers < n; turns->n_workers++)
+        if (pthread_create(&turns->workers[turns->n_workers], NULL, work, turns)) {
+            kd_turns_destroy(turns);
+            return kd_error_set(error, KD_ENOMEM, "a worker thread could not be started");
+        }
+    *out = turns;
+    return KD_OK;
+}
+
+void kd_turns_destroy(struct kd_turns *turns)
+{
+    if (!turns)
+        return;
+    pthread_mutex_lock(&turns->lock);
+    turns->closing = true;
+    pthread_cond_broadcast(&turns->changed);
+    pthread_mutex_unlock(&turns->lock);
+    for (unsigned i = 0; i < turns->n_workers; i++)
+        pthread_join(turns->workers[i], NULL);
+    pthread_cond_destroy(&turns->changed);
+    pthread_mutex_destroy(&turns->lock);
+    free(turns);
+}
+
+enum kd_status kd_turns_admit(struct kd_turns *turns, struct kd_error *error)
+{
+    pthread_mutex_lock(&turns->lock);
+    unsigned n = turns->accepted;
+    pthread_mutex_unlock(&turns->lock);
+    return n < turns->limit ? KD_OK : kd_error_set(error, KD_EBUSY, "%u such requests are under way, as many as may", n);
+}
+
+void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    pthread_mutex_lock(&turns->lock);
+    turns->accepted++;
+    turns->unfinished++;
+    append(turns, job);
+    pthread_mutex_unlock(&turns->lock);
+}
+
+void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    pthread_mutex_lock(&turns->lock);
+    job->woken = true;
+    if (job->parked)
+        unpark(turns, job);
+    pthread_mutex_unlock(&turns->lock);
+}
+
+unsigned kd_turns_unfinished(struct kd_turns *turns)
+{
+    pthread_mutex_lock(&turns->lock);
+    unsigned n = turns->unfinished;
+    pthread_mutex_unlock(&turns->lock);
+    return n;
+}
+
+void kd_turns_cancel(struct kd_turns *turns)
+{
+    pthread_mutex_lock(&turns->lock);
+    atomic_store(&turns->cancel, true);
+    for (struct kd_turns_job *job = turns->parked, *next; job; job = next) {
+        next = job->next;
+        if (!job->away)
+            unpark(turns, job);
+    }
+    pthread_mutex_unlock(&turns->lock);
+}
+
+bool kd_turns_cancelled(struct kd_turns *turns)
+{
+    return atomic_load(&turns->cancel);
+}

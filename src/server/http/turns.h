@@ -1,0 +1,45 @@
+/* Long jobs in turns: a few workers do a piece of each by turns, so that a short one does not wait for a long one. */
+#ifndef KD_SERVER_HTTP_TURNS_H
+#define KD_SERVER_HTTP_TURNS_H
+
+#include "base/error.h"
+
+#include <stdbool.h>
+
+enum kd_turn {
+    KD_TURN_MORE, /* there is another piece */
+    KD_TURN_PARK, /* there is, but not before kd_turns_wake, or kd_turns_cancel */
+    KD_TURN_AWAY, /* there is, but not before kd_turns_wake: somebody else has it meanwhile */
+    KD_TURN_LAST, /* nothing is left to begin */
+};
+
+struct kd_turns_job {
+    enum kd_turn (*turn)(struct kd_turns_job *job); /* on a worker */
+    void (*done)(struct kd_turns_job *job);         /* on a worker, once, when every turn has returned: may free the job */
+    bool shared;                                    /* several workers at once from the next turn on; a turn may set it */
+    /* the queue's own */
+    struct kd_turns_job *next;
+    bool listed, parked, away, woken, over;
+    unsigned workers;
+};
+
+struct kd_turns;
+
+/* limit: unfinished jobs. */
+enum kd_status kd_turns_create(unsigned limit, struct kd_turns **out, struct kd_error *error);
+/* Nothing may be unfinished. Accepts NULL. */
+void kd_turns_destroy(struct kd_turns *turns);
+
+/* Whether one more fits: KD_EBUSY or KD_OK. The submitting thread. */
+enum kd_status kd_turns_admit(struct kd_turns *turns, struct kd_error *error);
+void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job);
+/* End a park, also one that a turn under way is about to ask for. The job must not be done. Any thread. */
+void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job);
+unsigned kd_turns_unfinished(struct kd_turns *turns);
+
+/* From now on kd_turns_cancelled holds, which jobs look at in their turns, and nothing stays parked but what is away. Any
+ * thread. */
+void kd_turns_cancel(struct kd_turns *turns);
+bool kd_turns_cancelled(struct kd_turns *turns);
+
+#endif

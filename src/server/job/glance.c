@@ -1,0 +1,68 @@
+/* The frame of a job that is being rendered, as far as it has come, for who asks. */
+#include "image/png.h"
+#include "base/clock.h"
+#include "server/job/internal.h"
+
+#include <stdio.h>
+
+#define WANTED_MS 10000.0 /* after somebody has asked */
+#define APART_MS 500.0    /* from one to the next, at least; */
+#define SHARE 20.0        /* and so many times as long as one takes */
+
+static bool wanted(void *user)
+{
+    struct kd_job *job = kd_job_of_frame(user, NULL);
+    double now = kd_clock_ms();
+    pthread_mutex_lock(&job->all->lock);
+    bool yes = now < job->glance.until_ms && now >= job->glance.due_ms;
+    job->glance.began_ms = now;
+    pthread_mutex_unlock(&job->all->lock);
+    return yes;
+}
+
+/* An unfinished picture says that it is one. */
+static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
+{
+    unsigned number;
+    struct kd_job *job = kd_job_of_frame(user, &number);
+    char text[32];
+    struct kd_buffer png = { 0 };
+    struct kd_error error;
+    snprintf(text, sizeof text, "%u/%u", rows, frame->height);
+    const struct kd_png_text rows_text = { "kerrd:rows", text };
+    const struct kd_png_params params = {
+        .width = frame->width, .height = frame->height, .bit_depth = frame->bit_depth, .compression = 1, .pixels = frame->pixels,
+        .text = &rows_text, .n_text = 1,
+    };
+    if (kd_png_encode(&params, &png, &error)) /* out of memory: there is none this time */
+        kd_buffer_finish(&png);
+    double now = kd_clock_ms();
+    pthread_mutex_lock(&job->all->lock);
+    struct kd_job_glance *g = &job->glance;
+    kd_buffer_finish(&g->png);
+    g->png = png;
+    g->frame = number;
+    g->rows = rows;
+    g->height = frame->height;
+    double took = SHARE * (now - g->began_ms);
+    g->due_ms = now + (took > APART_MS ? took : APART_MS);
+    pthread_mutex_unlock(&job->all->lock);
+}
+
+const struct kd_glance kd_job_glance = { wanted, seen };
+
+bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out)
+{
+    pthread_mutex_lock(&job->all->lock);
+    struct kd_job_glance *g = &job->glance;
+    g->until_ms = kd_clock_ms() + WANTED_MS;
+    *out = (struct kd_job_sight) { .frame = g->frame, .rows = g->rows, .height = g->height };
+    bool there = g->png.size && !job->have[g->frame] && kd_job_is_active(job) && !kd_buffer_append(png, g->png.data, g->png.size);
+    for (unsigned i = job->frames; !there && i-- > 0;)
+        if (job->have[i]) {
+            *out = (struct kd_job_sight) { .frame = i, .finished = true };
+            break;
+        }
+    pthread_mutex_unlock(&job->all->lock);
+    return there || out->finished;
+}

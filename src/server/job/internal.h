@@ -1,0 +1,84 @@
+/* What jobs.c, run.c and watch.c share. */
+#ifndef KD_SERVER_JOB_INTERNAL_H
+#define KD_SERVER_JOB_INTERNAL_H
+
+#include "server/job/jobs.h"
+
+#include <pthread.h>
+
+struct kd_job_frame; /* one on its way through the render queue */
+
+/* What can be seen of it, glance.c. */
+struct kd_job_glance {
+    struct kd_buffer png;
+    unsigned frame;
+    uint32_t rows, height;
+    double until_ms, due_ms, began_ms; /* it is wanted until; not before; the last one was begun */
+};
+
+struct kd_job {
+    struct kd_jobs *all;
+    unsigned references;
+    struct kd_job_record record;
+    struct kd_job_spec spec; /* empty once it has ended */
+    bool curve;
+    unsigned frames, next, finished; /* next: none before it has still to be begun */
+    unsigned char *have;             /* which are in their files */
+    double fraction;                 /* of the frame being rendered */
+    double estimate_ms;              /* of all frames, by their plans */
+    double began_ms;                 /* by this server; 0: not yet */
+    double due_ms;                   /* not before; on kd_clock_ms */
+    double delay_ms;                 /* before the next try, once something has run out; 0: nothing has */
+    double ended_ms;                 /* on kd_clock_ms, whatever happens to the clock on the wall */
+    char delayed[160];               /* why it waits until due_ms */
+    bool struck;                     /* by this server: one attempt of the record is for it */
+    unsigned finished_here;
+    uint64_t bytes;
+    unsigned revision; /* of what its status says */
+    char client[KD_CLIENT]; /* "": nobody knows any more */
+    bool listed;
+    struct kd_job_glance glance;
+    struct kd_job_watcher *watchers;
+    struct kd_job *link;
+};
+
+struct kd_jobs {
+    struct kd_jobs_params params;
+    struct kd_job_store *store;
+    bool temporary; /* the store is opened when there is something to keep */
+    pthread_mutex_t lock;
+    struct kd_job *first; /* oldest first */
+    struct kd_job *gone;  /* whose files are to be removed */
+    struct kd_job_frame *rendering;
+    unsigned behind;
+    uint64_t bytes;
+    uint64_t frames; /* finished here, of all */
+    bool closed;
+};
+
+/* All with all->lock held where nothing else is said. */
+
+double kd_job_now_s(void); /* since 1970 */
+
+/* Being rendered, or waiting for it. */
+static inline bool kd_job_is_active(const struct kd_job *job) { return job->listed && job->record.state == KD_JOB_ACTIVE; }
+void kd_job_write(struct kd_job *job); /* its record, to disk */
+void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
+/* Something has run out that may be there again later: its next frame waits, each time for longer. */
+void kd_job_delay(struct kd_job *job, const char *why);
+/* Takes the job off the list, whose reference is then the caller's; its files go with the last one. */
+void kd_job_unlist(struct kd_job *job);
+void kd_job_wake(struct kd_job *job, double now); /* those whose wait is over */
+
+/* Remove files of jobs that are gone, at most so many. Unlocked, on one thread. */
+void kd_jobs_bury(struct kd_jobs *all, unsigned files);
+
+/* run.c: hand the next frame to the render queue if it is time for one. */
+void kd_jobs_pump(struct kd_jobs *all);
+/* Of a frame, by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
+struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
+extern const struct kd_glance kd_job_glance;
+/* The frame of this job that is being rendered, if there is one, is wanted no more; job NULL: of any. */
+void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
+
+#endif

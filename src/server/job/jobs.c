@@ -1,0 +1,432 @@
+#include "server/job/internal.h"
+
+#include "base/log.h"
+#include "base/clock.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define COUNTS_MS 20. /* that who only wants to know may wait for the lock */
+
+double kd_job_now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Under the lock too: a few times a job, some milliseconds each. */
+void kd_job_write(struct kd_job *job)
+{
+    struct kd_error error;
+    if (job->listed && kd_job_store_update(job->all->store, &job->record, &error))
+        kd_log(KD_LOG_ERROR, "job %.4s...: %s", job->record.id, error.message);
+}
+
+/* Their places have changed. */
+static void move_up(struct kd_jobs *all)
+{
+    for (struct kd_job *job = all->first; job; job = job->link)
+        job->revision++;
+}
+
+void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
+{
+    job->record.state = state;
+    job->record.ended = kd_job_now_s();
+    job->ended_ms = kd_clock_ms();
+    *job->delayed = 0;
+    snprintf(job->record.error, sizeof job->record.error, "%s", why);
+    move_up(job->all);
+    kd_job_write(job);
+    kd_log(state == KD_JOB_DONE ? KD_LOG_INFO : KD_LOG_WARN, "job %.4s... %s%s", job->record.id,
+           state == KD_JOB_DONE ? "is done" : "has failed: ", why);
+}
+
+#define DELAY_MS 1e3 /* once; then twice as long each time, to ... */
+#define DELAY_MAX_MS 60e3
+
+void kd_job_delay(struct kd_job *job, const char *why)
+{
+    job->delay_ms = job->delay_ms > 0 ? fmin(2 * job->delay_ms, DELAY_MAX_MS) : DELAY_MS;
+    job->due_ms = kd_clock_ms() + job->delay_ms;
+    job->fraction = 0;
+    job->revision++;
+    snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
+    kd_log(KD_LOG_WARN, "job %.4s... waits for %.0f s: %s", job->record.id, 1e-3 * job->delay_ms, why);
+}
+
+static void finish(struct kd_job *job)
+{
+    kd_job_spec_finish(&job->spec);
+    kd_buffer_finish(&job->glance.png);
+    free(job->have);
+    free(job);
+}
+
+static void let_go(struct kd_job *job)
+{
+    if (--job->references)
+        return;
+    job->link = job->all->gone;
+    job->all->gone = job;
+}
+
+/* Unlocked, on one thread. */
+void kd_jobs_bury(struct kd_jobs *all, unsigned files)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_job *job = all->gone;
+    pthread_mutex_unlock(&all->lock);
+    if (!job || !kd_job_store_remove(all->store, job->record.id, files))
+        return;
+    pthread_mutex_lock(&all->lock);
+    struct kd_job **link = &all->gone; /* others may have come before it */
+    while (*link != job)
+        link = &(*link)->link;
+    *link = job->link;
+    all->bytes -= job->bytes;
+    pthread_mutex_unlock(&all->lock);
+    finish(job);
+}
+
+static void append(struct kd_jobs *all, struct kd_job *job)
+{
+    struct kd_job **link = &all->first;
+    while (*link)
+        link = &(*link)->link;
+    *link = job;
+    job->listed = true;
+}
+
+void kd_job_unlist(struct kd_job *job)
+{
+    struct kd_job **link = &job->all->first;
+    while (*link != job)
+        link = &(*link)->link;
+    *link = job->link;
+    job->listed = false;
+    job->revision++;
+    move_up(job->all);
+    kd_job_store_forget(job->all->store, job->record.id);
+    kd_jobs_drop_frame(job->all, job);
+    kd_job_wake(job, kd_clock_ms());
+}
+
+/* Unlocked from here on. */
+
+static struct kd_job *create(struct kd_jobs *all, struct kd_job_spec *spec)
+{
+    struct kd_job *job = calloc(1, sizeof *job);
+    unsigned char *have = calloc(spec->frames ? spec->frames : 1, 1);
+    if (!job || !have) {
+        free(job);
+        free(have);
+        return NULL;
+    }
+    job->all = all;
+    job->references = 1; /* the list's */
+    job->have = have;
+    job->spec = *spec;
+    job->frames = spec->frames;
+    job->curve = spec->curve;
+    *spec = (struct kd_job_spec) { 0 };
+    return job;
+}
+
+static void find_frames(struct kd_job *job)
+{
+    for (unsigned i = 0; i < job->frames; i++) {
+        uint64_t size = kd_job_store_size(job->all->store, job->record.id, i);
+        job->have[i] = size > 0;
+        job->finished += size > 0;
+        job->bytes += size;
+    }
+    job->all->bytes += job->bytes;
+}
+
+/* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to fetch what is done. */
+static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
+{
+    double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
+    return 1e3 * fmin(fmax(s, 0), most);
+}
+
+/* It may be what has ended the servers, so others go first (kd_job_store_load), and it waits. It is never given up for that. */
+static void wait_after_strikes(struct kd_job *job)
+{
+    unsigned n = job->record.attempts;
+    if (n < KD_JOB_ATTEMPTS)
+        return;
+    job->due_ms = kd_clock_ms() + fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
+    snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times before another frame was there", n);
+    kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
+}
+
+/* One that the store knows. */
+static void resume(void *user, const struct kd_job_record *known, struct kd_buffer *request)
+{
+    struct kd_jobs *all = user;
+    struct kd_job_spec spec = { 0 };
+    struct kd_error error = { 0 };
+    char why[sizeof error.message] = "";
+    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, known->preset, &spec, &error);
+    kd_buffer_finish(request);
+    if (status == KD_ENOMEM) {
+        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        return;
+    }
+    if (status)
+        snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
+    if (*why) { /* what is done is there for who reads it, whatever the request says to this version */
+        spec.frames = known->frames;
+        spec.curve = known->curve;
+    }
+    struct kd_job *job = create(all, &spec);
+    if (!job) {
+        kd_job_spec_finish(&spec);
+        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        return;
+    }
+    job->record = *known;
+    if (!job->record.frames) {
+        job->record.frames = job->frames;
+        job->record.curve = job->curve;
+    }
+    find_frames(job);
+    append(all, job);
+    if (job->record.state != KD_JOB_ACTIVE) {
+        job->ended_ms = kd_clock_ms() - age_ms(all, known);
+        return;
+    }
+    wait_after_strikes(job);
+    if (*why) { /* another version can: until then it waits */
+        job->due_ms = INFINITY;
+        snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
+        kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);
+    } else if (job->finished == job->frames)
+        kd_job_end(job, KD_JOB_DONE, "");
+}
+
+enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error)
+{
+    struct kd_jobs *all = calloc(1, sizeof *all);
+    if (!all)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    all->params = *params;
+    all->params.state = NULL;
+    all->temporary = !params->state;
+    pthread_mutex_init(&all->lock, NULL);
+    if (all->temporary)
+        kd_job_store_tidy();
+    enum kd_status status = all->temporary ? KD_OK : kd_job_store_open(params->state, &all->store, error);
+    if (!status && all->store)
+        status = kd_job_store_load(all->store, resume, all, error);
+    if (status) {
+        kd_jobs_destroy(all);
+        return status;
+    }
+    pthread_mutex_lock(&all->lock);
+    kd_jobs_pump(all);
+    pthread_mutex_unlock(&all->lock);
+    *out = all;
+    return KD_OK;
+}
+
+void kd_jobs_destroy(struct kd_jobs *all)
+{
+    if (!all)
+        return;
+    while (all->first) {
+        struct kd_job *job = all->first;
+        all->first = job->link;
+        finish(job);
+    }
+    while (all->gone)
+        kd_jobs_bury(all, UINT_MAX);
+    kd_job_store_close(all->store);
+    pthread_mutex_destroy(&all->lock);
+    free(all);
+}
+
+/* Whether there is room for one more, if need be in the place of the oldest finished one, *out. Locked. */
+static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_job **out, struct kd_error *error)
+{
+    unsigned unfinished = 0, kept = 0, own = 0;
+    *out = NULL;
+    *quota = false;
+    for (struct kd_job *job = all->first; job; job = job->link) {
+        kept++;
+        unfinished += kd_job_is_active(job);
+        own += kd_job_is_active(job) && *client && !strcmp(job->client, client);
+        if (!kd_job_is_active(job) && job->references == 1 && !*out)
+            *out = job;
+    }
+    if (all->closed || unfinished >= all->params.limit)
+        return kd_error_set(error, KD_EBUSY, "%u jobs are unfinished, as many as may", unfinished);
+    if (all->params.client_limit && own >= all->params.client_limit) {
+        *quota = true;
+        return kd_error_set(error, KD_EBUSY, "%u of your jobs are unfinished, as many as one client may have", own);
+    }
+    if (kept >= all->params.kept && !*out)
+        return kd_error_set(error, KD_EBUSY, "%u jobs are kept, as many as may, and all are being read", kept);
+    if (kept < all->params.kept)
+        *out = NULL;
+    return KD_OK;
+}
+
+static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota, struct kd_error *error)
+{
+    struct kd_job *oldest;
+    pthread_mutex_lock(&all->lock);
+    enum kd_status status = admit(all, job->client, quota, &oldest, error);
+    if (!status && !all->store)
+        status = kd_job_store_open(NULL, &all->store, error);
+    if (!status)
+        status = kd_job_store_create(all->store, &job->record, text, length, error);
+    if (!status) {
+        if (oldest) {
+            kd_job_unlist(oldest);
+            let_go(oldest);
+        }
+        append(all, job);
+        job->references++;
+        kd_jobs_pump(all);
+    }
+    pthread_mutex_unlock(&all->lock);
+    return status;
+}
+
+enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
+                            bool *quota, struct kd_job **out, struct kd_error *error)
+{
+    enum kd_status status;
+    struct kd_job *job = create(all, &draft->spec);
+    *quota = false;
+    if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) || !kd_secret_make(job->record.token, sizeof job->record.token)) {
+        status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
+    } else {
+        job->estimate_ms = draft->ms;
+        job->record.created = kd_job_now_s();
+        job->record.frames = job->frames;
+        job->record.curve = job->curve;
+        memcpy(job->record.preset, draft->preset, sizeof job->record.preset);
+        snprintf(job->client, sizeof job->client, "%s", client);
+        status = enter(all, job, text, length, quota, error);
+    }
+    if (!status) {
+        *out = job;
+        return KD_OK;
+    }
+    if (job)
+        finish(job);
+    return status;
+}
+
+struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_job *job = all->first;
+    while (job && strcmp(job->record.id, id))
+        job = job->link;
+    if (job)
+        job->references++;
+    pthread_mutex_unlock(&all->lock);
+    return job;
+}
+
+void kd_job_release(struct kd_job *job)
+{
+    struct kd_jobs *all = job->all;
+    pthread_mutex_lock(&all->lock);
+    let_go(job);
+    pthread_mutex_unlock(&all->lock);
+}
+
+const char *kd_job_id(const struct kd_job *job) { return job->record.id; }
+const char *kd_job_token(const struct kd_job *job) { return job->record.token; }
+
+int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size)
+{
+    pthread_mutex_lock(&job->all->lock);
+    bool there = frame < job->frames && job->have[frame];
+    pthread_mutex_unlock(&job->all->lock);
+    return there ? kd_job_store_get(job->all->store, job->record.id, frame, size) : -1;
+}
+
+void kd_job_delete(struct kd_job *job)
+{
+    struct kd_jobs *all = job->all;
+    pthread_mutex_lock(&all->lock);
+    if (job->listed) {
+        kd_job_unlist(job);
+        let_go(job);
+        kd_jobs_pump(all);
+    }
+    pthread_mutex_unlock(&all->lock);
+}
+
+static bool is_next(const struct kd_job *job)
+{
+    const struct kd_job *other = job->all->first;
+    while (other != job && !kd_job_is_active(other))
+        other = other->link;
+    return other == job;
+}
+
+/* Locked. NAN: it cannot be said. */
+static double remaining_s(const struct kd_job *job)
+{
+    double left = job->frames - job->finished - job->fraction;
+    if (!kd_job_is_active(job) || *job->delayed || !(job->began_ms > 0 || is_next(job)))
+        return NAN;
+    double frame_ms = job->finished_here ? (kd_clock_ms() - job->began_ms) / (job->finished_here + job->fraction)
+                                         : job->estimate_ms / job->frames;
+    return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
+}
+
+double kd_jobs_remaining_s(struct kd_jobs *all)
+{
+    pthread_mutex_lock(&all->lock);
+    const struct kd_job *job = all->first;
+    while (job && !kd_job_is_active(job))
+        job = job->link;
+    double s = job ? remaining_s(job) : 0;
+    pthread_mutex_unlock(&all->lock);
+    return s;
+}
+
+void kd_job_status(struct kd_job *job, struct kd_job_status *out)
+{
+    struct kd_jobs *all = job->all;
+    pthread_mutex_lock(&all->lock);
+    *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .curve = job->curve, .frames = job->frames,
+                                    .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
+                                    .bytes = job->bytes, .remaining_s = remaining_s(job) };
+    out->fraction = job->frames ? fmin((job->finished + (kd_job_is_active(job) ? job->fraction : 0)) / job->frames, 1) : 0;
+    for (const struct kd_job *other = all->first; other && other != job && kd_job_is_active(job); other = other->link)
+        out->place += kd_job_is_active(other);
+    snprintf(out->error, sizeof out->error, "%s", job->record.error);
+    memcpy(out->delayed, job->delayed, sizeof out->delayed);
+    pthread_mutex_unlock(&all->lock);
+}
+
+bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
+{
+    if (!kd_clock_lock(&all->lock, COUNTS_MS))
+        return false;
+    *out = (struct kd_jobs_counts) { .frames = all->frames, .bytes = all->bytes };
+    for (const struct kd_job *job = all->first; job; job = job->link) {
+        out->waiting += kd_job_is_active(job);
+        out->done += job->record.state == KD_JOB_DONE;
+        out->failed += job->record.state == KD_JOB_FAILED;
+    }
+    out->running = out->waiting > 0; /* the oldest */
+    out->waiting -= out->running;
+    pthread_mutex_unlock(&all->lock);
+    return true;
+}

@@ -1,0 +1,114 @@
+/* Jobs: pictures that take longer than anybody wants to hold a connection for, and sequences of them.
+ *
+ * The oldest unfinished job renders, a frame at a time and behind everything that somebody waits for; its frames go to files. Nothing
+ * depends on who asked: jobs end when they are done, fail or are deleted, and go on after a restart if the server has a state folder.
+ * Any thread; the functions on watchers belong to the HTTP thread. */
+#ifndef KD_SERVER_JOB_JOBS_H
+#define KD_SERVER_JOB_JOBS_H
+
+#include "server/job/spec.h"
+#include "server/job/store.h"
+#include "server/render/queue.h"
+#include "server/http/counts.h"
+
+#include <microhttpd.h>
+
+struct kd_jobs;
+struct kd_job;
+
+#define KD_JOB_ATTEMPTS 3 /* ends of the server without a frame after which a job waits before it is tried again: it may be the cause */
+#define KD_JOB_WAIT_MS 30e3 /* then, and twice as long after each further one, ... */
+#define KD_JOB_WAIT_MAX_MS 3600e3
+
+struct kd_jobs_params {
+    struct kd_render_queue *renders;
+    const char *state;          /* a folder, NULL: jobs end with the server */
+    unsigned limit, kept;       /* unfinished jobs; those and finished ones */
+    unsigned client_limit;      /* unfinished jobs of one address; 0: as many as any */
+    unsigned longest_s;         /* a frame may take, by its plan */
+    double longest_job_s;       /* all frames of a job */
+    uint64_t bytes;             /* of the frames of all jobs */
+    double keep_s;              /* that a finished job stays */
+};
+/* With a state folder: goes on with what it holds. params->state need not live on. */
+enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);
+/* After kd_jobs_close, and when the render queue has finished. Accepts NULL. */
+void kd_jobs_destroy(struct kd_jobs *all);
+
+/* A job that is asked for: what kd_job_spec_parse makes of the request, and how far its frames have been looked at. One thread at a
+ * time. */
+struct kd_job_draft {
+    struct kd_job_spec spec;
+    unsigned checked; /* frames; spec.frames: all */
+    double ms;        /* that they take, by their plans */
+    char preset[32];  /* as the spec was parsed with */
+};
+/* Further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
+enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
+/* A checked draft, from whose spec it takes what it needs, to a job, of which the caller holds a reference. text: the request;
+ * client: its address. KD_EBUSY: as many as may, or with *quota as many of this client. */
+enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
+                            bool *quota, struct kd_job **out, struct kd_error *error);
+struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* a reference, or NULL */
+void kd_job_release(struct kd_job *job);
+double kd_jobs_remaining_s(struct kd_jobs *all); /* until there is room for one more, estimated */
+
+const char *kd_job_id(const struct kd_job *job);
+const char *kd_job_token(const struct kd_job *job);
+
+struct kd_job_status {
+    enum kd_job_state state;
+    bool deleted, curve; /* its frames are rows of a light curve (render/output/curve.h) */
+    unsigned frames, finished, place; /* place: jobs before it */
+    double fraction;                  /* of the whole job */
+    double remaining_s;               /* NAN: it waits for others, or is over */
+    double created, ended;            /* seconds since 1970 */
+    uint64_t bytes;
+    char error[480];
+    char delayed[160]; /* why it is not tried at present; "": it is */
+};
+void kd_job_status(struct kd_job *job, struct kd_job_status *out);
+
+struct kd_jobs_counts;
+/* False, and nothing is known, where that takes more than a moment. */
+bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
+
+/* As kd_job_store_get. */
+int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);
+/* What there is to see of a job of pictures, which asks for more of it to come: of the frame under way `png`, drawn down to some row,
+ * else the last frame that is finished. False: nothing yet. */
+struct kd_job_sight {
+    unsigned frame;
+    bool finished;         /* it is in its file: kd_job_frame */
+    uint32_t rows, height; /* of one under way: drawn, of so many */
+};
+bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
+/* Nobody finds it any more; its files go with the last reference. */
+void kd_job_delete(struct kd_job *job);
+
+/* A stream that follows a job. */
+struct kd_job_watcher {
+    struct kd_job *job; /* a reference */
+    struct MHD_Connection *mhd;
+    bool by_frame;      /* waits for the frame `next`, else for any change */
+    unsigned next, revision;
+    double deadline_ms; /* on kd_clock_ms, of waiting; INFINITY: none */
+    bool waiting;       /* suspended */
+    struct kd_job_watcher *previous, *next_watcher;
+};
+void kd_job_watch(struct kd_job_watcher *watcher); /* takes the reference over */
+void kd_job_unwatch(struct kd_job_watcher *watcher);
+enum kd_job_news {
+    KD_JOB_NEWS,  /* what it waits for is there */
+    KD_JOB_LATE,  /* its deadline has passed */
+    KD_JOB_OVER,  /* it is not, and will not be */
+    KD_JOB_LATER, /* the connection has been suspended, and is resumed for one of these */
+};
+enum kd_job_news kd_job_await(struct kd_job_watcher *watcher);
+
+/* Wake who waits; delete what has been kept long enough. One thread, ten times a second. */
+void kd_jobs_sweep(struct kd_jobs *all);
+/* No new jobs or frames; the running frame is dropped, and rendered again after a restart. All who watch are told that it is over. */
+void kd_jobs_close(struct kd_jobs *all);
+
+#endif

@@ -1,0 +1,275 @@
+/* POST /v1/jobs; how far one is, by asking and as events; its end. */
+#include "base/json.h"
+#include "base/clock.h"
+#include "server/job/routes.h"
+#include "server/http/reply.h"
+#include "server/render/scene_source.h"
+#include "server/render/task.h"
+#include "server/job/jobs.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+#define HEARTBEAT_MS 15000.0 /* of an event stream */
+
+struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
+{
+    struct kd_job *job = kd_jobs_find(request->server->jobs, request->rest);
+    if (!job)
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                                    .detail = "there is no such job, or it has been deleted" });
+    return job;
+}
+
+static const char *state_word(const struct kd_job_status *s)
+{
+    if (s->deleted)
+        return "deleted";
+    return s->state == KD_JOB_DONE ? "done" : s->state == KD_JOB_FAILED ? "failed" : s->place || *s->delayed ? "waiting" : "running";
+}
+
+static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s, bool token, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "id", kd_job_id(job));
+    if (token)
+        kd_json_string(&json, "token", kd_job_token(job));
+    kd_json_string(&json, "state", state_word(s));
+    kd_json_string(&json, "output", s->curve ? "light-curve" : "pictures");
+    kd_json_number(&json, "place", s->place);
+    kd_json_number(&json, "frames", s->frames);
+    kd_json_number(&json, "finished", s->finished);
+    kd_json_number(&json, "fraction", s->fraction);
+    kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN: null */
+    kd_json_number(&json, "bytes", (double)s->bytes);
+    kd_json_number(&json, "created", s->created);
+    kd_json_number(&json, "ended", s->ended > 0 ? s->ended : NAN);
+    if (*s->delayed)
+        kd_json_string(&json, "delayed", s->delayed);
+    if (s->state == KD_JOB_FAILED)
+        kd_json_string(&json, "error", s->error);
+    kd_json_end(&json);
+    return kd_json_finish(&json);
+}
+
+static enum MHD_Result answer(struct kd_request *request, struct kd_job *job, bool created)
+{
+    struct kd_buffer json = { 0 };
+    struct kd_job_status state;
+    kd_job_status(job, &state);
+    enum kd_status status = to_json(job, &state, created, &json);
+    if (!status)
+        status = kd_buffer_append(&json, "\n", 1);
+    if (status || !created)
+        return kd_reply_json(request, status, &json, JSON_TYPE);
+    char location[40];
+    snprintf(location, sizeof location, "/v1/jobs/%s", kd_job_id(job));
+    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+    if (response)
+        MHD_add_response_header(response, "Location", location);
+    return kd_reply_send(request, MHD_HTTP_ACCEPTED, response);
+}
+
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool quota)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    double s = kd_jobs_remaining_s(request->server->jobs);
+    if (error->status == KD_EINVAL)
+        problem.type = *error->pointer ? KD_PROBLEM_INVALID_JOB : KD_PROBLEM_MALFORMED_JSON;
+    if (quota)
+        problem.type = KD_PROBLEM_QUOTA;
+    if (error->status == KD_EBUSY)
+        problem.retry_after = s < 3600 ? 1 + (unsigned)s : s >= 3600 ? 3600 : 10;
+    return kd_reply_problem(request, &problem);
+}
+
+/* A job being read and checked. */
+struct draft {
+    struct kd_task task; /* first */
+    struct kd_job_draft draft;
+    bool read, quota;
+    struct kd_job *job; /* a reference */
+};
+
+static void destroy(struct kd_task *task)
+{
+    struct draft *d = (struct draft *)task;
+    kd_job_spec_finish(&d->draft.spec);
+    if (d->job)
+        kd_job_release(d->job);
+    free(d);
+}
+
+static enum kd_turn work(struct kd_task *task, double until_ms)
+{
+    struct draft *d = (struct draft *)task;
+    struct kd_jobs *jobs = task->request->server->jobs;
+    const struct kd_buffer *body = &task->request->body;
+    const char *text = body->data ? (const char *)body->data : "";
+    struct kd_error error = { 0 };
+    enum kd_status status = d->read ? KD_OK : kd_job_spec_parse(text, body->size, d->draft.preset, &d->draft.spec, &error);
+    d->read = true;
+    if (!status)
+        status = kd_jobs_check(jobs, &d->draft, until_ms, &error);
+    if (!status && d->draft.checked < d->draft.spec.frames)
+        return KD_TURN_MORE;
+    if (!status)
+        status = kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &d->quota, &d->job, &error);
+    kd_task_fail(task, status, &error);
+    return KD_TURN_LAST;
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    const struct draft *d = (const struct draft *)request->task;
+    if (d->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (d->task.status)
+        return refuse(request, &d->task.error, d->quota);
+    enum MHD_Result result = answer(request, d->job, true);
+    if (request->status != MHD_HTTP_ACCEPTED) /* nobody has been told of it */
+        kd_job_delete(d->job);
+    return result;
+}
+
+enum MHD_Result kd_handle_jobs(struct kd_request *request)
+{
+    struct kd_turns *workers = request->server->turns;
+    const char *preset = kd_target_value(&request->target, "preset");
+    struct kd_error error = { 0 };
+    enum MHD_Result refused;
+    if (request->task)
+        return deliver(request);
+    if (kd_scene_query_check(&request->target, false, &error))
+        return refuse(request, &error, false);
+    if (!kd_task_admit(request, workers, "jobs", &refused))
+        return refused;
+    struct draft *d = calloc(1, sizeof *d);
+    if (!d)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    kd_task_init(&d->task, request, workers);
+    d->task.work = work;
+    d->task.free = destroy;
+    snprintf(d->draft.preset, sizeof d->draft.preset, "%s", preset ? preset : "");
+    request->task = &d->task;
+    return kd_task_submit(&d->task);
+}
+
+enum MHD_Result kd_handle_job(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_job *job = kd_job_of(request, &result);
+    if (!job)
+        return result;
+    if (strcmp(request->method, "DELETE")) {
+        result = answer(request, job, false);
+    } else if (!kd_secret_equal(kd_job_token(job), kd_token_of(request))) {
+        result = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                                                  .detail = "deleting a job takes its token: Authorization: Bearer TOKEN" });
+    } else {
+        kd_job_delete(job);
+        result = kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    }
+    kd_job_release(job);
+    return result;
+}
+
+struct events {
+    struct kd_job_watcher watcher; /* first */
+    struct kd_buffer text;         /* of one event */
+    size_t at;
+    bool over;
+};
+
+static enum kd_status write_event(struct events *e)
+{
+    struct kd_job_status s;
+    struct kd_buffer json = { 0 };
+    kd_job_status(e->watcher.job, &s);
+    e->over = s.deleted || s.state != KD_JOB_ACTIVE;
+    enum kd_status status = to_json(e->watcher.job, &s, false, &json);
+    if (!status)
+        status = kd_buffer_printf(&e->text, "event: %s\ndata: %s\n\n", e->over ? "end" : "progress", (const char *)json.data);
+    kd_buffer_finish(&json);
+    return status;
+}
+
+static enum kd_status next_event(struct events *e, ssize_t *instead)
+{
+    e->text.size = e->at = 0;
+    if (e->over) {
+        *instead = MHD_CONTENT_READER_END_OF_STREAM;
+        return KD_OK;
+    }
+    switch (kd_job_await(&e->watcher)) {
+    case KD_JOB_NEWS: return write_event(e);
+    case KD_JOB_OVER: *instead = MHD_CONTENT_READER_END_OF_STREAM; return KD_OK; /* the server stops; the job may go on later */
+    case KD_JOB_LATER: *instead = 0; return KD_OK;
+    case KD_JOB_LATE: /* a sign of life, which also finds out who has left without a word */
+        e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
+        return kd_buffer_printf(&e->text, ":\n\n");
+    }
+    return KD_OK;
+}
+
+static ssize_t produce_events(void *cls, uint64_t position, char *to, size_t size)
+{
+    struct events *e = cls;
+    ssize_t instead = 0;
+    (void)position;
+    if (e->at == e->text.size && next_event(e, &instead))
+        return MHD_CONTENT_READER_END_WITH_ERROR;
+    size_t left = e->text.size - e->at, n = left < size ? left : size;
+    if (!n)
+        return instead;
+    memcpy(to, e->text.data + e->at, n);
+    e->at += n;
+    return (ssize_t)n;
+}
+
+static void release_events(void *cls)
+{
+    struct events *e = cls;
+    kd_job_unwatch(&e->watcher);
+    kd_buffer_finish(&e->text);
+    free(e);
+}
+
+enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_ContentReaderCallback produce, void *cls,
+                              MHD_ContentReaderFreeCallback release)
+{
+    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, cls, release);
+    if (!response) {
+        release(cls);
+        return kd_reply_no_memory(request);
+    }
+    MHD_add_response_header(response, "Content-Type", type);
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
+    enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
+    /* It may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
+    return result;
+}
+
+enum MHD_Result kd_handle_job_events(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_job *job = kd_job_of(request, &result);
+    if (!job)
+        return result;
+    struct events *e = request->head ? NULL : calloc(1, sizeof *e);
+    if (!e) {
+        kd_job_release(job);
+        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(request->route->answer))
+                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    e->watcher = (struct kd_job_watcher) { .job = job, .mhd = request->mhd, .revision = UINT_MAX,
+                                           .deadline_ms = kd_clock_ms() + HEARTBEAT_MS };
+    kd_job_watch(&e->watcher);
+    return kd_job_stream(request, request->route->answer, produce_events, e, release_events);
+}

@@ -1,0 +1,240 @@
+/* The frames of jobs on their way through the render queue. */
+#include "server/job/internal.h"
+
+#include "render/output/curve.h"
+#include "base/clock.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define BEHIND_MAX 2      /* frames rendered and not yet in their files: one is rendered while one is encoded */
+#define COMPRESSION 6     /* files that stay: smaller, and nobody waits */
+struct kd_job_frame {
+    struct kd_render_job render; /* first: the queue's pointer is ours */
+    struct kd_job *job;
+    unsigned number;
+    bool rendered;
+};
+
+static void rendered(struct kd_render_job *render);
+static void done(struct kd_render_job *render);
+static void progress(struct kd_render_job *render, double fraction);
+
+static enum kd_status plan_picture(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *plan,
+                                   struct kd_error *error)
+{
+    return kd_plan_make(scene, capacity, plan, error);
+}
+
+static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number,
+                                 const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+{
+    struct kd_error inner = { 0 };
+    char pointer[sizeof inner.pointer];
+    enum kd_status status = kd_job_spec_scene(spec, number, scene, error);
+    if (status)
+        return status;
+    status = (spec->curve ? kd_curve_plan : plan_picture)(scene, capacity, plan, &inner);
+    if (!status && plan->estimate_ms > 1e3 * all->params.longest_s)
+        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %u s a frame may take",
+                              plan->estimate_ms * 1e-3, all->params.longest_s);
+    if (!status)
+        return KD_OK;
+    if (spec->listed)
+        snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", number, inner.pointer);
+    else
+        snprintf(pointer, sizeof pointer, "%s%.100s", spec->n_keys > 1 ? "/keyframes" : "/scene", spec->n_keys > 1 ? "" : inner.pointer);
+    kd_error_field(error, pointer, "frame %u: %.440s", number, inner.message);
+    return error->status = status;
+}
+
+/* Of a light curve: a row of it instead of a picture. */
+static enum kd_status encode_row(struct kd_render_job *render, unsigned encoder)
+{
+    const struct kd_job_frame *frame = (const struct kd_job_frame *)render;
+    const struct kd_curve_row row = kd_curve_row_of(frame->number, &render->scene, &render->frame);
+    (void)encoder;
+    if (kd_buffer_append(&render->png, &row, sizeof row))
+        return kd_error_set(&render->error, KD_ENOMEM, "out of memory for a row");
+    return KD_OK;
+}
+
+/* A frame has failed: for good, or until there is memory and room on the disk again. */
+static void give_up(struct kd_job *job, const struct kd_error *error)
+{
+    if (error->status == KD_ENOMEM || error->status == KD_EFULL)
+        kd_job_delay(job, error->message);
+    else
+        kd_job_end(job, KD_JOB_FAILED, error->message);
+}
+
+/* Hand over the next frame of a job. False: there was none. */
+static bool begin(struct kd_job *job)
+{
+    struct kd_jobs *all = job->all;
+    struct kd_capacity capacity;
+    struct kd_error error = { 0 };
+    while (job->next < job->frames && job->have[job->next])
+        job->next++;
+    if (job->next == job->frames)
+        return false;
+    struct kd_job_frame *frame = calloc(1, sizeof *frame);
+    kd_render_queue_capacity(all->params.renders, &capacity);
+    enum kd_status status = frame ? plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)
+                                  : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
+    if (status) {
+        give_up(job, &error);
+        free(frame);
+        return false;
+    }
+    *job->delayed = 0;
+    if (!(job->began_ms > 0)) {
+        job->began_ms = kd_clock_ms();
+        job->record.attempts++;
+        job->struck = true;
+        kd_job_write(job);
+    }
+    frame->render.claim.class = KD_CLASS_JOB;
+    memcpy(frame->render.claim.client, job->client, sizeof job->client);
+    frame->render.compression = COMPRESSION;
+    frame->render.encode = job->spec.curve ? encode_row : NULL;
+    frame->render.socket = -1;
+    frame->render.progress = progress;
+    frame->render.glance = job->spec.curve ? NULL : &kd_job_glance;
+    frame->render.rendered = rendered;
+    frame->render.done = done;
+    frame->job = job;
+    frame->number = job->next++;
+    job->references++;
+    job->fraction = 0;
+    job->revision++;
+    all->rendering = frame;
+    kd_render_queue_push(all->params.renders, &frame->render);
+    return true;
+}
+
+struct kd_job *kd_job_of_frame(const void *render, unsigned *number)
+{
+    const struct kd_job_frame *frame = render;
+    if (number)
+        *number = frame->number;
+    return frame->job;
+}
+
+void kd_jobs_pump(struct kd_jobs *all)
+{
+    if (all->closed || all->rendering || all->behind >= BEHIND_MAX || kd_render_queue_lost(all->params.renders, NULL))
+        return;
+    double now = kd_clock_ms();
+    for (struct kd_job *job = all->first; job; job = job->link)
+        if (kd_job_is_active(job) && now >= job->due_ms && begin(job))
+            return;
+}
+
+void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
+{
+    if (all->rendering && (!job || all->rendering->job == job))
+        atomic_store(&all->rendering->render.drop, true);
+}
+
+static void finished(struct kd_job *job, unsigned number, uint64_t size)
+{
+    if (job->have[number]) /* begun once more after the one before it had failed, while it was being encoded */
+        return;
+    job->have[number] = 1;
+    if (job->glance.frame == number)
+        kd_buffer_finish(&job->glance.png);
+    job->finished++;
+    job->finished_here++;
+    job->all->frames++;
+    job->bytes += size;
+    job->all->bytes += size;
+    job->revision++;
+    job->delay_ms = 0;
+    if (!kd_job_is_active(job))
+        return;
+    job->struck = false;
+    if (job->record.attempts) {
+        job->record.attempts = 0;
+        kd_job_write(job);
+    }
+    if (job->finished == job->frames)
+        kd_job_end(job, KD_JOB_DONE, "");
+    else if (job->all->bytes > job->all->params.bytes)
+        kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs are more bytes than this server keeps");
+}
+
+/* The three below are called by the render queue, unlocked. */
+
+static void progress(struct kd_render_job *render, double fraction)
+{
+    struct kd_job_frame *frame = (struct kd_job_frame *)render;
+    pthread_mutex_lock(&frame->job->all->lock);
+    frame->job->fraction = fraction;
+    frame->job->revision++;
+    pthread_mutex_unlock(&frame->job->all->lock);
+}
+
+static void rendered(struct kd_render_job *render)
+{
+    struct kd_job_frame *frame = (struct kd_job_frame *)render;
+    struct kd_jobs *all = frame->job->all;
+    pthread_mutex_lock(&all->lock);
+    frame->rendered = true;
+    all->rendering = NULL;
+    all->behind++;
+    frame->job->fraction = 0; /* of the next */
+    kd_jobs_pump(all);
+    pthread_mutex_unlock(&all->lock);
+}
+
+static void done(struct kd_render_job *render)
+{
+    struct kd_job_frame *frame = (struct kd_job_frame *)render;
+    struct kd_job *job = frame->job;
+    struct kd_jobs *all = job->all;
+    enum kd_status status = render->status;
+    bool stored = !status;
+    if (stored)
+        status = kd_job_store_put(all->store, job->record.id, frame->number, &render->png, &render->error);
+    if (stored && status)
+        render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
+    pthread_mutex_lock(&all->lock);
+    if (frame->rendered)
+        all->behind--;
+    else
+        all->rendering = NULL;
+    if (!status)
+        finished(job, frame->number, render->png.size);
+    else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
+        job->next = frame->number < job->next ? frame->number : job->next;
+        give_up(job, &render->error);
+    }
+    kd_jobs_pump(all);
+    pthread_mutex_unlock(&all->lock);
+    kd_job_release(job);
+    kd_buffer_finish(&render->png);
+    kd_frame_finish(&render->frame);
+    free(frame);
+}
+
+enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error)
+{
+    const struct kd_job_spec *spec = &draft->spec;
+    struct kd_capacity capacity;
+    struct kd_scene scene;
+    struct kd_plan plan;
+    kd_render_queue_capacity(all->params.renders, &capacity);
+    do {
+        enum kd_status status = plan_frame(all, spec, draft->checked, &capacity, &scene, &plan, error);
+        if (status)
+            return status;
+        draft->ms += plan.estimate_ms;
+        draft->checked++;
+    } while (draft->checked < spec->frames && kd_clock_ms() < until_ms);
+    if (draft->checked == spec->frames && draft->ms > 1e3 * all->params.longest_job_s)
+        return kd_error_set(error, KD_ETOOBIG, "the %u frames would take about %.3g s, more than the %.0f s a job may take", spec->frames,
+                            draft->ms * 1e-3, all->params.longest_job_s);
+    return KD_OK;
+}

@@ -1,0 +1,458 @@
+#include "server/job/store.h"
+
+#include "base/json.h"
+#include "base/log.h"
+#include "base/read.h"
+#include "base/replace.h"
+#include "server/job/folder.h"
+#include "server/job/spec.h"
+
+#include <cjson/cJSON.h>
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define RECORD_MAX ((size_t)64 << 10)  /* bytes of job.json: ours have some 500 */
+#define TEMPORARY "kerrd-jobs-"
+
+struct kd_job_store {
+    char *parent, *name; /* of a temporary one, in TMPDIR */
+    int folder, lock;
+};
+
+static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
+
+/* For a client: no path. The log has it. What may go away by itself is no KD_EIO: KD_EFULL, KD_ENOMEM. */
+static enum kd_status failed(struct kd_error *error, const char *what)
+{
+    int cause = errno;
+    bool full = cause == ENOSPC || cause == EDQUOT, scarce = cause == EMFILE || cause == ENFILE || cause == ENOMEM;
+    return kd_error_set(error, full ? KD_EFULL : scarce ? KD_ENOMEM : KD_EIO, "%s: %s", what, strerror(cause));
+}
+
+static enum kd_status failed_at(struct kd_error *error, const char *what, const char *where)
+{
+    return kd_error_set(error, KD_EIO, "%s in %.300s: %s", what, where, strerror(errno));
+}
+
+/* The lock file of a folder, locked; -1 with errno, EWOULDBLOCK: somebody else has it. */
+static int take_lock(int folder, int flags)
+{
+    int fd = openat(folder, "lock", O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | flags, 0600);
+    struct stat about;
+    if (fd < 0)
+        return -1;
+    errno = EINVAL;
+    if (!fstat(fd, &about) && S_ISREG(about.st_mode) && !flock(fd, LOCK_EX | LOCK_NB) && !fstat(fd, &about)) {
+        if (about.st_nlink)
+            return fd;
+        errno = EWOULDBLOCK; /* somebody has taken it away between the two */
+    }
+    int cause = errno;
+    close(fd);
+    errno = cause;
+    return -1;
+}
+
+static const char *temporary_parent(void)
+{
+    const char *parent = getenv("TMPDIR");
+    return parent && *parent ? parent : "/tmp";
+}
+
+void kd_job_store_tidy(void)
+{
+    int parent = open(temporary_parent(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *d = parent < 0 ? NULL : fdopendir(parent);
+    struct stat about;
+    for (struct dirent *entry; d && (entry = readdir(d));) {
+        if (strncmp(entry->d_name, TEMPORARY, strlen(TEMPORARY)) || strlen(entry->d_name) != strlen(TEMPORARY "XXXXXX"))
+            continue;
+        int folder = kd_job_folder_open(parent, entry->d_name);
+        int lock = folder >= 0 && !fstat(folder, &about) && about.st_uid == geteuid() ? take_lock(folder, 0) : -1;
+        if (lock >= 0) { /* nobody has: whoever made it is dead */
+            kd_job_folder_empty(folder);
+            if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
+                kd_log(KD_LOG_INFO, "%s, which a dead server has left, is removed", entry->d_name);
+            close(lock);
+        }
+        if (folder >= 0)
+            close(folder);
+    }
+    if (d)
+        closedir(d);
+    else if (parent >= 0)
+        close(parent);
+}
+
+static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error *error)
+{
+    const char *parent = temporary_parent();
+    char path[PATH_MAX];
+    for (int attempt = 0; attempt < 10; attempt++) {
+        if (snprintf(path, sizeof path, "%s/" TEMPORARY "XXXXXX", parent) >= (int)sizeof path)
+            return kd_error_set(error, KD_EINVAL, "the path in TMPDIR is too long");
+        if (!mkdtemp(path))
+            return failed(error, "a folder for jobs cannot be made");
+        store->folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        store->lock = store->folder < 0 ? -1 : take_lock(store->folder, O_CREAT);
+        if (store->lock >= 0)
+            break;
+        int cause = errno;
+        if (store->folder >= 0) {
+            unlinkat(store->folder, "lock", 0);
+            close(store->folder);
+        }
+        rmdir(path);
+        store->folder = -1;
+        errno = cause;
+        if (cause != EWOULDBLOCK && cause != ENOENT) /* else another start has just tidied it away */
+            return failed(error, "a folder for jobs cannot be made");
+    }
+    store->parent = strdup(parent);
+    store->name = strdup(strrchr(path, '/') + 1);
+    if (store->lock < 0 || !store->parent || !store->name)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a folder of jobs");
+    return KD_OK;
+}
+
+/* Two servers that went on with the same jobs would do everything twice. The path may go through links; what is in the folder not. */
+static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
+{
+    if (mkdir(state, 0700) && errno != EEXIST)
+        return failed_at(error, "jobs cannot be kept", state);
+    int parent = open(state, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (parent >= 0 && (!mkdirat(parent, "jobs", 0700) || errno == EEXIST))
+        store->folder = kd_job_folder_open(parent, "jobs");
+    int cause = errno;
+    if (parent >= 0)
+        close(parent);
+    errno = cause;
+    if (store->folder < 0)
+        return failed_at(error, "jobs cannot be kept", state);
+    store->lock = take_lock(store->folder, O_CREAT);
+    if (store->lock >= 0)
+        return KD_OK;
+    return errno == EWOULDBLOCK ? kd_error_set(error, KD_EIO, "another server keeps its jobs in %.300s", state)
+                                : failed_at(error, "jobs cannot be kept", state);
+}
+
+enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error)
+{
+    struct kd_job_store *store = calloc(1, sizeof *store);
+    if (!store)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    store->lock = store->folder = -1;
+    enum kd_status status = state ? open_state(store, state, error) : open_temporary(store, error);
+    if (status)
+        kd_job_store_close(store);
+    else
+        *out = store;
+    return status;
+}
+
+void kd_job_store_forget(struct kd_job_store *store, const char *id)
+{
+    int folder = kd_job_folder_open(store->folder, id);
+    if (folder < 0)
+        return;
+    unlinkat(folder, "request.json", 0);
+    fsync(folder);
+    close(folder);
+}
+
+bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned most)
+{
+    return kd_job_folder_remove(store->folder, id, most);
+}
+
+static void remove_temporary(struct kd_job_store *store)
+{
+    int parent = open(store->parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    kd_job_folder_empty(store->folder);
+    if (parent >= 0) {
+        unlinkat(parent, store->name, AT_REMOVEDIR);
+        close(parent);
+    }
+}
+
+void kd_job_store_close(struct kd_job_store *store)
+{
+    if (!store)
+        return;
+    if (store->name && store->parent && store->folder >= 0)
+        remove_temporary(store);
+    if (store->folder >= 0)
+        close(store->folder);
+    if (store->lock >= 0)
+        close(store->lock);
+    free(store->parent);
+    free(store->name);
+    free(store);
+}
+
+static bool copy_text(const cJSON *o, const char *name, char *out, size_t size)
+{
+    const char *text = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, name));
+    return text && (size_t)snprintf(out, size, "%s", text) < size;
+}
+
+static double number(const cJSON *o, const char *name)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(o, name);
+    return cJSON_IsNumber(item) ? item->valuedouble : 0;
+}
+
+static bool read_state(const cJSON *o, enum kd_job_state *out)
+{
+    char state[10];
+    if (!copy_text(o, "state", state, sizeof state))
+        return false;
+    for (int i = 0; i < (int)(sizeof states / sizeof *states); i++)
+        if (!strcmp(state, states[i])) {
+            *out = (enum kd_job_state)i;
+            return true;
+        }
+    return false;
+}
+
+static bool read_record(const cJSON *o, const char *id, struct kd_job_record *out)
+{
+    *out = (struct kd_job_record) { .created = number(o, "created"), .ended = number(o, "ended") };
+    if (number(o, "format") != 1 || !copy_text(o, "id", out->id, sizeof out->id) || strcmp(out->id, id) ||
+        !copy_text(o, "token", out->token, sizeof out->token) || strlen(out->token) != KD_SECRET_TOKEN - 1 ||
+        !copy_text(o, "error", out->error, sizeof out->error) || !read_state(o, &out->state))
+        return false;
+    if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* jobs of versions without have none */
+        *out->preset = 0;
+    double attempts = number(o, "attempts"), frames = number(o, "frames");
+    out->attempts = attempts > 0 && attempts < 1e6 ? (unsigned)attempts : 0;
+    out->frames = frames > 0 && frames <= KD_JOB_FRAMES_MAX ? (unsigned)frames : 0;
+    out->curve = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve"));
+    return true;
+}
+
+struct found {
+    struct kd_job_record record;
+    struct kd_buffer request;
+};
+
+enum fate { KEPT, GONE, ASIDE };
+
+/* A document of ours that this version can read? why: else. */
+static bool parse_record(const struct kd_buffer *text, const char *id, struct kd_job_record *out, const char **why)
+{
+    cJSON *o = cJSON_ParseWithLength((const char *)text->data, text->size);
+    bool good = o && read_record(o, id, out);
+    if (!good)
+        *why = o && number(o, "format") > 0 && number(o, "format") != 1 ? "its job.json is of another version of kerrd"
+                                                                       : "its job.json is damaged";
+    cJSON_Delete(o);
+    return good;
+}
+
+/* What cannot be read may be readable tomorrow, or by another version: only a job that has been deleted is GONE. */
+static enum fate look(int folder, const char *id, struct found *out, const char **why)
+{
+    struct kd_buffer text = { 0 };
+    *out = (struct found) { 0 };
+    if (!kd_read_file(folder, "job.json", O_NOFOLLOW, RECORD_MAX, &text)) {
+        *why = errno == EINVAL ? "its job.json is no file" : strerror(errno);
+        kd_buffer_finish(&text);
+        return ASIDE;
+    }
+    bool known = parse_record(&text, id, &out->record, why);
+    kd_buffer_finish(&text);
+    if (!known)
+        return ASIDE;
+    if (kd_read_file(folder, "request.json", O_NOFOLLOW, KD_JOB_BODY_MAX, &out->request))
+        return KEPT;
+    int cause = errno;
+    kd_buffer_finish(&out->request);
+    *why = cause == EINVAL ? "its request.json is no file" : strerror(cause);
+    return cause == ENOENT ? GONE : ASIDE;
+}
+
+static bool load(struct kd_job_store *store, const char *name, struct found *out)
+{
+    const char *why = "";
+    if (kd_job_folder_is_new(name)) { /* killed before it was accepted */
+        kd_job_folder_remove(store->folder, name, UINT_MAX);
+        return false;
+    }
+    if (!kd_job_folder_is_id(name))
+        return false;
+    int folder = kd_job_folder_open(store->folder, name);
+    enum fate fate = ASIDE;
+    if (folder < 0)
+        why = strerror(errno);
+    else
+        fate = look(folder, name, out, &why);
+    if (folder >= 0)
+        close(folder);
+    if (fate == GONE)
+        kd_job_folder_remove(store->folder, name, UINT_MAX);
+    if (fate == ASIDE)
+        kd_log(KD_LOG_WARN, "job %.4s... is set aside and left as it is: %s", name, why);
+    return fate == KEPT;
+}
+
+/* Those with which servers have ended go last. */
+static int by_age(const void *a, const void *b)
+{
+    const struct kd_job_record *x = &((const struct found *)a)->record, *y = &((const struct found *)b)->record;
+    if (x->attempts != y->attempts)
+        return x->attempts < y->attempts ? -1 : 1;
+    return x->created < y->created ? -1 : x->created > y->created;
+}
+
+static enum kd_status find_all(struct kd_job_store *store, DIR *d, struct found **all, size_t *n, struct kd_error *error)
+{
+    struct found one;
+    for (struct dirent *entry; (entry = readdir(d));) {
+        if (!load(store, entry->d_name, &one))
+            continue;
+        struct found *more = realloc(*all, (*n + 1) * sizeof **all);
+        if (!more) {
+            kd_buffer_finish(&one.request);
+            return kd_error_set(error, KD_ENOMEM, "out of memory for the jobs of the state folder");
+        }
+        *all = more;
+        more[(*n)++] = one;
+    }
+    return KD_OK;
+}
+
+enum kd_status kd_job_store_load(struct kd_job_store *store,
+                                 void (*found)(void *user, const struct kd_job_record *record, struct kd_buffer *request), void *user,
+                                 struct kd_error *error)
+{
+    struct found *all = NULL;
+    size_t n = 0;
+    int fd = openat(store->folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *d = fd < 0 ? NULL : fdopendir(fd);
+    if (!d) {
+        enum kd_status status = failed(error, "the jobs of the state folder cannot be read");
+        if (fd >= 0)
+            close(fd);
+        return status;
+    }
+    enum kd_status status = find_all(store, d, &all, &n, error);
+    closedir(d);
+    if (n)
+        qsort(all, n, sizeof *all, by_age);
+    for (size_t i = 0; i < n; i++)
+        if (status)
+            kd_buffer_finish(&all[i].request);
+        else
+            found(user, &all[i].record, &all[i].request);
+    free(all);
+    return status;
+}
+
+static enum kd_status record_json(const struct kd_job_record *record, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_number(&json, "format", 1);
+    kd_json_string(&json, "id", record->id);
+    kd_json_string(&json, "token", record->token);
+    kd_json_string(&json, "state", states[record->state]);
+    kd_json_number(&json, "created", record->created);
+    kd_json_number(&json, "ended", record->ended);
+    kd_json_number(&json, "attempts", record->attempts);
+    kd_json_number(&json, "frames", record->frames);
+    kd_json_bool(&json, "curve", record->curve);
+    kd_json_string(&json, "preset", record->preset);
+    kd_json_string(&json, "error", record->error);
+    kd_json_end(&json);
+    return kd_json_finish(&json);
+}
+
+static enum kd_status write_record(int folder, const struct kd_job_record *record, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = record_json(record, &text) ? kd_error_set(error, KD_ENOMEM, "out of memory for a job") : KD_OK;
+    if (!status && !kd_replace_file_at(folder, "job.json", text.data, text.size))
+        status = failed(error, "the job cannot be kept");
+    kd_buffer_finish(&text);
+    return status;
+}
+
+enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record, struct kd_error *error)
+{
+    int folder = kd_job_folder_open(store->folder, record->id);
+    if (folder < 0)
+        return failed(error, "the job cannot be kept");
+    enum kd_status status = write_record(folder, record, error);
+    close(folder);
+    return status;
+}
+
+/* Under another name until both documents are there: a job is accepted or has never been. */
+enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request, size_t size,
+                                   struct kd_error *error)
+{
+    char name[KD_JOB_NAME];
+    snprintf(name, sizeof name, "%s.new", record->id);
+    int folder = mkdirat(store->folder, name, 0700) ? -1 : kd_job_folder_open(store->folder, name);
+    enum kd_status status = folder < 0 ? failed(error, "the job cannot be kept") : write_record(folder, record, error);
+    if (!status && !kd_replace_file_at(folder, "request.json", request, size))
+        status = failed(error, "the job cannot be kept");
+    if (folder >= 0)
+        close(folder);
+    if (!status && (renameat(store->folder, name, store->folder, record->id) || fsync(store->folder)))
+        status = failed(error, "the job cannot be kept");
+    if (status) {
+        kd_job_folder_remove(store->folder, name, UINT_MAX);
+        kd_job_folder_remove(store->folder, record->id, UINT_MAX);
+    }
+    return status;
+}
+
+enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsigned frame, const struct kd_buffer *png,
+                                struct kd_error *error)
+{
+    char name[20];
+    kd_job_folder_frame(frame, name);
+    int folder = kd_job_folder_open(store->folder, id);
+    bool good = folder >= 0 && kd_replace_file_at(folder, name, png->data, png->size);
+    enum kd_status status = good ? KD_OK : failed(error, "a frame cannot be kept");
+    if (folder >= 0)
+        close(folder);
+    return status;
+}
+
+int kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, uint64_t *size)
+{
+    char name[20];
+    struct stat about;
+    kd_job_folder_frame(frame, name);
+    int folder = kd_job_folder_open(store->folder, id);
+    int fd = folder < 0 ? -1 : openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (folder >= 0)
+        close(folder);
+    if (fd >= 0 && (fstat(fd, &about) || !S_ISREG(about.st_mode))) {
+        close(fd);
+        return -1;
+    }
+    if (fd >= 0)
+        *size = (uint64_t)about.st_size;
+    return fd;
+}
+
+uint64_t kd_job_store_size(const struct kd_job_store *store, const char *id, unsigned frame)
+{
+    uint64_t size = 0;
+    int fd = kd_job_store_get(store, id, frame, &size);
+    if (fd >= 0)
+        close(fd);
+    return size;
+}

@@ -1,0 +1,114 @@
+/* Who follows a job, and what happens to jobs as time goes by. */
+#include "base/log.h"
+#include "base/clock.h"
+#include "server/job/internal.h"
+
+#define FILES_A_SWEEP 200 /* removed: some milliseconds, so that the sweeper is not late for others */
+
+void kd_job_watch(struct kd_job_watcher *watcher)
+{
+    struct kd_job *job = watcher->job;
+    pthread_mutex_lock(&job->all->lock);
+    watcher->next_watcher = job->watchers;
+    if (job->watchers)
+        job->watchers->previous = watcher;
+    job->watchers = watcher;
+    pthread_mutex_unlock(&job->all->lock);
+}
+
+void kd_job_unwatch(struct kd_job_watcher *watcher)
+{
+    struct kd_job *job = watcher->job;
+    pthread_mutex_lock(&job->all->lock);
+    if (watcher->previous)
+        watcher->previous->next_watcher = watcher->next_watcher;
+    else
+        job->watchers = watcher->next_watcher;
+    if (watcher->next_watcher)
+        watcher->next_watcher->previous = watcher->previous;
+    pthread_mutex_unlock(&job->all->lock);
+    kd_job_release(job);
+}
+
+/* Locked. */
+static enum kd_job_news news(const struct kd_job_watcher *w, double now)
+{
+    const struct kd_job *job = w->job;
+    if (w->by_frame ? w->next < job->frames && job->have[w->next] : w->revision != job->revision)
+        return KD_JOB_NEWS;
+    if (!kd_job_is_active(job) || job->all->closed || w->next >= job->frames)
+        return KD_JOB_OVER;
+    return now > w->deadline_ms ? KD_JOB_LATE : KD_JOB_LATER;
+}
+
+enum kd_job_news kd_job_await(struct kd_job_watcher *w)
+{
+    pthread_mutex_lock(&w->job->all->lock);
+    enum kd_job_news what = news(w, kd_clock_ms());
+    w->revision = w->job->revision;
+    if (what == KD_JOB_LATER) {
+        w->waiting = true;
+        MHD_suspend_connection(w->mhd); /* before anybody can wake it: that takes the lock */
+    }
+    pthread_mutex_unlock(&w->job->all->lock);
+    return what;
+}
+
+void kd_job_wake(struct kd_job *job, double now)
+{
+    for (struct kd_job_watcher *w = job->watchers; w; w = w->next_watcher)
+        if (w->waiting && news(w, now) != KD_JOB_LATER) {
+            w->waiting = false;
+            MHD_resume_connection(w->mhd);
+        }
+}
+
+/* Finished jobs that nobody reads and that have been kept long enough, off the list: their references are the caller's. Locked. */
+static struct kd_job *take_old(struct kd_jobs *all)
+{
+    double now = kd_clock_ms();
+    for (struct kd_job *job = all->first; job; job = job->link)
+        if (!kd_job_is_active(job) && job->references == 1 && now - job->ended_ms > 1e3 * all->params.keep_s) {
+            kd_log(KD_LOG_INFO, "job %.4s... has been kept for %.0f s", job->record.id, all->params.keep_s);
+            kd_job_unlist(job);
+            return job;
+        }
+    return NULL;
+}
+
+void kd_jobs_sweep(struct kd_jobs *all)
+{
+    double now = kd_clock_ms();
+    pthread_mutex_lock(&all->lock);
+    for (struct kd_job *job = all->first; job; job = job->link)
+        kd_job_wake(job, now);
+    kd_jobs_pump(all); /* one may have waited long enough */
+    struct kd_job *old = take_old(all);
+    pthread_mutex_unlock(&all->lock);
+    if (old)
+        kd_job_release(old);
+    kd_jobs_bury(all, FILES_A_SWEEP);
+}
+
+/* The server ends because it was told to: that says nothing against the job that is being rendered. */
+static void take_back_strikes(struct kd_jobs *all)
+{
+    for (struct kd_job *job = all->first; job; job = job->link)
+        if (job->struck && job->record.attempts) {
+            job->struck = false;
+            job->record.attempts--;
+            kd_job_write(job);
+        }
+}
+
+void kd_jobs_close(struct kd_jobs *all)
+{
+    pthread_mutex_lock(&all->lock);
+    all->closed = true;
+    if (!kd_render_queue_lost(all->params.renders, NULL))
+        take_back_strikes(all);
+    kd_jobs_drop_frame(all, NULL);
+    for (struct kd_job *job = all->first; job; job = job->link)
+        kd_job_wake(job, kd_clock_ms());
+    pthread_mutex_unlock(&all->lock);
+}

@@ -1,0 +1,123 @@
+#include "server/openapi/kept.h"
+
+#include "base/buffer.h"
+#include "base/json.h"
+#include "image/gzip.h"
+#include "quantity/quantity.h"
+#include "scene/scene.h"
+#include "server/openapi/openapi.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct document {
+    struct kd_asset asset; /* of what follows */
+    char path[80], etags[2][24];
+    struct kd_buffer plain, gzip;
+};
+
+struct kd_kept {
+    size_t n;
+    struct document *documents;
+};
+
+static enum kd_status presets_json(struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_array(&json, "presets");
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) {
+        kd_json_object(&json, NULL);
+        kd_json_string(&json, "name", kd_scene_preset_name(i));
+        kd_json_string(&json, "title", kd_scene_preset_title(i));
+        kd_json_end(&json);
+    }
+    kd_json_end(&json);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+static const struct { const char *path, *type; enum kd_status (*make)(struct kd_buffer *out); } makers[] = {
+    { "/openapi.json", "application/json", kd_openapi_json },
+    { "/v1/schema", "application/schema+json", kd_scene_schema },
+    { "/v1/presets", "application/json", presets_json },
+    { "/v1/physics", "application/json", kd_quantity_list_json },
+};
+#define N_MAKERS (sizeof makers / sizeof *makers)
+
+/* FNV-1a: two versions of a document must differ, nobody forges one. */
+static void tag(const struct kd_buffer *bytes, char out[24])
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < bytes->size; i++)
+        hash = (hash ^ bytes->data[i]) * 0x100000001b3u;
+    snprintf(out, 24, "\"%016llx\"", (unsigned long long)hash);
+}
+
+static enum kd_status finish(struct document *d, const char *type)
+{
+    if (kd_buffer_append(&d->gzip, d->plain.data, d->plain.size))
+        return KD_ENOMEM;
+    bool packed = kd_gzip(&d->gzip);
+    tag(&d->plain, d->etags[0]);
+    tag(&d->gzip, d->etags[1]);
+    d->asset = (struct kd_asset) { d->path, type, { d->etags[0], d->plain.data, d->plain.size }, { 0 } };
+    if (packed)
+        d->asset.gzip = (struct kd_asset_form) { d->etags[1], d->gzip.data, d->gzip.size };
+    return KD_OK;
+}
+
+static enum kd_status make(struct document *d, size_t i)
+{
+    struct kd_scene scene;
+    struct kd_error error;
+    if (i < N_MAKERS) {
+        snprintf(d->path, sizeof d->path, "%s", makers[i].path);
+        enum kd_status status = makers[i].make(&d->plain);
+        return status ? status : finish(d, makers[i].type);
+    }
+    const char *name = kd_scene_preset_name(i - N_MAKERS);
+    snprintf(d->path, sizeof d->path, "/v1/presets/%s", name);
+    if (kd_scene_preset(&scene, name, &error) || kd_scene_to_json(&scene, &d->plain))
+        return KD_ENOMEM;
+    return finish(d, "application/json");
+}
+
+enum kd_status kd_kept_create(struct kd_kept **out, struct kd_error *error)
+{
+    struct kd_kept *kept = calloc(1, sizeof *kept);
+    size_t n = N_MAKERS + kd_scene_preset_count();
+    enum kd_status status = KD_OK;
+    if (kept)
+        kept->documents = calloc(n, sizeof *kept->documents);
+    if (!kept || !kept->documents)
+        status = KD_ENOMEM;
+    for (; !status && kept->n < n; kept->n++)
+        status = make(&kept->documents[kept->n], kept->n);
+    if (!status)
+        return *out = kept, KD_OK;
+    kd_kept_destroy(kept);
+    return kd_error_set(error, KD_ENOMEM, "out of memory for the documents that are kept");
+}
+
+void kd_kept_destroy(struct kd_kept *kept)
+{
+    if (!kept)
+        return;
+    for (size_t i = 0; i < kept->n; i++) {
+        kd_buffer_finish(&kept->documents[i].plain);
+        kd_buffer_finish(&kept->documents[i].gzip);
+    }
+    free(kept->documents);
+    free(kept);
+}
+
+const struct kd_asset *kd_kept_find(const struct kd_kept *kept, const char *path)
+{
+    for (size_t i = 0; i < kept->n; i++)
+        if (!strcmp(kept->documents[i].path, path))
+            return &kept->documents[i].asset;
+    return NULL;
+}

@@ -1,0 +1,16 @@
+/* Documents that stay the same as long as the program runs: made once, at the start, plain and as gzip, each with an ETag. Read-only
+ * afterwards: any thread. */
+#ifndef KD_SERVER_OPENAPI_KEPT_H
+#define KD_SERVER_OPENAPI_KEPT_H
+
+#include "base/error.h"
+#include "server/http/assets.h"
+
+struct kd_kept;
+
+enum kd_status kd_kept_create(struct kd_kept **out, struct kd_error *error);
+void kd_kept_destroy(struct kd_kept *kept); /* accepts NULL */
+/* By the path of its route, "/v1/presets/gargantua"; NULL: there is none. */
+const struct kd_asset *kd_kept_find(const struct kd_kept *kept, const char *path);
+
+#endif

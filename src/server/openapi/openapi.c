@@ -1,0 +1,340 @@
+/* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
+ * table. */
+#include "server/openapi/openapi.h"
+#include "server/http/assets.h"
+#include "server/openapi/jobs.h"
+#include "server/openapi/media.h"
+#include "server/openapi/orbits.h"
+#include "server/openapi/physics.h"
+#include "server/openapi/rays.h"
+#include "server/openapi/sessions.h"
+#include "server/http/request.h"
+#include "scene/scene.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+static void add_reference(struct kd_json *json, const char *name, const char *to)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "$ref", to);
+    kd_json_end(json);
+}
+
+/* {"TYPE": {"schema": {"$ref": TO}}} */
+static void add_content(struct kd_json *json, const char *type, const char *to)
+{
+    kd_json_object(json, type);
+    add_reference(json, "schema", to);
+    kd_json_end(json);
+}
+
+static void add_string_type(struct kd_json *json, const char *name)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "string");
+    kd_json_end(json);
+}
+
+static void begin_parameter(struct kd_json *json, const char *in, const char *name)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name);
+    kd_json_string(json, "in", in);
+}
+
+static void add_preset_schema(struct kd_json *json)
+{
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    for (size_t i = 0; i < kd_scene_preset_count(); i++)
+        kd_json_string(json, NULL, kd_scene_preset_name(i));
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_preset_parameter(struct kd_json *json)
+{
+    begin_parameter(json, "query", "preset");
+    add_preset_schema(json);
+    kd_json_end(json);
+}
+
+/* Files below the folder that the route names. */
+static void add_file_schema(struct kd_json *json, const char *path)
+{
+    size_t skip = strlen("/web/"), n = strcspn(path, "{") - skip;
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    for (size_t i = 0; i < kd_n_assets; i++)
+        if (!strncmp(kd_assets[i].name, path + skip, n) && !strchr(kd_assets[i].name + n, '/'))
+            kd_json_string(json, NULL, kd_assets[i].name + n);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_path_parameter(struct kd_json *json, const char *path)
+{
+    static const char id[] = "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{16}$\"}";
+    const char *brace = strchr(path, '{');
+    char name[20];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(brace + 1, "}"), brace + 1);
+    begin_parameter(json, "path", name);
+    kd_json_bool(json, "required", true);
+    if (!strcmp(name, "id"))
+        kd_json_raw(json, "schema", id, sizeof id - 1);
+    else if (!strncmp(path, "/web/", 5))
+        add_file_schema(json, path);
+    else
+        add_preset_schema(json);
+    kd_json_end(json);
+}
+
+#define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
+
+/* What the query may hold besides fields of a scene. */
+static const struct { const char *path, *name, *schema, *help; } queries[] = {
+    { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
+    { "/v1/jobs/{id}/result", "format", "{\"type\":\"string\",\"enum\":[\"zip\",\"png\",\"stream\",\"json\",\"csv\"]}",
+      "json and csv are those of a light curve, the others of pictures" },
+    { "/v1/jobs/{id}/result", "frame", WHOLE, "with format=png: which" },
+};
+
+static bool has_query(const struct kd_route *route)
+{
+    for (size_t i = 0; i < sizeof queries / sizeof *queries; i++)
+        if (!strcmp(queries[i].path, route->path))
+            return true;
+    return false;
+}
+
+static void add_query(struct kd_json *json, const struct kd_route *route)
+{
+    for (size_t i = 0; i < sizeof queries / sizeof *queries; i++) {
+        if (strcmp(queries[i].path, route->path))
+            continue;
+        begin_parameter(json, "query", queries[i].name);
+        kd_json_string(json, "description", queries[i].help);
+        kd_json_raw(json, "schema", queries[i].schema, strlen(queries[i].schema));
+        kd_json_end(json);
+    }
+}
+
+/* Every scalar of the schema by its dotted path. */
+static void add_fields(struct kd_json *json, const cJSON *schema, const char *prefix)
+{
+    const cJSON *property;
+    cJSON_ArrayForEach(property, cJSON_GetObjectItemCaseSensitive(schema, "properties"))
+    {
+        char name[128];
+        snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", property->string);
+        if (cJSON_GetObjectItemCaseSensitive(property, "properties")) {
+            add_fields(json, property, name);
+            continue;
+        }
+        char *text = cJSON_PrintUnformatted(property);
+        begin_parameter(json, "query", name);
+        kd_json_raw(json, "schema", text ? text : "", text ? strlen(text) : 0);
+        kd_json_end(json);
+        if (!text)
+            json->status = KD_ENOMEM;
+        cJSON_free(text);
+    }
+}
+
+static bool has_parameters(const struct kd_route *route)
+{
+    return strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
+           route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
+}
+
+static void add_parameters(struct kd_json *json, const struct kd_route *route, bool post, const cJSON *schema)
+{
+    kd_json_array(json, "parameters");
+    if (strchr(route->path, '{'))
+        add_path_parameter(json, route->path);
+    add_query(json, route);
+    if (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) {
+        add_preset_parameter(json);
+        if (!post)
+            add_fields(json, schema, "");
+    }
+    if (route->takes == KD_TAKES_JOB)
+        add_preset_parameter(json);
+    if (route->takes == KD_TAKES_RAYS)
+        kd_openapi_rays_parameters(json);
+    if (route->takes == KD_TAKES_PARTICLES)
+        kd_openapi_particles_parameters(json);
+    kd_json_end(json);
+}
+
+static void add_scene_body(struct kd_json *json, unsigned method)
+{
+    kd_json_object(json, "requestBody");
+    kd_json_bool(json, "required", true);
+    kd_json_object(json, "content");
+    add_content(json, "application/json", "#/components/schemas/Scene");
+    if (method == KD_PATCH)
+        add_content(json, KD_PATCH_TYPE, "#/components/schemas/Scene");
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_body(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    switch (route->takes) {
+    case KD_TAKES_SCENE:
+        if (method == KD_POST || method == KD_PATCH)
+            add_scene_body(json, method);
+        break;
+    case KD_TAKES_RAYS: kd_openapi_rays_body(json); break;
+    case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
+    case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
+    case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
+    default: break;
+    }
+}
+
+static void begin_response(struct kd_json *json, unsigned status, const char *description)
+{
+    char number[12];
+    snprintf(number, sizeof number, "%u", status);
+    kd_json_object(json, number);
+    kd_json_string(json, "description", description);
+}
+
+static void add_answer(struct kd_json *json, const struct kd_route *route)
+{
+    char type[64];
+    snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
+    kd_json_object(json, "content");
+    switch (route->takes) {
+    case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
+    case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
+    case KD_TAKES_JOB: kd_openapi_jobs_answer(json); break;
+    default: kd_openapi_media(json, type, "", 0);
+    }
+    for (const char *also = route->also; also && *also; also += strspn(also, " ")) {
+        snprintf(type, sizeof type, "%.*s", (int)strcspn(also, " "), also);
+        kd_openapi_media(json, type, "", 0);
+        also += strlen(type);
+    }
+    kd_json_end(json);
+}
+
+static void add_responses(struct kd_json *json, const struct kd_route *route, unsigned method)
+{
+    kd_json_object(json, "responses");
+    begin_response(json, method == KD_DELETE ? 204 : route->status[0] ? route->status[0] : 200, route->summary);
+    if (method != KD_DELETE)
+        add_answer(json, route);
+    kd_json_end(json);
+    if (method != KD_DELETE && route->status[1]) {
+        begin_response(json, route->status[1], route->status[1] == 304 ? "What If-None-Match names" : route->summary);
+        kd_json_end(json);
+    }
+    add_reference(json, "default", "#/components/responses/Problem");
+    kd_json_end(json);
+}
+
+static void add_operation(struct kd_json *json, const char *name, const struct kd_route *route, unsigned method, const cJSON *schema)
+{
+    bool body = method == KD_POST || method == KD_PATCH;
+    char id[80];
+    kd_openapi_operation_id(id, sizeof id, name, route->path);
+    kd_json_object(json, name);
+    kd_json_string(json, "operationId", id);
+    kd_json_string(json, "summary", route->summary);
+    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE)
+        kd_json_raw(json, "security", "[{\"token\":[]}]", strlen("[{\"token\":[]}]"));
+    if (has_parameters(route))
+        add_parameters(json, route, body, schema);
+    add_body(json, route, method);
+    add_responses(json, route, method);
+    kd_json_end(json);
+}
+
+static void add_problem_schema(struct kd_json *json)
+{
+    static const char *const texts[] = { "type", "title", "detail", "pointer", "offered" };
+    kd_json_object(json, "Problem");
+    kd_json_string(json, "type", "object");
+    kd_json_object(json, "properties");
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        add_string_type(json, texts[i]);
+    kd_json_object(json, "status");
+    kd_json_string(json, "type", "integer");
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_components(struct kd_json *json, const struct kd_buffer *schema)
+{
+    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session or job\"}}";
+    kd_json_object(json, "components");
+    kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
+    kd_json_object(json, "schemas");
+    kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
+    kd_openapi_orbits_schema(json);
+    add_problem_schema(json);
+    kd_json_end(json);
+    kd_json_object(json, "responses");
+    kd_json_object(json, "Problem");
+    kd_json_string(json, "description", "What went wrong (RFC 9457)");
+    kd_json_object(json, "content");
+    add_content(json, "application/problem+json", "#/components/schemas/Problem");
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_path(struct kd_json *json, const struct kd_route *route, const cJSON *schema)
+{
+    static const struct { const char *name; unsigned bit; } methods[] = {
+        { "get", KD_GET }, { "post", KD_POST }, { "patch", KD_PATCH }, { "delete", KD_DELETE },
+    };
+    kd_json_object(json, route->path);
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+        if (route->methods & methods[k].bit)
+            add_operation(json, methods[k].name, route, methods[k].bit, schema);
+    kd_json_end(json);
+}
+
+static enum kd_status document(const cJSON *schema, const struct kd_buffer *schema_text, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "openapi", "3.1.0");
+    kd_json_object(&json, "info");
+    kd_json_string(&json, "title", "kerrd");
+    kd_json_string(&json, "version", KD_VERSION);
+    kd_json_end(&json);
+    kd_json_object(&json, "paths");
+    for (size_t i = 0; i < kd_n_routes; i++)
+        if (kd_routes[i].takes == KD_TAKES_QUANTITY)
+            kd_openapi_physics_paths(&json);
+        else
+            add_path(&json, &kd_routes[i], schema);
+    kd_json_end(&json);
+    add_components(&json, schema_text);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+enum kd_status kd_openapi_json(struct kd_buffer *out)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_scene_schema(&text);
+    cJSON *schema = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
+    if (!status)
+        status = schema ? document(schema, &text, out) : KD_ENOMEM;
+    cJSON_Delete(schema);
+    kd_buffer_finish(&text);
+    return status;
+}

@@ -1,0 +1,157 @@
+#include "server/openapi/physics.h"
+
+#include "quantity/quantity.h"
+#include "server/openapi/media.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
+
+#define DECIMAL "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
+#define RANGE "^" DECIMAL ":" DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
+
+static void add_words(struct kd_json *json, const char *text)
+{
+    char word[KD_WORD_TEXT];
+    kd_json_array(json, "enum");
+    while (*text) {
+        text = kd_parameter_word(text, word);
+        kd_json_string(json, NULL, word);
+    }
+    kd_json_end(json);
+}
+
+static void add_number(struct kd_json *json, const struct kd_parameter *p)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "type", p->whole ? "integer" : "number");
+    kd_json_number(json, p->open ? "exclusiveMinimum" : "minimum", p->minimum);
+    kd_json_number(json, p->open ? "exclusiveMaximum" : "maximum", p->maximum);
+    kd_json_end(json);
+}
+
+/* A number, a range of them as text, or a word. */
+static void add_schema(struct kd_json *json, const struct kd_parameter *p)
+{
+    kd_json_object(json, "schema");
+    if (p->words) {
+        add_words(json, p->words);
+    } else {
+        kd_json_array(json, "anyOf");
+        if (p->word) { /* first: generators of clients take the first type that a default fits, and "infinity" reads as a number */
+            kd_json_object(json, NULL);
+            kd_json_string(json, "type", "string");
+            kd_json_string(json, "const", p->word);
+            kd_json_end(json);
+        }
+        add_number(json, p);
+        kd_json_object(json, NULL);
+        kd_json_string(json, "type", "string");
+        kd_json_string(json, "pattern", RANGE);
+        kd_json_end(json);
+        kd_json_end(json);
+    }
+    char *end;
+    double number = strtod(p->initial, &end);
+    if (*end || p->words || !isfinite(number)) /* "infinity" is a word here */
+        kd_json_string(json, "default", p->initial);
+    else
+        kd_json_number(json, "default", number);
+    kd_json_end(json);
+}
+
+static void begin_parameter(struct kd_json *json, const char *name, const char *help, const char *unit)
+{
+    char description[300];
+    bool bare = !*unit || !strcmp(unit, "1");
+    snprintf(description, sizeof description, "%s%s%s%s", help, bare ? "" : " [", bare ? "" : unit, bare ? "" : "]");
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name);
+    kd_json_string(json, "in", "query");
+    kd_json_string(json, "description", description);
+}
+
+static void add_parameters(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    kd_json_array(json, "parameters");
+    for (size_t i = 0; i < quantity->n_parameters; i++) {
+        const struct kd_parameter *p = &quantity->parameters[i];
+        begin_parameter(json, p->name, p->help, p->words ? "" : p->unit);
+        add_schema(json, p);
+        kd_json_end(json);
+    }
+    begin_parameter(json, "format", "instead of Accept", "");
+    kd_json_object(json, "schema");
+    add_words(json, quantity->sound ? "json|csv|wav" : "json|csv");
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_type(struct kd_json *json, const char *name, const char *schema)
+{
+    kd_json_raw(json, name, schema, strlen(schema));
+}
+
+static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "object");
+    kd_json_object(json, "properties");
+    add_type(json, "quantity", "{\"type\":\"string\"}");
+    add_type(json, "parameters", "{\"type\":\"object\"}");
+    kd_json_object(json, "values");
+    kd_json_object(json, "properties");
+    for (size_t i = 0; i < quantity->n_outputs; i++) {
+        kd_json_object(json, quantity->outputs[i].name);
+        add_type(json, "anyOf", NUMBERS);
+        kd_json_string(json, "description", quantity->outputs[i].help);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_json_end(json);
+    add_type(json, "units", "{\"type\":\"object\"}");
+    add_type(json, "sources", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}");
+    add_type(json, "approximations", "{\"type\":\"array\",\"items\":{\"type\":\"string\"}}");
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_responses(struct kd_json *json, const struct kd_quantity *quantity)
+{
+    kd_json_object(json, "responses");
+    kd_json_object(json, "200");
+    kd_json_string(json, "description", quantity->summary);
+    kd_json_object(json, "content");
+    kd_json_object(json, "application/json");
+    add_answer(json, quantity);
+    kd_json_end(json);
+    kd_openapi_media(json, "text/csv", "", 0);
+    if (quantity->sound)
+        kd_openapi_media(json, "audio/wav", "", 0);
+    kd_json_end(json);
+    kd_json_end(json);
+    add_type(json, "default", "{\"$ref\":\"#/components/responses/Problem\"}");
+    kd_json_end(json);
+}
+
+void kd_openapi_physics_paths(struct kd_json *json)
+{
+    for (size_t i = 0; i < kd_quantity_count; i++) {
+        char path[80];
+        snprintf(path, sizeof path, "/v1/physics/%s", kd_quantities[i]->name);
+        kd_json_object(json, path);
+        char id[80];
+        kd_openapi_operation_id(id, sizeof id, "get", path);
+        kd_json_object(json, "get");
+        kd_json_string(json, "operationId", id);
+        kd_json_string(json, "summary", kd_quantities[i]->summary);
+        add_parameters(json, kd_quantities[i]);
+        add_responses(json, kd_quantities[i]);
+        kd_json_end(json);
+        kd_json_end(json);
+    }
+}

@@ -1,0 +1,51 @@
+#include "server/openapi/sessions.h"
+
+#include "render/output/particle_list.h"
+
+#include <string.h>
+
+void kd_openapi_strike_body(struct kd_json *json)
+{
+    static const char body[] = "{\"required\":false,\"content\":{\"application/json\":{\"schema\":{\"type\":\"object\","
+                               "\"additionalProperties\":false,\"properties\":{\"amplitude\":{\"type\":\"number\","
+                               "\"minimum\":0,\"maximum\":1,\"description\":"
+                               "\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}";
+    kd_json_raw(json, "requestBody", body, sizeof body - 1);
+}
+
+static void begin(struct kd_json *json, const char *name, const char *help)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name);
+    kd_json_string(json, "in", "query");
+    kd_json_string(json, "description", help);
+}
+
+void kd_openapi_particles_parameters(struct kd_json *json)
+{
+    static const struct { const char *name, *help, *schema; } known[] = {
+        { "first", "number of the first particle; 0 without it", "{\"type\":\"integer\",\"minimum\":0}" },
+        { "stride", "from one to the next; 1 without it", "{\"type\":\"integer\",\"minimum\":1}" },
+        { "count", "how many; without it, as many as there are", "{\"type\":\"integer\",\"minimum\":1}" },
+        { "time", "M; without it, the session's now", "{\"type\":\"number\",\"minimum\":-1e12,\"maximum\":1e12}" },
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        begin(json, known[i].name, known[i].help);
+        kd_json_raw(json, "schema", known[i].schema, strlen(known[i].schema));
+        kd_json_end(json);
+    }
+    begin(json, "fields", "columns of a row; x,y,z without it");
+    kd_json_string(json, "style", "form");
+    kd_json_bool(json, "explode", false);
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "array");
+    kd_json_bool(json, "uniqueItems", true);
+    kd_json_object(json, "items");
+    kd_json_array(json, "enum");
+    for (int i = 0; i < KD_PARTICLE_N_COLUMNS; i++)
+        kd_json_string(json, NULL, kd_particle_column_name((enum kd_particle_column)i));
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+    kd_json_end(json);
+}

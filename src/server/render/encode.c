@@ -1,0 +1,66 @@
+/* From frames to files: the encoders behind the device. */
+#include "render/output/picture.h"
+#include "base/clock.h"
+#include "server/render/internal.h"
+
+#include <stdlib.h>
+
+/* What one encoder at most does at a time: nobody else shall wait for it. */
+static bool is_long(const struct kd_render_job *job)
+{
+    return job->claim.class == KD_CLASS_JOB || kd_render_frame_bytes(job) > KD_LONG_FRAME;
+}
+
+void kd_render_encode(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    kd_render_list_append(&queue->encoding, job);
+    queue->frame_bytes += kd_render_frame_bytes(job);
+    pthread_cond_broadcast(&queue->changed);
+}
+
+static struct kd_render_job *take_next(struct kd_render_queue *queue)
+{
+    struct kd_render_job **link = &queue->encoding.first;
+    while (*link && queue->encoding_long && is_long(*link))
+        link = &(*link)->next;
+    return *link ? kd_render_list_take(&queue->encoding, link) : NULL;
+}
+
+static void encode(struct kd_render_queue *queue, struct kd_render_job *job, unsigned encoder)
+{
+    double start = kd_clock_ms();
+    job->status = job->encode ? job->encode(job, encoder)
+                              : kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
+                                                  job->compression, &job->png, &job->error);
+    job->encode_ms = kd_clock_ms() - start;
+    free(job->frame.pixels);
+    job->frame.pixels = NULL;
+}
+
+void *kd_render_encode_main(void *user)
+{
+    struct kd_render_queue *queue = user;
+    pthread_mutex_lock(&queue->lock);
+    unsigned encoder = queue->encoders_begun++;
+    while (!queue->closing || queue->unfinished) {
+        struct kd_render_job *job = take_next(queue);
+        if (!job) {
+            pthread_cond_wait(&queue->changed, &queue->lock);
+            continue;
+        }
+        size_t bytes = kd_render_frame_bytes(job);
+        bool takes_long = is_long(job);
+        queue->encoding_long |= takes_long;
+        pthread_mutex_unlock(&queue->lock);
+        encode(queue, job, encoder);
+        pthread_mutex_lock(&queue->lock);
+        queue->frame_bytes -= bytes;
+        queue->encoding_long &= !takes_long;
+        kd_render_next(queue); /* what waited for the bytes */
+        pthread_mutex_unlock(&queue->lock);
+        kd_render_finish(queue, job);
+        pthread_mutex_lock(&queue->lock);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return NULL;
+}

@@ -1,0 +1,86 @@
+/* What the files of the render queue share. */
+#ifndef KD_SERVER_RENDER_INTERNAL_H
+#define KD_SERVER_RENDER_INTERNAL_H
+
+#include "server/render/queue.h"
+
+#include <pthread.h>
+
+#define KD_LONG_FRAME ((size_t)16 << 20) /* bytes: takes an encoder some tenths of a second */
+
+struct kd_render_list {
+    struct kd_render_job *first, **end;
+};
+
+/* A thread that renders one long picture at a time. */
+struct kd_lane {
+    struct kd_render_queue *queue;
+    struct kd_render_job *job; /* NULL: it is free */
+    pthread_t thread;
+};
+
+struct kd_render_queue {
+    struct kd_renderer_params params;
+    struct kd_renderer *renderer;
+    struct kd_buffer device_json;
+    enum kd_status open_status;
+    struct kd_error open_error;
+
+    pthread_mutex_t lock;
+    pthread_cond_t changed; /* anything below; few threads wait, so one condition serves all */
+    bool opened, closing;
+    struct kd_shares shares;
+    struct kd_render_list jobs;   /* all that want the device, in the order in which they came */
+    struct kd_render_job *holder; /* who has the device; NULL: nobody */
+    struct kd_lane lanes[KD_ASIDES];
+    unsigned n_lanes; /* whose threads run */
+    uint64_t lane_bytes; /* of the device's memory, by the plans of the large pictures in lanes */
+    unsigned large;      /* how many those are */
+
+    struct kd_render_list encoding;
+    size_t frame_bytes; /* rendered, and not yet encoded */
+    bool encoding_long;
+    unsigned limit, client_limit, unfinished;
+    bool lost;
+    struct kd_error lost_error;
+    _Atomic bool cancel;
+
+    pthread_t render_thread, encoders[KD_ENCODERS];
+    unsigned n_encoders, encoders_begun;
+    bool render_thread_runs;
+};
+
+void kd_render_list_append(struct kd_render_list *list, struct kd_render_job *job);
+struct kd_render_job *kd_render_list_take(struct kd_render_list *list, struct kd_render_job **link);
+
+static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
+{
+    return job->run ? 0 : (size_t)job->plan.width * job->plan.height * 3 * (job->scene.image.bit_depth > 8 ? 2 : 1);
+}
+
+/* Whether a client waits for it who may have to be told that it is too much. */
+static inline bool kd_render_is_awaited(const struct kd_render_job *job)
+{
+    return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_RAYS;
+}
+
+bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job);
+/* The device has failed. */
+void kd_render_mark_lost(struct kd_render_queue *queue, const struct kd_error *error);
+/* It wants the device no more. Locked. */
+void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
+/* Calls its done(). The job may be gone when that returns; until `unfinished` falls, its connection counts as ours. */
+void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
+
+/* turns.c: if nobody has the device, whoever is next is given it. Locked. */
+void kd_render_next(struct kd_render_queue *queue);
+/* Threads: of short works, with the queue as argument; of long ones, with a lane. They end when the queue is closing and empty. */
+void *kd_render_short_main(void *queue);
+void *kd_render_lane_main(void *lane);
+
+/* encode.c: a thread, with the queue as argument, that ends when it is closing and nothing is unfinished. */
+void *kd_render_encode_main(void *queue);
+/* Hand a frame over. Locked. */
+void kd_render_encode(struct kd_render_queue *queue, struct kd_render_job *job);
+
+#endif

@@ -1,0 +1,199 @@
+#include "server/render/live_frame.h"
+
+#include "base/json.h"
+#include "physics/kerr.h"
+#include "render/output/picture.h"
+#include "server/http/reply.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void describe_quality(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
+{
+    const struct kd_plan *p = &job->plan;
+    snprintf(frame->quality, sizeof frame->quality, "width=%u height=%u samples=%u orders=%u engine=%s precision=%s steps=%u final=%d",
+             p->width, p->height, p->side, p->orders, kd_engine_name(p->setting.engine), kd_precision_name(p->setting.precision),
+             p->setting.steps, note->final);
+}
+
+static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)
+{
+    size_t n = (size_t)snprintf(frame->timing, sizeof frame->timing, "queue;dur=%.3f%s", job->queue_ms,
+                                job->frame.lens_reused ? ", trace;desc=\"reused\";dur=0" : "");
+    for (size_t i = 0; i < job->frame.n_timings && n < sizeof frame->timing; i++)
+        n += (size_t)snprintf(frame->timing + n, sizeof frame->timing - n, ", %s;dur=%.3f", job->frame.timings[i].name,
+                              job->frame.timings[i].ms);
+    if (n < sizeof frame->timing)
+        snprintf(frame->timing + n, sizeof frame->timing - n, ", encode;dur=%.3f", job->encode_ms);
+}
+
+static void add_quality(struct kd_json *json, const struct kd_render_job *job, const struct kd_live_note *note)
+{
+    const struct kd_plan *p = &job->plan;
+    kd_json_object(json, "quality");
+    kd_json_number(json, "width", p->width);
+    kd_json_number(json, "height", p->height);
+    kd_json_number(json, "samples", p->side);
+    kd_json_number(json, "orders", p->orders);
+    kd_json_string(json, "engine", kd_engine_name(p->setting.engine));
+    kd_json_string(json, "precision", kd_precision_name(p->setting.precision));
+    kd_json_number(json, "steps", p->setting.steps);
+    kd_json_bool(json, "final", note->final);
+    kd_json_end(json);
+}
+
+static void add_passes(struct kd_json *json, const struct kd_render_job *job)
+{
+    kd_json_object(json, "passes");
+    kd_json_number(json, "queue", job->queue_ms);
+    for (size_t i = 0; i < job->frame.n_timings; i++)
+        kd_json_number(json, job->frame.timings[i].name, job->frame.timings[i].ms);
+    kd_json_number(json, "encode", job->encode_ms);
+    kd_json_end(json);
+}
+
+static void add_accuracy(struct kd_json *json, const struct kd_accuracy_report *report, const struct kd_plan *plan)
+{
+    kd_json_object(json, "accuracy");
+    kd_json_number(json, "rays", (double)plan->rays);
+    kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
+    kd_json_number(json, "undecided", (double)report->undecided);
+    kd_json_number(json, "sampled", report->sampled);
+    if (report->sampled) {
+        kd_json_number(json, "crossings", report->crossings);
+        kd_json_number(json, "differ", report->differ);
+        kd_json_number(json, "median", report->median);
+        kd_json_number(json, "worst", report->worst);
+    }
+    kd_json_end(json);
+}
+
+static void add_light(struct kd_json *json, const struct kd_light *light)
+{
+    kd_json_number(json, "flux", light->flux);
+    if (isnan(light->x)) {
+        kd_json_null(json, "centroid");
+        return;
+    }
+    kd_json_array(json, "centroid");
+    kd_json_number(json, NULL, light->x);
+    kd_json_number(json, NULL, light->y);
+    kd_json_end(json);
+}
+
+static void add_lights(struct kd_json *json, const struct kd_light_report *report)
+{
+    kd_json_object(json, "light");
+    add_light(json, &report->all);
+    kd_json_object(json, "spots");
+    add_light(json, &report->spots);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_orbit(struct kd_json *json, double spin, double r)
+{
+    kd_json_number(json, "r", r);
+    kd_json_number(json, "period", 2 * M_PI / kd_kerr_omega(spin, r));
+}
+
+static void add_isco(struct kd_json *json, const struct kd_scene *scene)
+{
+    kd_json_object(json, "isco");
+    add_orbit(json, scene->spacetime.spin, kd_kerr_isco(scene->spacetime.spin));
+    kd_json_end(json);
+}
+
+static void add_simulation(struct kd_json *json, const struct kd_scene *scene)
+{
+    double wave;
+    kd_json_object(json, "simulation");
+    kd_json_number(json, "time_rate", scene->motion.time_rate);
+    kd_json_number(json, "particles", scene->disk.model == KD_DISK_PARTICLES ? scene->disk.particles : 0);
+    if (kd_scene_ringdown(scene, &wave))
+        kd_json_number(json, "ringdown", wave);
+    kd_json_end(json);
+}
+
+/* Where the centre of each spot that is on stands at the frame's time. */
+static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
+{
+    const struct kd_spot *spots[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
+    kd_json_array(json, "orbits");
+    for (int i = 0; i < KD_SPOTS; i++) {
+        if (!(spots[i]->brightness > 0))
+            continue;
+        double turned = remainder(kd_kerr_omega(scene->spacetime.spin, spots[i]->r) * scene->top.time, 2 * M_PI);
+        kd_json_object(json, NULL);
+        kd_json_number(json, "spot", i + 1);
+        kd_json_number(json, "phi_deg", remainder(spots[i]->phase_deg + turned * (180 / M_PI), 360));
+        add_orbit(json, scene->spacetime.spin, spots[i]->r);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+}
+
+static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
+{
+    struct kd_json whole = kd_json_begin(&frame->event), *json = &whole;
+    kd_json_object(json, NULL);
+    kd_json_number(json, "frame", (double)note->number);
+    kd_json_number(json, "revision", note->revision);
+    kd_json_number(json, "time", job->scene.top.time);
+    kd_json_number(json, "azimuth_deg", job->scene.camera.azimuth_deg);
+    kd_json_number(json, "exposure", job->frame.exposure);
+    kd_json_number(json, "fps", note->fps);
+    kd_json_number(json, "bytes", (double)frame->png.size);
+    add_quality(json, job, note);
+    add_passes(json, job);
+    kd_json_bool(json, "lens_map_reused", job->frame.lens_reused);
+    add_accuracy(json, &job->frame.accuracy, &job->plan);
+    add_simulation(json, &job->scene);
+    add_isco(json, &job->scene);
+    add_orbits(json, &job->scene);
+    if (job->frame.light.measured)
+        add_lights(json, &job->frame.light);
+    kd_json_end(json);
+    return kd_json_finish(json);
+}
+
+struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct kd_live_note *note)
+{
+    struct kd_live_frame *frame = calloc(1, sizeof *frame);
+    if (!frame)
+        return NULL;
+    frame->references = 1;
+    frame->number = note->number;
+    frame->revision = note->revision;
+    frame->time = job->scene.top.time;
+    frame->png = job->png;
+    job->png = (struct kd_buffer) { 0 };
+    kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
+    describe_quality(frame, job, note);
+    describe_timing(frame, job);
+    enum kd_status status = describe_event(frame, job, note);
+    for (size_t i = 0; i < job->plan.n_approximations && !status; i++)
+        status = kd_reply_quote(&frame->approximations, job->plan.approximations[i]);
+    if (!status)
+        return frame;
+    kd_live_frame_release(frame);
+    return NULL;
+}
+
+struct kd_live_frame *kd_live_frame_share(struct kd_live_frame *frame)
+{
+    atomic_fetch_add(&frame->references, 1);
+    return frame;
+}
+
+void kd_live_frame_release(struct kd_live_frame *frame)
+{
+    if (!frame || atomic_fetch_sub(&frame->references, 1) > 1)
+        return;
+    kd_buffer_finish(&frame->png);
+    kd_buffer_finish(&frame->approximations);
+    kd_buffer_finish(&frame->event);
+    free(frame);
+}

@@ -1,0 +1,87 @@
+#include "server/render/planned.h"
+
+#include "server/http/reply.h"
+#include "server/render/scene_source.h"
+#include "server/render/queue.h"
+
+#include <stdlib.h>
+
+#define SMALL (64u << 10)     /* bytes that are read in a moment, 2 ms */
+#define FEW_PIXELS (4u << 20) /* whose plan is made in one: the critical curve is followed through the picture */
+
+static void destroy(struct kd_task *task)
+{
+    free(task);
+}
+
+/* What a problem says must outlive the call. */
+static bool fail(struct kd_planned *p, enum kd_status status, const struct kd_error *error, struct kd_problem problem)
+{
+    kd_task_fail(&p->task, status ? status : KD_EINVAL, error);
+    problem.detail = p->task.error.message;
+    problem.pointer = p->task.error.pointer;
+    p->problem = problem;
+    return false;
+}
+
+static bool read_scene(struct kd_planned *p)
+{
+    struct kd_error error = { 0 };
+    struct kd_problem problem;
+    return kd_scene_of_request(p->task.request, &p->scene, &problem, &error) || fail(p, error.status, &error, problem);
+}
+
+static bool make_plan(struct kd_planned *p, bool check)
+{
+    struct kd_error error = { 0 };
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(p->task.request->server->renders, &capacity);
+    enum kd_status status = check ? kd_plan_check(&p->scene, &capacity, &error) : kd_plan_make(&p->scene, &capacity, &p->plan, &error);
+    return !status || fail(p, status, &error, kd_problem_from(&error));
+}
+
+static enum kd_turn work(struct kd_task *task, double until_ms)
+{
+    struct kd_planned *p = (struct kd_planned *)task;
+    (void)until_ms;
+    if (task->request->body.size <= SMALL || read_scene(p))
+        make_plan(p, false);
+    return KD_TURN_LAST;
+}
+
+static bool few_pixels(const struct kd_scene *scene)
+{
+    return (uint64_t)scene->image.width * (uint64_t)scene->image.height <= FEW_PIXELS;
+}
+
+static struct kd_planned *outcome(struct kd_request *request, struct kd_planned *p, enum MHD_Result *result)
+{
+    if (!p->task.status)
+        return p;
+    *result = p->task.status == KD_ECANCELLED ? MHD_NO : kd_reply_problem(request, &p->problem);
+    return NULL;
+}
+
+struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result)
+{
+    struct kd_turns *workers = request->server->turns;
+    struct kd_planned *p = (struct kd_planned *)request->task;
+    if (p)
+        return outcome(request, p, result);
+    if (!(p = calloc(1, sizeof *p))) {
+        *result = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+        return NULL;
+    }
+    kd_task_init(&p->task, request, workers);
+    p->task.work = work;
+    p->task.free = destroy;
+    request->task = &p->task;
+    if (request->body.size <= SMALL) {
+        /* Limits before anything is listed: what is too large needs no worker to be refused. */
+        if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
+            return outcome(request, p, result);
+    }
+    if (kd_task_admit(request, workers, "large plans", result))
+        *result = kd_task_submit(&p->task);
+    return NULL;
+}

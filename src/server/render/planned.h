@@ -1,0 +1,20 @@
+/* The scene that a request asks for, with its plan. What takes more than a moment, a large body or a picture of many pixels, is done
+ * by the workers: the HTTP thread serves everybody. HTTP thread. */
+#ifndef KD_SERVER_RENDER_PLANNED_H
+#define KD_SERVER_RENDER_PLANNED_H
+
+#include "server/render/task.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+struct kd_planned {
+    struct kd_task task; /* first */
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_problem problem; /* its texts in the task's error */
+};
+
+/* NULL: *result is the handler's, which either has refused or is called again when the workers are done. Owned by the request. */
+struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result);
+
+#endif

@@ -1,0 +1,258 @@
+#include "server/render/internal.h"
+
+#include "base/log.h"
+#include "render/device/accuracy_store.h"
+#include "base/clock.h"
+#include "server/http/connections.h"
+
+#include <string.h>
+#include <stdlib.h>
+
+void kd_render_list_append(struct kd_render_list *list, struct kd_render_job *job)
+{
+    job->next = NULL;
+    *list->end = job;
+    list->end = &job->next;
+}
+
+struct kd_render_job *kd_render_list_take(struct kd_render_list *list, struct kd_render_job **link)
+{
+    struct kd_render_job *job = *link;
+    *link = job->next;
+    if (!*link)
+        list->end = link;
+    return job;
+}
+
+void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    struct kd_render_job **link = &queue->jobs.first;
+    while (*link != job)
+        link = &(*link)->next;
+    kd_render_list_take(&queue->jobs, link);
+    kd_shares_remove(&queue->shares, &job->claim);
+}
+
+void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->done(job);
+    pthread_mutex_lock(&queue->lock);
+    queue->unfinished--;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    return atomic_load(&queue->cancel) || atomic_load(&job->drop) || kd_socket_abandoned(job->socket);
+}
+
+void kd_render_mark_lost(struct kd_render_queue *queue, const struct kd_error *error)
+{
+    kd_log(KD_LOG_ERROR, "the device is lost: %s", error->message);
+    pthread_mutex_lock(&queue->lock);
+    queue->lost = true;
+    queue->lost_error = *error;
+    pthread_mutex_unlock(&queue->lock);
+}
+
+static enum kd_status start_lanes(struct kd_render_queue *queue, struct kd_error *error)
+{
+    for (unsigned i = 0; i < KD_ASIDES; i++) {
+        queue->lanes[i].queue = queue;
+        if (pthread_create(&queue->lanes[i].thread, NULL, kd_render_lane_main, &queue->lanes[i]))
+            return kd_error_set(error, KD_ENOMEM, "a thread for long renders could not be started");
+        pthread_mutex_lock(&queue->lock);
+        queue->n_lanes++;
+        pthread_mutex_unlock(&queue->lock);
+    }
+    return KD_OK;
+}
+
+static enum kd_status start(struct kd_render_queue *queue, struct kd_error *error)
+{
+    if (pthread_create(&queue->render_thread, NULL, kd_render_short_main, queue))
+        return kd_error_set(error, KD_ENOMEM, "the render thread could not be started");
+    queue->render_thread_runs = true;
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->opened)
+        pthread_cond_wait(&queue->changed, &queue->lock);
+    pthread_mutex_unlock(&queue->lock);
+    if (queue->open_status) {
+        if (error)
+            *error = queue->open_error;
+        return queue->open_status;
+    }
+    if (start_lanes(queue, error))
+        return KD_ENOMEM;
+    for (; queue->n_encoders < KD_ENCODERS; queue->n_encoders++)
+        if (pthread_create(&queue->encoders[queue->n_encoders], NULL, kd_render_encode_main, queue))
+            return kd_error_set(error, KD_ENOMEM, "an encoder could not be started");
+    return KD_OK;
+}
+
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
+                                      struct kd_render_queue **out, struct kd_error *error)
+{
+    struct kd_render_queue *queue = calloc(1, sizeof *queue);
+    if (!queue)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    queue->params = *params;
+    queue->limit = limit;
+    queue->client_limit = client_limit;
+    queue->jobs.end = &queue->jobs.first;
+    queue->encoding.end = &queue->encoding.first;
+    pthread_mutex_init(&queue->lock, NULL);
+    pthread_cond_init(&queue->changed, NULL);
+    enum kd_status status = start(queue, error);
+    if (status) {
+        kd_render_queue_destroy(queue);
+        return status;
+    }
+    *out = queue;
+    return KD_OK;
+}
+
+void kd_render_queue_destroy(struct kd_render_queue *queue)
+{
+    if (!queue)
+        return;
+    kd_render_queue_cancel(queue);
+    pthread_mutex_lock(&queue->lock);
+    queue->closing = true;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+    if (queue->render_thread_runs)
+        pthread_join(queue->render_thread, NULL);
+    for (unsigned i = 0; i < queue->n_lanes; i++)
+        pthread_join(queue->lanes[i].thread, NULL);
+    for (unsigned i = 0; i < queue->n_encoders; i++)
+        pthread_join(queue->encoders[i], NULL);
+    if (!queue->lost)
+        kd_renderer_destroy(queue->renderer);
+    kd_buffer_finish(&queue->device_json);
+    pthread_cond_destroy(&queue->changed);
+    pthread_mutex_destroy(&queue->lock);
+    free(queue);
+}
+
+void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out)
+{
+    kd_renderer_capacity(queue->renderer, out);
+}
+
+const char *kd_render_queue_device_name(const struct kd_render_queue *queue)
+{
+    return kd_renderer_device_name(queue->renderer);
+}
+
+enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out)
+{
+    pthread_mutex_lock(&queue->lock);
+    enum kd_status status = kd_buffer_append(out, queue->device_json.data, queue->device_json.size);
+    pthread_mutex_unlock(&queue->lock);
+    return status;
+}
+
+enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
+                                             struct kd_error *error)
+{
+    return kd_renderer_accuracy_json(queue->renderer, out, error);
+}
+
+bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)
+{
+    pthread_mutex_lock(&queue->lock);
+    bool lost = queue->lost;
+    if (lost && error)
+        *error = queue->lost_error;
+    pthread_mutex_unlock(&queue->lock);
+    return lost;
+}
+
+unsigned kd_render_queue_unfinished(struct kd_render_queue *queue)
+{
+    pthread_mutex_lock(&queue->lock);
+    unsigned n = queue->unfinished;
+    pthread_mutex_unlock(&queue->lock);
+    return n;
+}
+
+double kd_render_queue_backlog_ms(struct kd_render_queue *queue)
+{
+    double ms = 0;
+    pthread_mutex_lock(&queue->lock);
+    for (const struct kd_render_job *job = queue->jobs.first; job; job = job->next)
+        ms += kd_render_is_awaited(job) ? job->claim.left_ms : 0;
+    pthread_mutex_unlock(&queue->lock);
+    return ms;
+}
+
+enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error)
+{
+    unsigned n = 0, own = 0;
+    *quota = false;
+    if (kd_render_queue_lost(queue, error))
+        return KD_EDEVICE;
+    pthread_mutex_lock(&queue->lock);
+    for (const struct kd_render_job *job = queue->jobs.first; job; job = job->next) {
+        bool waits = kd_render_is_awaited(job) && !job->begun;
+        n += waits;
+        own += waits && !strcmp(job->claim.client, client);
+    }
+    unsigned next = !queue->holder; /* what an idle device is about to take does not wait */
+    pthread_mutex_unlock(&queue->lock);
+    if (n >= queue->limit + next)
+        return kd_error_set(error, KD_EBUSY, "%u renders are waiting, as many as may", n);
+    if (own < queue->client_limit + next)
+        return KD_OK;
+    *quota = true;
+    return kd_error_set(error, KD_EBUSY, "%u of your renders are waiting, as many as one client may have", own);
+}
+
+void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->queue = queue;
+    job->submitted_ms = job->away_ms = kd_clock_ms();
+    job->claim.left_ms = job->plan.estimate_ms;
+    job->sliced = !job->run && !job->whole && (job->claim.class == KD_CLASS_JOB || job->plan.estimate_ms > KD_MOMENT_MS);
+    pthread_mutex_lock(&queue->lock);
+    kd_render_list_append(&queue->jobs, job);
+    kd_shares_add(&queue->shares, &job->claim);
+    queue->unfinished++;
+    kd_render_next(queue);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+/* Those that have begun are ended by who has them, at their next turn. */
+void kd_render_queue_sweep(struct kd_render_queue *queue)
+{
+    struct kd_render_list gone = { .end = &gone.first };
+    pthread_mutex_lock(&queue->lock);
+    for (struct kd_render_job *job = queue->jobs.first, *next; job; job = next) {
+        next = job->next;
+        if (!kd_socket_abandoned(job->socket))
+            continue;
+        atomic_store(&job->drop, true);
+        if (job->begun)
+            continue;
+        kd_render_take_out(queue, job);
+        kd_render_list_append(&gone, job);
+    }
+    kd_render_next(queue);
+    pthread_mutex_unlock(&queue->lock);
+    while (gone.first) {
+        struct kd_render_job *job = kd_render_list_take(&gone, &gone.first);
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the client has gone");
+        kd_render_finish(queue, job);
+    }
+}
+
+void kd_render_queue_cancel(struct kd_render_queue *queue)
+{
+    atomic_store(&queue->cancel, true);
+    pthread_mutex_lock(&queue->lock);
+    kd_render_next(queue);
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}

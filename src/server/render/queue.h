@@ -1,0 +1,93 @@
+/* What wants the device: the bounded queue in front of it, who has it when, and the encoders behind it.
+ *
+ * waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
+ *
+ * Whose turn it is says http/shares.h: by client, then by class. A work that is short has the device until it is done. A picture that is
+ * estimated to take longer than KD_MOMENT_MS, or that nobody waits for, has a lane, a thread with buffers of its own, and goes on in slices of some 40 ms between
+ * which others have the device; a list of rays is cut up by whoever submits it (`more`). So nobody waits for more than a slice, or a
+ * short work, of each client that has had less of the device.
+ *
+ * Each client has one lane for each class, and two more for what takes a few seconds at most, so that no client can have them all;
+ * and long pictures begin when there is memory for their buffers beside those of the others. Until then they wait.
+ *
+ * Pictures are submitted by one thread, which makes kd_render_queue_admit's answer hold until kd_render_queue_push; other
+ * work may come from others, and exceed the limit by as many of them as there are. */
+#ifndef KD_SERVER_RENDER_QUEUE_H
+#define KD_SERVER_RENDER_QUEUE_H
+
+#include "base/buffer.h"
+#include "render/render.h"
+#include "server/http/shares.h"
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+struct kd_render_queue;
+
+#define KD_ENCODERS 2      /* one of which is for frames that do not take long */
+#define KD_MOMENT_MS 100.0 /* of device time, that others may be made to wait */
+
+struct kd_render_job {
+    /* filled in by the submitter */
+    struct kd_claim claim; /* client and class; what is left is by the plan */
+    struct kd_scene scene;
+    struct kd_plan plan;
+    int compression;
+    /* NULL: a picture is rendered and encoded. Else this is called instead, with the device; if it sets `more` it is called again at
+     * the next turn, and so on. */
+    enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
+                          void *progress_user);
+    bool more;
+    bool whole; /* never in slices, whatever its plan says: whoever submits it knows better */
+    void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; of a picture in slices, with the device */
+    const struct kd_glance *glance; /* of a picture in slices; may be NULL; user: the job. With the device */
+    /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
+    enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
+    _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */
+    int socket;                                  /* of the client; once it hangs up the job is dropped; -1: none */
+    void (*rendered)(struct kd_render_job *job); /* may be NULL; with the device, before the frame is encoded */
+    void (*done)(struct kd_render_job *job);     /* on a thread of the queue; may free the job */
+    void *user;
+    /* the outcome: KD_ECANCELLED when dropped */
+    enum kd_status status;
+    struct kd_error error;
+    struct kd_buffer png;
+    struct kd_frame frame; /* without its pixels */
+    double queue_ms, encode_ms; /* queue_ms: in which others had the device, before it began and between its slices */
+    /* the queue's own */
+    struct kd_render_job *next;
+    struct kd_render_queue *queue;
+    bool begun, sliced, large; /* large: its buffers are counted */
+    double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
+};
+
+/* Returns when the device is open, or with the error. client_limit: of those that may wait, how many one client may have. */
+enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
+                                      struct kd_render_queue **out, struct kd_error *error);
+/* Cancels what is left and calls its done(). A lost device is left as it is. Accepts NULL. */
+void kd_render_queue_destroy(struct kd_render_queue *queue);
+
+/* Any thread. */
+void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
+const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
+/* As after the latest render. */
+enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
+/* As now on disk; errors as kd_renderer_accuracy_json. */
+enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
+                                             struct kd_error *error);
+bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
+unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
+/* Estimated, of all that clients wait for: not of frames of sessions and jobs. */
+double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
+
+/* Whether one more of this client fits: KD_EBUSY, KD_EDEVICE, or KD_OK. *quota: it has as many waiting as one client may. The
+ * submitting thread. */
+enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *client, bool *quota, struct kd_error *error);
+void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job);
+
+/* Drop jobs whose clients have gone. Any thread. */
+void kd_render_queue_sweep(struct kd_render_queue *queue);
+/* Drop everything, what is running as soon as it can be stopped. Any thread. */
+void kd_render_queue_cancel(struct kd_render_queue *queue);
+
+#endif

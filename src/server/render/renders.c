@@ -1,0 +1,247 @@
+/* POST /v1/plan, and /v1/render from the scene to the picture. */
+#include "render/output/picture.h"
+#include "server/http/negotiate.h"
+#include "server/render/planned.h"
+#include "server/http/reply.h"
+#include "server/render/queue.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OFFERED "image/png"
+
+enum MHD_Result kd_handle_plan(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_buffer json = { 0 };
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer) : result;
+}
+
+static bool accepts(struct kd_request *request)
+{
+    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
+    bool yes = kd_accepts((const char *)accept.data, OFFERED);
+    kd_buffer_finish(&accept);
+    return yes;
+}
+
+static bool client_has(struct kd_request *request)
+{
+    struct kd_buffer tags = kd_reply_header_list(request, "If-None-Match");
+    bool yes = tags.data && kd_etag_listed((const char *)tags.data, request->etag);
+    kd_buffer_finish(&tags);
+    return yes;
+}
+
+static void add_approximations(struct MHD_Response *response, const struct kd_plan *plan)
+{
+    struct kd_buffer list = { 0 };
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < plan->n_approximations && !status; i++)
+        status = kd_reply_quote(&list, plan->approximations[i]);
+    if (!status && list.data)
+        MHD_add_response_header(response, "Kerrd-Approximations", (const char *)list.data);
+    kd_buffer_finish(&list);
+}
+
+/* What 200, 304 and HEAD have in common. */
+static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
+                                     const struct kd_plan *plan)
+{
+    char hash[65];
+    if (!response)
+        return NULL;
+    snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
+    kd_reply_file(request, KD_INLINE, "kerrd.png");
+    MHD_add_response_header(response, "ETag", request->etag);
+    MHD_add_response_header(response, "Cache-Control", "private, no-cache");
+    MHD_add_response_header(response, "Vary", "Accept");
+    MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
+    add_approximations(response, plan);
+    return response;
+}
+
+static void add_accuracy(struct MHD_Response *response, const struct kd_render_job *job)
+{
+    char text[KD_ACCURACY_TEXT];
+    kd_accuracy_text(&job->frame.accuracy, &job->plan, text);
+    MHD_add_response_header(response, "Kerrd-Accuracy", text);
+}
+
+static void add_timings(struct MHD_Response *response, const struct kd_render_job *job)
+{
+    struct kd_buffer list = { 0 };
+    enum kd_status status = kd_buffer_printf(&list, "queue;dur=%.3f", job->queue_ms);
+    if (job->frame.lens_reused && !status)
+        status = kd_buffer_printf(&list, ", trace;desc=\"reused\";dur=0");
+    for (size_t i = 0; i < job->frame.n_timings && !status; i++)
+        status =
+            kd_buffer_printf(&list, ", %s;dur=%.3f", job->frame.timings[i].name, job->frame.timings[i].ms);
+    if (!status)
+        status = kd_buffer_printf(&list, ", encode;dur=%.3f", job->encode_ms);
+    if (!status)
+        MHD_add_response_header(response, "Server-Timing", (const char *)list.data);
+    kd_buffer_finish(&list);
+}
+
+struct picture {
+    struct kd_server *server;
+    void *data;
+    size_t size;
+};
+
+static void release_picture(void *cls)
+{
+    struct picture *picture = cls;
+    atomic_fetch_sub(&picture->server->reply_bytes, picture->size);
+    free(picture->data);
+    free(picture);
+}
+
+static struct MHD_Response *picture_response(struct kd_request *request)
+{
+    struct kd_buffer *png = &request->job->png;
+    struct picture *picture = malloc(sizeof *picture);
+    if (!picture)
+        return NULL;
+    *picture = (struct picture) { request->server, png->data, png->size };
+    struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
+        png->size, png->data, release_picture, picture);
+    if (!response) {
+        free(picture);
+        return NULL;
+    }
+    atomic_fetch_add(&request->server->reply_bytes, png->size);
+    request->reply_bytes = png->size;
+    *png = (struct kd_buffer) { 0 };
+    MHD_add_response_header(response, "Content-Type", OFFERED);
+    return response;
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    struct kd_render_job *job = request->job;
+    if (job->status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (job->status) {
+        job->error.status = job->status;
+        return kd_reply_error(request, &job->error);
+    }
+    struct MHD_Response *response = describe(request, picture_response(request), &job->plan);
+    if (response) {
+        add_accuracy(response, job);
+        add_timings(response, job);
+    }
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+static void wake(struct kd_render_job *job)
+{
+    struct kd_request *request = job->user;
+    MHD_resume_connection(request->mhd);
+}
+
+/* In seconds, until what is accepted now should be done. */
+static unsigned retry_after(struct kd_server *server)
+{
+    double s = ceil(kd_render_queue_backlog_ms(server->renders) * 1e-3);
+    return s < 1 ? 1 : s > 120 ? 120 : (unsigned)s;
+}
+
+static bool admitted(struct kd_request *request, const struct kd_plan *plan, struct kd_problem *problem,
+                     struct kd_error *error)
+{
+    struct kd_server *server = request->server;
+
+    if (plan->estimate_ms > server->longest_s * 1e3) {
+        kd_error_set(error, KD_ETOOBIG,
+                     "this picture would take about %.0f s, more than the %u s a render may take",
+                     plan->estimate_ms * 1e-3, server->longest_s);
+        *problem = kd_problem_from(error);
+        return false;
+    }
+    if (atomic_load(&server->phase) >= KD_REFUSING) {
+        *problem = (struct kd_problem) { .type = KD_PROBLEM_STOPPING,
+                                         .retry_after = 1,
+                                         .detail = "the server is stopping and takes no new renders" };
+        return false;
+    }
+    bool quota;
+    enum kd_status status = kd_render_queue_admit(server->renders, request->client, &quota, error);
+    if (!status && atomic_load(&server->reply_bytes) > KD_REPLIES_MAX)
+        status = kd_error_set(error, KD_EBUSY, "too many pictures wait for their clients to take them");
+    if (!status)
+        return true;
+    *problem = kd_problem_from(error);
+    if (quota)
+        problem->type = KD_PROBLEM_QUOTA;
+    if (status == KD_EBUSY)
+        problem->retry_after = retry_after(server);
+    return false;
+}
+
+static enum MHD_Result submit(struct kd_request *request, const struct kd_scene *scene,
+                              const struct kd_plan *plan)
+{
+    struct kd_render_job *job = calloc(1, sizeof *job);
+    if (!job || !request->connection) {
+        free(job);
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    job->claim.class = KD_CLASS_PICTURE;
+    memcpy(job->claim.client, request->client, sizeof job->claim.client);
+    job->scene = *scene;
+    job->plan = *plan;
+    job->compression = KD_PNG_COMPRESSION;
+    job->socket = kd_connection_socket(request->connection);
+    job->done = wake;
+    job->user = request;
+    request->job = job;
+    /* First: a job may be done before push returns. Suspended, the request and its socket outlive the job. */
+    MHD_suspend_connection(request->mhd);
+    kd_render_queue_push(request->server->renders, job);
+    return MHD_YES;
+}
+
+static enum kd_status tag(struct kd_request *request, const struct kd_scene *scene)
+{
+    char hash[65];
+    enum kd_status status = kd_scene_hash(scene, hash);
+    if (!status)
+        snprintf(request->etag, sizeof request->etag, "\"%s-%s\"", hash, request->server->etag_tail);
+    return status;
+}
+
+enum MHD_Result kd_handle_render(struct kd_request *request)
+{
+    struct kd_problem problem;
+    struct kd_error error;
+    enum MHD_Result result;
+
+    if (request->job)
+        return deliver(request);
+    if (!accepts(request))
+        return kd_reply_problem(
+            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                            .offered = OFFERED,
+                                            .detail = "pictures are offered as " OFFERED " only" });
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    if (!planned)
+        return result;
+    const struct kd_scene *scene = &planned->scene;
+    const struct kd_plan *plan = &planned->plan;
+    if (tag(request, scene))
+        return kd_reply_problem(request,
+                                &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    if (client_has(request))
+        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), plan));
+    if (request->head)
+        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(OFFERED), plan));
+    if (!admitted(request, plan, &problem, &error))
+        return kd_reply_problem(request, &problem);
+    return submit(request, scene, plan);
+}

@@ -1,0 +1,93 @@
+#include "server/render/scene_source.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The JSON pointer of a parameter: "camera.r" is /camera/r. A name may be anything: ~ and / are escaped. */
+static void pointer_of(const char *name, char *out, size_t size)
+{
+    size_t n = 0;
+    out[n++] = '/';
+    for (; *name && n + 3 < size; name++) {
+        if (*name == '.') {
+            out[n++] = '/';
+        } else if (*name == '~' || *name == '/') {
+            out[n++] = '~';
+            out[n++] = *name == '~' ? '0' : '1';
+        } else {
+            out[n++] = *name;
+        }
+    }
+    out[n] = 0;
+}
+
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, struct kd_error *error)
+{
+    char pointer[sizeof error->pointer];
+    for (size_t i = 0; i < target->n_pairs; i++) {
+        const char *name = target->pairs[i].name;
+        pointer_of(name, pointer, sizeof pointer);
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(target->pairs[k].name, name))
+                return kd_error_field(error, pointer, "the query gives %.100s twice", name);
+        if (!fields && strcmp(name, "preset"))
+            return kd_error_field(error, pointer, "the query of a POST may hold preset, not %.100s", name);
+    }
+    return KD_OK;
+}
+
+static enum kd_status apply_preset(const struct kd_target *target, struct kd_scene *scene,
+                                   struct kd_error *error)
+{
+    for (size_t i = 0; i < target->n_pairs; i++) {
+        if (strcmp(target->pairs[i].name, "preset"))
+            continue;
+        enum kd_status status = kd_scene_preset(scene, target->pairs[i].value, error);
+        if (status == KD_EINVAL)
+            snprintf(error->pointer, sizeof error->pointer, "/preset");
+        return status;
+    }
+    return KD_OK;
+}
+
+static enum kd_status apply_fields(const struct kd_target *target, struct kd_scene *scene,
+                                   struct kd_error *error)
+{
+    for (size_t i = 0; i < target->n_pairs; i++) {
+        const struct kd_target_pair *pair = &target->pairs[i];
+        if (!strcmp(pair->name, "preset"))
+            continue;
+        enum kd_status status = kd_scene_set(scene, pair->name, pair->value, error);
+        if (status == KD_EINVAL && !*error->pointer)
+            pointer_of(pair->name, error->pointer, sizeof error->pointer);
+        if (status)
+            return status;
+    }
+    return KD_OK;
+}
+
+bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scene, struct kd_problem *problem,
+                         struct kd_error *error)
+{
+    bool post = !strcmp(request->method, "POST"), malformed = false;
+
+    kd_scene_defaults(scene);
+    enum kd_status status = kd_scene_query_check(&request->target, !post, error);
+    if (!status)
+        status = apply_preset(&request->target, scene, error);
+    if (!status && post) {
+        status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
+                                    request->body.size, error);
+        malformed = status == KD_EINVAL && !*error->pointer; /* what has no place in the document */
+    } else if (!status) {
+        status = apply_fields(&request->target, scene, error);
+    }
+    if (!status)
+        status = kd_scene_validate(scene, error);
+    if (status) {
+        *problem = kd_problem_from(error);
+        if (malformed)
+            problem->type = KD_PROBLEM_MALFORMED_JSON;
+    }
+    return !status;
+}

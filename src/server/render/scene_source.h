@@ -1,0 +1,17 @@
+/* The scene that a request asks for, from its query and body. HTTP thread. */
+#ifndef KD_SERVER_RENDER_SCENE_SOURCE_H
+#define KD_SERVER_RENDER_SCENE_SOURCE_H
+
+#include "server/http/problem.h"
+#include "server/http/request.h"
+#include "scene/scene.h"
+
+/* No name twice, and without `fields` none but preset. KD_EINVAL with a pointer. */
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, struct kd_error *error);
+
+/* Defaults, then ?preset=NAME, then (POST) the body or (GET) the query's fields; validated. False with
+ * *problem filled, its texts in *error. */
+bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scene, struct kd_problem *problem,
+                         struct kd_error *error);
+
+#endif

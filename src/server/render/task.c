@@ -1,0 +1,106 @@
+#include "server/render/task.h"
+
+#include "base/clock.h"
+#include "server/http/reply.h"
+
+#include <stdio.h>
+
+#define TURN_MS 10.
+
+enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms, struct kd_error *error)
+{
+    if (gone || kd_turns_cancelled(queue))
+        return kd_error_set(error, KD_ECANCELLED, "the client has gone, or the server stops");
+    if (kd_clock_ms() > deadline_ms)
+        return kd_error_set(error, KD_ETOOBIG, "this was given up after %u s, as long as this server lets it take",
+                            server->longest_s);
+    return KD_OK;
+}
+
+void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error)
+{
+    enum kd_status none = KD_OK;
+    if (!status || !atomic_compare_exchange_strong(&task->status, &none, status))
+        return;
+    task->error = *error;
+    task->error.status = status;
+}
+
+static enum kd_turn take_turn(struct kd_turns_job *turns)
+{
+    struct kd_task *task = (struct kd_task *)turns;
+    struct kd_request *request = task->request;
+    struct kd_error error = { 0 };
+    double now = kd_clock_ms();
+    if (!(task->begun_ms > 0))
+        task->begun_ms = now;
+    bool gone = kd_socket_abandoned(kd_connection_socket(request->connection));
+    kd_task_fail(task, kd_task_over(request->server, task->queue, gone, task->deadline_ms, &error), &error);
+    return task->status ? KD_TURN_LAST : task->work(task, now + TURN_MS);
+}
+
+static void done(struct kd_turns_job *turns)
+{
+    struct kd_task *task = (struct kd_task *)turns;
+    if (task->last)
+        task->last(task);
+    task->done_ms = kd_clock_ms();
+    MHD_resume_connection(task->request->mhd);
+}
+
+void kd_task_init(struct kd_task *task, struct kd_request *request, struct kd_turns *queue)
+{
+    *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done }, .queue = queue, .request = request,
+                               .submitted_ms = kd_clock_ms() };
+    task->deadline_ms = task->submitted_ms + 1e3 * request->server->longest_s;
+}
+
+void kd_task_destroy(struct kd_task *task)
+{
+    if (!task)
+        return;
+    atomic_fetch_sub(&task->request->server->reply_bytes, task->held);
+    task->free(task);
+}
+
+bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused)
+{
+    struct kd_error error = { 0 };
+    char stopping[80];
+    snprintf(stopping, sizeof stopping, "the server is stopping and takes no new %s", what);
+    if (atomic_load(&request->server->phase) >= KD_REFUSING)
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
+                                                                    .detail = stopping });
+    else if (!request->connection)
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    else if (kd_turns_admit(queue, &error))
+        *refused = kd_reply_error(request, &error);
+    else
+        return true;
+    return false;
+}
+
+enum MHD_Result kd_task_submit(struct kd_task *task)
+{
+    /* First: it may be done before push returns. Suspended, the request and its socket outlive it. */
+    MHD_suspend_connection(task->request->mhd);
+    kd_turns_push(task->queue, &task->turns);
+    return MHD_YES;
+}
+
+enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held, struct kd_error *error)
+{
+    size_t all = atomic_load(&server->reply_bytes);
+    do {
+        if (all && all + bytes > KD_REPLIES_MAX)
+            return kd_error_set(error, KD_EBUSY, "too many answers wait for their clients to take them");
+    } while (!atomic_compare_exchange_weak(&server->reply_bytes, &all, all + bytes));
+    *held = bytes;
+    return KD_OK;
+}
+
+void kd_task_drop_body(struct kd_request *request)
+{
+    kd_bodies_give(request->server->bodies, request->client, request->body.size);
+    kd_buffer_finish(&request->body);
+}

@@ -1,0 +1,46 @@
+/* A request that workers answer by turns (http/turns.h): suspended meanwhile, given up when its client has left, the server stops at
+ * once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
+ *
+ *     if (!kd_task_admit(request, queue, "quantities", &refused)) return refused;
+ *     kd_task_init(&mine->task, request, queue); request->task = &mine->task; set work and free
+ *     return kd_task_submit(&mine->task);
+ *     the handler is called again when `work` has returned KD_TURN_LAST */
+#ifndef KD_SERVER_RENDER_TASK_H
+#define KD_SERVER_RENDER_TASK_H
+
+#include "server/http/request.h"
+
+struct kd_task {
+    struct kd_turns_job turns; /* first */
+    struct kd_turns *queue;
+    struct kd_request *request;
+    enum kd_turn (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
+    void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
+    void (*free)(struct kd_task *task);                          /* with what it is embedded in */
+    size_t held;                                                 /* of kd_task_hold, given back with the task */
+    double submitted_ms, begun_ms, done_ms, deadline_ms;
+    _Atomic enum kd_status status; /* KD_ECANCELLED: nobody listens */
+    struct kd_error error;
+};
+
+/* The rest is zero. */
+void kd_task_init(struct kd_task *task, struct kd_request *request, struct kd_turns *queue);
+void kd_task_destroy(struct kd_task *task); /* accepts NULL */
+
+/* The first one counts; status KD_OK does not. Any thread. */
+void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
+
+/* Whether one more may begin; else the client has been told why not. what: "the server ... takes no new <what>". HTTP thread. */
+bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused);
+/* HTTP thread, after kd_task_admit. */
+enum MHD_Result kd_task_submit(struct kd_task *task);
+
+/* Why one must end now whose client may have gone, and which may go on until then; KD_OK: it need not. Any thread. */
+enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
+                            struct kd_error *error);
+/* Count bytes of an answer as held, to be subtracted from server->reply_bytes by whoever holds them; KD_EBUSY: too many are. */
+enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held, struct kd_error *error);
+/* The body is not needed any more. While the request is suspended it is nobody else's. */
+void kd_task_drop_body(struct kd_request *request);
+
+#endif

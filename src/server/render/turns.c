@@ -1,0 +1,261 @@
+/* Who has the device, and what is done with it. */
+#include "base/clock.h"
+#include "server/render/internal.h"
+
+#define FRAME_BYTES ((size_t)256 << 20) /* rendered and not yet encoded; one frame may exceed it, and ... */
+#define SHORT_BYTES ((size_t)64 << 20)  /* ... so much more may be of frames that are encoded soon */
+#define BRIEF_MS 3000.0                 /* what has a lane for so long frees it soon: for such the last lanes are kept, */
+#define BRIEF_LANES 2                   /* so many; and as many a client may have of them */
+#define LARGE 32                        /* parts of the memory: what is smaller is not worth counting */
+
+/* The fields below are of the queue, and it is locked, where nothing else is said. */
+
+static bool is_large(const struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(queue->renderer, &c);
+    return job->plan.device_bytes > c.memory_bytes / LARGE;
+}
+
+/* Beside the large pictures that are under way. One that needs nearly all of the memory has it when no other large one has any. */
+static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(queue->renderer, &c);
+    return !queue->large || !is_large(queue, job) || queue->lane_bytes + job->plan.device_bytes <= c.memory_bytes / 4 * 3;
+}
+
+static bool is_brief(const struct kd_render_job *job) { return job->plan.estimate_ms <= BRIEF_MS; }
+
+/* The lane that a long picture may begin in. No client has more than one of a class, but for those that are brief. NULL: none yet. */
+static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    struct kd_lane *found = NULL;
+    unsigned free = 0, brief = 0;
+    for (unsigned i = 0; i < queue->n_lanes; i++) {
+        struct kd_lane *lane = &queue->lanes[i];
+        if (!lane->job) {
+            found = lane;
+            free++;
+        } else if (lane->job->claim.owner == job->claim.owner) {
+            brief += is_brief(lane->job);
+            if (!is_brief(job) && !is_brief(lane->job) && lane->job->claim.class == job->claim.class)
+                return NULL;
+        }
+    }
+    bool may = is_brief(job) ? brief < BRIEF_LANES : free > BRIEF_LANES;
+    return may && fits(queue, job) ? found : NULL;
+}
+
+static bool frame_fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
+{
+    size_t bytes = kd_render_frame_bytes(job);
+    return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
+}
+
+static bool may_have_it(const struct kd_claim *claim, void *user)
+{
+    const struct kd_render_job *job = (const struct kd_render_job *)claim;
+    struct kd_render_queue *queue = user;
+    return job->begun || queue->lost || (frame_fits(queue, job) && (!job->sliced || lane_for(queue, job)));
+}
+
+/* One that only has to be told that it is over: that takes no time, and others may wait for it. A long one that has not begun needs
+ * no lane for that. */
+static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
+{
+    struct kd_render_job *job = queue->jobs.first;
+    while (job && !atomic_load(&job->drop) && !atomic_load(&queue->cancel))
+        job = job->next;
+    return job;
+}
+
+static struct kd_render_job *choose(struct kd_render_queue *queue)
+{
+    struct kd_render_job *dropped = first_dropped(queue);
+    return dropped ? dropped : (struct kd_render_job *)kd_shares_next(&queue->shares, may_have_it, queue);
+}
+
+void kd_render_next(struct kd_render_queue *queue)
+{
+    if (queue->holder || !queue->opened)
+        return;
+    struct kd_render_job *job = choose(queue);
+    if (!job)
+        return;
+    if (job->sliced && !job->begun) {
+        struct kd_lane *lane = queue->lost || atomic_load(&job->drop) || atomic_load(&queue->cancel) ? NULL : lane_for(queue, job);
+        job->sliced = lane;
+        if (lane) {
+            lane->job = job;
+            job->large = is_large(queue, job);
+            queue->large += job->large;
+            queue->lane_bytes += job->large ? job->plan.device_bytes : 0;
+        }
+    }
+    job->begun = true;
+    job->turn_ms = kd_clock_ms();
+    job->queue_ms += job->turn_ms - job->away_ms;
+    queue->holder = job;
+    pthread_cond_broadcast(&queue->changed);
+}
+
+/* What its turn has taken so far. */
+static void charge(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    double now = kd_clock_ms();
+    kd_shares_charge(&queue->shares, &job->claim, now - job->turn_ms);
+    job->turn_ms = now;
+}
+
+/* Between two slices: whoever is before it has the device meanwhile. */
+static bool between_slices(void *user, double fraction)
+{
+    struct kd_render_job *job = user;
+    struct kd_render_queue *queue = job->queue;
+    pthread_mutex_lock(&queue->lock);
+    charge(queue, job);
+    job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
+    if (choose(queue) != job) {
+        job->away_ms = job->turn_ms;
+        queue->holder = NULL;
+        kd_render_next(queue);
+        while (queue->holder != job)
+            pthread_cond_wait(&queue->changed, &queue->lock);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    if (job->progress)
+        job->progress(job, fraction);
+    return !kd_render_unwanted(queue, job);
+}
+
+static bool go_on(void *user, double fraction)
+{
+    struct kd_render_job *job = user;
+    pthread_mutex_lock(&job->queue->lock);
+    job->claim.left_ms = job->plan.estimate_ms * (1 - fraction);
+    pthread_mutex_unlock(&job->queue->lock);
+    return !kd_render_unwanted(job->queue, job);
+}
+
+/* Only who has the device may ask the renderer, and what it says of its speed changes as it measures itself. Unlocked. */
+static enum kd_status describe_device(struct kd_render_queue *queue)
+{
+    struct kd_buffer json = { 0 }, old = { 0 };
+    enum kd_status status = kd_renderer_device_json(queue->renderer, &json);
+    if (status) {
+        kd_buffer_finish(&json);
+        return status;
+    }
+    pthread_mutex_lock(&queue->lock);
+    old = queue->device_json;
+    queue->device_json = json;
+    pthread_mutex_unlock(&queue->lock);
+    kd_buffer_finish(&old);
+    return KD_OK;
+}
+
+/* Unlocked, as all that has the device. */
+static void render(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    job->more = false;
+    job->status = kd_render_queue_lost(queue, &job->error) ? KD_EDEVICE : KD_OK;
+    if (!job->status && kd_render_unwanted(queue, job))
+        job->status = kd_error_set(&job->error, KD_ECANCELLED, "the render was dropped before it began");
+    if (job->status)
+        return;
+    if (job->run)
+        job->status = job->run(job, queue->renderer, go_on, job);
+    else if (job->sliced)
+        job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job, &job->frame, &job->error);
+    else
+        job->status = kd_render(queue->renderer, &job->scene, &job->plan, go_on, job, &job->frame, &job->error);
+    if (job->status == KD_EDEVICE)
+        kd_render_mark_lost(queue, &job->error);
+    else
+        describe_device(queue);
+    if (!job->status && !job->run && job->rendered)
+        job->rendered(job);
+}
+
+static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    for (unsigned i = 0; i < queue->n_lanes; i++)
+        if (queue->lanes[i].job == job)
+            queue->lanes[i].job = NULL;
+    if (job->large) {
+        queue->large--;
+        queue->lane_bytes -= job->plan.device_bytes;
+    }
+}
+
+/* The turn of the job, which has the device. Unlocks while it works. */
+static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    pthread_mutex_unlock(&queue->lock);
+    render(queue, job);
+    pthread_mutex_lock(&queue->lock);
+    charge(queue, job);
+    queue->holder = NULL;
+    const bool more = !job->status && job->more, encode = !job->status && !job->run;
+    if (more) {
+        job->away_ms = job->turn_ms;
+    } else {
+        kd_render_take_out(queue, job);
+        leave_lane(queue, job);
+    }
+    if (encode)
+        kd_render_encode(queue, job);
+    kd_render_next(queue);
+    pthread_cond_broadcast(&queue->changed);
+    if (more || encode)
+        return;
+    pthread_mutex_unlock(&queue->lock);
+    kd_render_finish(queue, job);
+    pthread_mutex_lock(&queue->lock);
+}
+
+static void open_renderer(struct kd_render_queue *queue)
+{
+    enum kd_status status = kd_renderer_create(&queue->params, &queue->renderer, &queue->open_error);
+    if (!status) {
+        status = describe_device(queue);
+        if (status)
+            kd_error_set(&queue->open_error, status, "the device could not be described");
+    }
+    pthread_mutex_lock(&queue->lock);
+    queue->open_status = status;
+    queue->opened = true;
+    pthread_cond_broadcast(&queue->changed);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+void *kd_render_short_main(void *user)
+{
+    struct kd_render_queue *queue = user;
+    open_renderer(queue);
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->open_status && (!queue->closing || queue->jobs.first)) {
+        if (queue->holder && !queue->holder->sliced)
+            take_turn(queue, queue->holder);
+        else
+            pthread_cond_wait(&queue->changed, &queue->lock);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return NULL;
+}
+
+void *kd_render_lane_main(void *user)
+{
+    struct kd_lane *lane = user;
+    struct kd_render_queue *queue = lane->queue;
+    pthread_mutex_lock(&queue->lock);
+    while (!queue->closing || queue->jobs.first) {
+        if (lane->job && queue->holder == lane->job)
+            take_turn(queue, lane->job);
+        else
+            pthread_cond_wait(&queue->changed, &queue->lock);
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return NULL;
+}

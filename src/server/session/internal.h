@@ -1,0 +1,68 @@
+/* What sessions.c, run.c and watch.c share. */
+#ifndef KD_SERVER_SESSION_INTERNAL_H
+#define KD_SERVER_SESSION_INTERNAL_H
+
+#include "image/png_live.h"
+#include "render/live/governor.h"
+#include "server/http/secret.h"
+#include "server/session/sessions.h"
+
+#include <pthread.h>
+
+struct kd_session_frame; /* one on its way through the render queue */
+
+struct kd_session {
+    struct kd_sessions *all;
+    unsigned references;
+    char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
+    char client[KD_CLIENT];
+    struct kd_scene scene; /* as at since_ms */
+    double since_ms, used_ms;
+    char lens_key[65]; /* of the scene as asked */
+    struct kd_governor governor;
+    unsigned revision; /* of the scene */
+    uint64_t begun; /* frames */
+    bool moved;     /* the scene of the latest one went on by itself */
+    bool listed;
+    struct kd_session_frame *rendering; /* before it is encoded */
+    unsigned encoding;
+    struct kd_live_frame *latest;
+    double exposed_ms, exposure;  /* when the latest was rendered, and the stops that it got; */
+    unsigned exposed_revision;    /* 0: none */
+    double shown_ms, interval_ms; /* when the latest came; between frames, smoothed */
+    enum kd_status failed;        /* the latest render, with `error`; a patch starts anew */
+    struct kd_error error;
+    struct kd_viewer *viewers;
+    struct kd_session *next;
+};
+
+struct kd_sessions {
+    struct kd_sessions_params params;
+    pthread_mutex_t lock;
+    struct kd_session *first;
+    unsigned count;
+    uint64_t frames, bytes; /* published */
+    bool closed;
+    double looked_ms;
+    struct kd_png_live *encoders[KD_ENCODERS];
+};
+
+/* All with all->lock held where nothing else is said. */
+
+void kd_session_let_go(struct kd_session *session); /* of a reference */
+void kd_session_unlist(struct kd_session *session);
+struct kd_scene kd_session_scene(const struct kd_session *session, double now); /* what goes on by itself included */
+
+/* Begin a frame if one is awaited, would differ, and there is room for it. run.c */
+void kd_session_pump(struct kd_session *session);
+/* Frames are believed to cost what the plan of the scene says, as long as none was measured. */
+void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
+/* What is being rendered is given up if it refines: it is long, and nobody waits for it any more. */
+void kd_session_drop_refinement(struct kd_session *session);
+void kd_session_drop(struct kd_session *session); /* whatever it is */
+
+/* Whether somebody waits; the first frame is made before anybody asks. watch.c */
+bool kd_session_awaited(const struct kd_session *session);
+void kd_session_wake(struct kd_session *session); /* those for whom there is something */
+
+#endif

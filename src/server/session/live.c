@@ -1,0 +1,275 @@
+/* The frames of a session: one by one as they are asked for, and as streams. */
+#include "base/clock.h"
+#include "server/http/negotiate.h"
+#include "server/http/reply.h"
+#include "server/session/sessions.h"
+
+#include <math.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+
+#define PNG_TYPE "image/png"
+#define BINARY_TYPE "application/x-kerrd-frames"
+#define WAIT_MS 25000        /* below the half minute after which proxies give up */
+#define HEARTBEAT_MS 15000.0 /* of an event stream */
+#define UNSENT_BYTES (64 << 10) /* in the kernel: more would be frames grown old */
+
+static enum MHD_Result ended(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the session has ended" });
+}
+
+static void describe(struct MHD_Response *response, const struct kd_live_frame *frame)
+{
+    char number[24];
+    snprintf(number, sizeof number, "%llu", (unsigned long long)frame->number);
+    MHD_add_response_header(response, "Kerrd-Frame", number);
+    snprintf(number, sizeof number, "%u", frame->revision);
+    MHD_add_response_header(response, "Kerrd-Revision", number);
+    snprintf(number, sizeof number, "%.15g", frame->time);
+    MHD_add_response_header(response, "Kerrd-Time", number);
+    MHD_add_response_header(response, "Kerrd-Quality", frame->quality);
+    MHD_add_response_header(response, "Kerrd-Accuracy", frame->accuracy);
+    MHD_add_response_header(response, "Server-Timing", frame->timing);
+    if (frame->approximations.size)
+        MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);
+}
+
+static void release_frame(void *cls) { kd_live_frame_release(cls); }
+
+static enum MHD_Result send_frame(struct kd_request *request, struct kd_live_frame *frame)
+{
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer_with_free_callback_cls(frame->png.size, frame->png.data, release_frame, frame);
+    if (!response) {
+        kd_live_frame_release(frame);
+        return kd_reply_no_memory(request);
+    }
+    MHD_add_response_header(response, "Content-Type", PNG_TYPE);
+    describe(response, frame);
+    request->reply_bytes = frame->png.size;
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+/* The answer, or another wait. */
+static enum MHD_Result look(struct kd_request *request)
+{
+    struct kd_error error = { 0 };
+    struct kd_live_frame *frame = NULL;
+    enum kd_viewer_news what = kd_viewer_next(request->viewer, &frame, &error);
+    if (what == KD_VIEWER_LATER)
+        return MHD_YES;
+    kd_live_abandon(request);
+    switch (what) {
+    case KD_VIEWER_FRAME: return send_frame(request, frame);
+    case KD_VIEWER_OVER: return error.status ? kd_reply_error(request, &error) : ended(request);
+    case KD_VIEWER_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PNG_TYPE));
+    default: return MHD_NO;
+    }
+}
+
+static enum MHD_Result bad_number(struct kd_request *request, const char *detail)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
+}
+
+enum MHD_Result kd_handle_session_frame(struct kd_request *request)
+{
+    uint64_t after, wait;
+    enum MHD_Result refused;
+    if (request->viewer)
+        return look(request);
+    if (!kd_reply_only(request, (const char *const[]) { "after", "wait_ms", NULL }, &refused))
+        return refused;
+    if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
+        return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
+    if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
+        return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
+    struct kd_session *session = kd_session_of(request, &refused);
+    if (!session)
+        return refused;
+    struct kd_viewer *viewer = request->connection ? calloc(1, sizeof *viewer) : NULL;
+    if (!viewer) {
+        kd_session_release(session);
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    *viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
+                                   .seen = after, .deadline_ms = kd_clock_ms() + (double)wait, .late = !wait };
+    request->viewer = viewer;
+    kd_viewer_attach(viewer);
+    return look(request);
+}
+
+void kd_live_abandon(struct kd_request *request)
+{
+    if (!request->viewer)
+        return;
+    kd_viewer_detach(request->viewer);
+    free(request->viewer);
+    request->viewer = NULL;
+}
+
+/* What one frame is in a stream: some bytes before the picture, the picture, some after it. */
+struct stream {
+    struct kd_viewer viewer; /* first */
+    enum { MULTIPART, BINARY, EVENTS } form;
+    struct kd_live_frame *frame; /* whose bytes are on their way */
+    char before[64];
+    struct part { const char *data; size_t size; } parts[3];
+    size_t part, at;
+};
+
+static void set_part(struct stream *s, size_t i, const void *data, size_t size) { s->parts[i] = (struct part) { data, size }; }
+
+static void put_le32(char *out, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        out[i] = (char)(value >> 8 * i & 255);
+}
+
+/* A browser shows a part when the head of the next has come: so that follows each frame at once. */
+#define NEXT_PART "\r\n--kerrd\r\nContent-Type: image/png\r\n\r\n"
+
+static void frame_parts(struct stream *s, struct kd_live_frame *frame)
+{
+    s->frame = frame;
+    s->part = s->at = 0;
+    memset(s->parts, 0, sizeof s->parts);
+    switch (s->form) {
+    case MULTIPART:
+        set_part(s, 1, frame->png.data, frame->png.size);
+        set_part(s, 2, NEXT_PART, sizeof NEXT_PART - 1);
+        return;
+    case BINARY:
+        put_le32(s->before, (uint32_t)frame->png.size);
+        put_le32(s->before + 4, (uint32_t)frame->number);
+        put_le32(s->before + 8, frame->revision);
+        put_le32(s->before + 12, 0);
+        set_part(s, 0, s->before, 16);
+        set_part(s, 1, frame->png.data, frame->png.size);
+        return;
+    case EVENTS:
+        set_part(s, 0, s->before,
+                 (size_t)snprintf(s->before, sizeof s->before, "event: frame\nid: %llu\ndata: ", (unsigned long long)frame->number));
+        set_part(s, 1, frame->event.data, frame->event.size);
+        set_part(s, 2, "\n\n", 2);
+        return;
+    }
+}
+
+/* From what is left of the present frame; 0: nothing is. */
+static size_t take(struct stream *s, char *to, size_t size)
+{
+    size_t n = 0;
+    while (s->part < 3 && n < size) {
+        struct part *p = &s->parts[s->part];
+        size_t left = p->size - s->at, now = left < size - n ? left : size - n;
+        if (now)
+            memcpy(to + n, p->data + s->at, now);
+        n += now;
+        s->at += now;
+        if (s->at == p->size) {
+            s->part++;
+            s->at = 0;
+        }
+    }
+    return n;
+}
+
+static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
+{
+    struct stream *s = cls;
+    (void)position;
+    size_t n = take(s, to, size);
+    if (n)
+        return (ssize_t)n;
+    kd_live_frame_release(s->frame);
+    s->frame = NULL;
+    struct kd_live_frame *frame;
+    switch (kd_viewer_next(&s->viewer, &frame, NULL)) {
+    case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
+    case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
+    case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
+    case KD_VIEWER_LATE: /* a sign of life, which also finds out who has left without a word */
+        s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
+        memcpy(to, ":\n\n", 3);
+        return 3;
+    case KD_VIEWER_LATER: break;
+    }
+    return 0;
+}
+
+static void release_stream(void *cls)
+{
+    struct stream *s = cls;
+    kd_live_frame_release(s->frame);
+    kd_viewer_detach(&s->viewer);
+    free(s);
+}
+
+static enum MHD_Result start_stream(struct kd_request *request, struct stream *s, const char *type)
+{
+    int socket = kd_connection_socket(request->connection), unsent = UNSENT_BYTES;
+    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64 << 10, produce, s, release_stream);
+    if (!response) {
+        release_stream(s);
+        return kd_reply_no_memory(request);
+    }
+    setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
+    MHD_add_response_header(response, "Content-Type", type);
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
+    enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
+    /* It may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
+    kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
+    return result;
+}
+
+/* An EventSource that lost its connection says what it had. What names no frame that there has been, counts as none. */
+static uint64_t last_event(struct kd_request *request, struct kd_session *session)
+{
+    const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
+    struct kd_session_state state;
+    uint64_t number = 0;
+    if (!id || !kd_target_number(id, UINT64_MAX, &number))
+        return 0;
+    kd_session_state(session, &state);
+    return number <= state.frame ? number : 0;
+}
+
+static enum MHD_Result open_stream(struct kd_request *request, int form, const char *type)
+{
+    enum MHD_Result refused;
+    struct kd_session *session = kd_session_of(request, &refused);
+    if (!session)
+        return refused;
+    struct stream *s = request->connection ? calloc(1, sizeof *s) : NULL;
+    if (!s || request->head) {
+        kd_session_release(session);
+        free(s);
+        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(type))
+                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    s->form = form;
+    s->viewer = (struct kd_viewer) { .session = session, .mhd = request->mhd, .socket = kd_connection_socket(request->connection),
+                                     .seen = form == EVENTS ? last_event(request, session) : 0,
+                                     .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
+    s->part = form == MULTIPART ? 0 : 3;
+    if (form == MULTIPART)
+        set_part(s, 0, &NEXT_PART[2], sizeof NEXT_PART - 3);
+    kd_viewer_attach(&s->viewer);
+    return start_stream(request, s, type);
+}
+
+enum MHD_Result kd_handle_session_frames(struct kd_request *request)
+{
+    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
+    bool binary = accept.data && strstr((const char *)accept.data, BINARY_TYPE);
+    kd_buffer_finish(&accept);
+    return binary ? open_stream(request, BINARY, BINARY_TYPE) : open_stream(request, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
+}
+
+enum MHD_Result kd_handle_session_events(struct kd_request *request) { return open_stream(request, EVENTS, "text/event-stream"); }

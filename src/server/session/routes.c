@@ -1,0 +1,195 @@
+/* POST /v1/sessions; GET, PATCH and DELETE of one. */
+#include "scene/number.h"
+#include "scene/text.h"
+#include "scene/tree.h"
+#include "server/http/reply.h"
+#include "server/render/planned.h"
+#include "server/session/sessions.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define JSON_TYPE "application/json"
+#define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
+
+struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
+{
+    struct kd_session *session = kd_sessions_find(request->server->sessions, request->rest);
+    if (!session)
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                                    .detail = "there is no such session, or it has ended" });
+    return session;
+}
+
+/* {"id", "revision", "frame", "viewers", "scene"}, and for who has just made it the token. */
+static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_printf(out, "{\"id\":\"%s\",", kd_session_id(session));
+    if (!status && token)
+        status = kd_buffer_printf(out, "\"token\":\"%s\",", kd_session_token(session));
+    if (!status)
+        status = kd_buffer_printf(out, "\"revision\":%u,\"frame\":%llu,\"viewers\":%u,\"scene\":", state->revision,
+                                  (unsigned long long)state->frame, state->viewers);
+    if (!status)
+        status = kd_scene_to_json(&state->scene, out);
+    return status ? status : kd_buffer_printf(out, "}\n");
+}
+
+static enum MHD_Result answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state,
+                              bool created)
+{
+    struct kd_buffer json = { 0 };
+    enum kd_status status = to_json(session, state, created, &json);
+    if (status || !created)
+        return kd_reply_json(request, status, &json, JSON_TYPE);
+    char location[60];
+    snprintf(location, sizeof location, "/v1/sessions/%s", kd_session_id(session));
+    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+    if (response)
+        MHD_add_response_header(response, "Location", location);
+    return kd_reply_send(request, MHD_HTTP_CREATED, response);
+}
+
+enum MHD_Result kd_handle_sessions(struct kd_request *request)
+{
+    struct kd_server *server = request->server;
+    struct kd_session *session = NULL;
+    bool quota;
+    struct kd_session_state state;
+    struct kd_problem problem;
+    struct kd_error error = { 0 };
+    enum MHD_Result result;
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    if (!planned)
+        return result;
+    if (kd_sessions_takes(server->sessions, &planned->plan, &error))
+        return kd_reply_error(request, &error);
+    if (atomic_load(&server->phase) >= KD_REFUSING)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
+                                                                .detail = "the server is stopping and takes no new sessions" });
+    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, &quota, &session, &error)) {
+        problem = kd_problem_from(&error);
+        if (quota)
+            problem.type = KD_PROBLEM_QUOTA;
+        problem.retry_after = 10;
+        return kd_reply_problem(request, &problem);
+    }
+    kd_session_state(session, &state);
+    result = answer(request, session, &state, true);
+    if (request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
+        kd_session_end(session);
+    kd_session_release(session);
+    return result;
+}
+
+static enum MHD_Result patch(struct kd_request *request, struct kd_session *session, const char *text, size_t length)
+{
+    struct kd_session_state state;
+    struct kd_error error = { 0 };
+    if (!kd_session_patch(session, text, length, &state, &error))
+        return answer(request, session, &state, false);
+    struct kd_problem problem = kd_problem_from(&error);
+    if (error.status == KD_EINVAL && !*error.pointer)
+        problem.type = KD_PROBLEM_MALFORMED_JSON;
+    return kd_reply_problem(request, &problem);
+}
+
+static enum MHD_Result forbidden(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                                            .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
+}
+
+static enum MHD_Result change(struct kd_request *request, struct kd_session *session)
+{
+    if (!kd_session_owned(session, kd_token_of(request)))
+        return forbidden(request);
+    if (!strcmp(request->method, "PATCH"))
+        return patch(request, session, request->body.data ? (const char *)request->body.data : "", request->body.size);
+    kd_session_end(session);
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+}
+
+enum MHD_Result kd_handle_session(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_session_state state;
+    struct kd_session *session = kd_session_of(request, &result);
+    if (!session)
+        return result;
+    if (!strcmp(request->method, "PATCH") || !strcmp(request->method, "DELETE")) {
+        result = change(request, session);
+    } else {
+        kd_session_state(session, &state);
+        result = answer(request, session, &state, false);
+    }
+    kd_session_release(session);
+    return result;
+}
+
+/* {"amplitude": x}, {} or nothing: *amplitude stays as it is. KD_EINVAL without a pointer: no JSON object. */
+static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
+{
+    cJSON *tree = NULL;
+    enum kd_status status = KD_OK;
+    if (body->size)
+        status = kd_tree_parse((const char *)body->data, body->size, KD_BODY_MAX, STRIKE_VALUES, &tree, error);
+    if (!status && tree && !cJSON_IsObject(tree))
+        status = kd_error_set(error, KD_EINVAL, "the body is no JSON object");
+    for (const cJSON *item = tree ? tree->child : NULL; item && !status; item = item->next) {
+        char name[60], pointer[sizeof error->pointer] = "", given[KD_VALUE_SIZE];
+        kd_text_clip(name, sizeof name, item->string);
+        kd_text_pointer(pointer, sizeof pointer, item->string);
+        const struct kd_value value = kd_tree_value(item);
+        kd_value_describe(&value, given);
+        if (strcmp(item->string, "amplitude"))
+            status = kd_error_field(error, pointer, "there is no field %s here; known is amplitude", name);
+        else if (item != tree->child)
+            status = kd_error_field(error, pointer, "amplitude is given twice");
+        else if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble <= 1))
+            status = kd_error_field(error, pointer, "amplitude is %s, allowed are 0 to 1", given);
+        else
+            *amplitude = item->valuedouble;
+    }
+    cJSON_Delete(tree);
+    return status;
+}
+
+static enum MHD_Result strike(struct kd_request *request, struct kd_session *session)
+{
+    struct kd_session_state state;
+    struct kd_error error = { 0 };
+    char text[120], amplitude[KD_NUMBER_SIZE], time[KD_NUMBER_SIZE], detail[160];
+    kd_session_state(session, &state);
+    double rate = state.scene.motion.time_rate, x = state.scene.style.ringdown > 0 ? state.scene.style.ringdown : 1;
+    if (read_strike(&request->body, &x, &error)) {
+        struct kd_problem problem = kd_problem_from(&error);
+        if (error.status == KD_EINVAL)
+            problem.type = *error.pointer ? KD_PROBLEM_INVALID_PARAMETERS : KD_PROBLEM_MALFORMED_JSON;
+        return kd_reply_problem(request, &problem);
+    }
+    kd_number_format(amplitude, x);
+    kd_number_format(time, state.scene.top.time);
+    snprintf(text, sizeof text, "{\"style\":{\"ringdown\":%s,\"ringdown_time\":%s}}", amplitude, time);
+    if (rate > 0)
+        return patch(request, session, text, strlen(text));
+    kd_number_format(time, rate);
+    snprintf(detail, sizeof detail, "motion.time_rate is %s, allowed for a hole to be struck is more than 0 M per second: what "
+             "rings, rings as time goes on", time);
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = "/motion/time_rate",
+                                                            .detail = detail });
+}
+
+enum MHD_Result kd_handle_session_ringdown(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_session *session = kd_session_of(request, &result);
+    if (!session)
+        return result;
+    result = kd_session_owned(session, kd_token_of(request)) ? strike(request, session) : forbidden(request);
+    kd_session_release(session);
+    return result;
+}

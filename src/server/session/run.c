@@ -1,0 +1,220 @@
+/* The frames of sessions, through the render queue. */
+#include "base/clock.h"
+#include "server/session/internal.h"
+#include "server/session/sessions.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPOSURE_MS 2000.0 /* in which 63 % of a change of brightness is followed */
+#define ENCODING_MAX 2 /* frames of a session behind the renderer: one is traced while one is encoded */
+
+struct kd_session_frame {
+    struct kd_render_job job; /* first: the queue's pointer is ours */
+    struct kd_session *session;
+    uint64_t number;
+    unsigned revision;
+    double begun_ms;
+    struct kd_turn turn;
+    bool rendered;
+};
+
+/* Locked where nothing else is said. */
+
+static enum kd_status encode(struct kd_render_job *job, unsigned encoder);
+static void rendered(struct kd_render_job *job);
+static void done(struct kd_render_job *job);
+
+static void fail(struct kd_session *s, const struct kd_error *error)
+{
+    s->failed = error->status ? error->status : KD_EDEVICE;
+    s->error = *error;
+    kd_session_wake(s);
+}
+
+/* Where nothing but time has gone on, the few brightest pixels, which "auto" goes by, are now these particles and now those: the
+ * picture would flicker with them. */
+static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
+{
+    plan->exposure_from = s->exposure;
+    plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
+}
+
+/* What the queue is to render. NULL: *error says why not. */
+static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene, const struct kd_turn *turn,
+                                           double now, struct kd_error *error)
+{
+    struct kd_session_frame *live = calloc(1, sizeof *live);
+    struct kd_capacity capacity;
+    if (!live) {
+        kd_error_set(error, KD_ENOMEM, "out of memory for a frame");
+        return NULL;
+    }
+    live->session = s;
+    live->turn = *turn;
+    live->begun_ms = now;
+    /* While the scene changes the governor knows better than the plan what a frame takes: its lens map may be there already. */
+    live->job = (struct kd_render_job) {
+        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .whole = !turn->refining, .socket = -1,
+        .encode = encode, .rendered = rendered, .done = done,
+    };
+    memcpy(live->job.claim.client, s->client, sizeof s->client);
+    kd_quality_apply(&turn->quality, scene, &live->job.scene);
+    live->job.scene.image.bit_depth = 8;
+    kd_render_queue_capacity(s->all->params.renders, &capacity);
+    if (kd_plan_make(&live->job.scene, &capacity, &live->job.plan, error)) {
+        free(live);
+        return NULL;
+    }
+    if (!turn->refining && s->exposed_revision == s->revision && kd_scene_moves(scene))
+        follow_exposure(s, now, &live->job.plan);
+    return live;
+}
+
+void kd_session_pump(struct kd_session *s)
+{
+    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s))
+        return;
+    double now = kd_clock_ms();
+    const struct kd_scene scene = kd_session_scene(s, now);
+    const bool moves = kd_scene_moves(&scene);
+    if (moves || s->moved) /* what has come to rest since the latest frame differs from it too */
+        kd_governor_changed(&s->governor, now, &scene, false);
+    const struct kd_turn turn = kd_governor_turn(&s->governor, now);
+    if (turn.wait_ms > 0)
+        return; /* the sweep comes back */
+    struct kd_error error = { 0 };
+    struct kd_session_frame *live = make_frame(s, &scene, &turn, now, &error);
+    if (!live) {
+        fail(s, &error);
+        return;
+    }
+    live->number = ++s->begun;
+    s->moved = moves;
+    live->revision = s->revision;
+    s->rendering = live;
+    s->references++;
+    kd_render_queue_push(s->all->params.renders, &live->job);
+}
+
+void kd_session_drop_refinement(struct kd_session *s)
+{
+    if (s->rendering && s->rendering->turn.refining)
+        kd_session_drop(s);
+}
+
+void kd_session_drop(struct kd_session *s)
+{
+    if (s->rendering)
+        atomic_store(&s->rendering->job.drop, true);
+}
+
+/* On an encoder's thread, unlocked. */
+static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
+{
+    const struct kd_session_frame *live = (const struct kd_session_frame *)job;
+    return kd_png_live_encode(live->session->all->encoders[encoder], job->frame.width, job->frame.height, job->frame.pixels, &job->png,
+                              &job->error);
+}
+
+static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
+{
+    if (!strcmp(pass, "trace") || !strcmp(pass, "transfer"))
+        cost->rays_ms += ms;
+    else if (!strcmp(pass, "light") || !strcmp(pass, "expose") || !strcmp(pass, "post") || !strcmp(pass, "readback"))
+        cost->pixels_ms += ms;
+    else if (!strcmp(pass, "audit") || !strcmp(pass, "particles"))
+        cost->fixed_ms += ms;
+    else if (!strcmp(pass, "total"))
+        cost->total_ms = ms;
+}
+
+/* Encoding is left out: it overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
+static struct kd_frame_cost cost_of(const struct kd_render_job *job)
+{
+    const struct kd_frame *frame = &job->frame;
+    struct kd_frame_cost cost = { .lens_reused = frame->lens_reused };
+    for (size_t i = 0; i < frame->n_timings; i++)
+        add_cost(&cost, frame->timings[i].name, frame->timings[i].ms);
+    return cost;
+}
+
+void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
+{
+    struct kd_frame_cost traced = { .total_ms = plan->estimate_ms }, reused = { .total_ms = plan->estimate_ms, .lens_reused = true };
+    for (size_t i = 0; i < plan->n_passes; i++) {
+        const struct kd_plan_pass *pass = &plan->passes[i];
+        add_cost(&traced, pass->name, pass->estimate_ms);
+        if (!strcmp(pass->name, "trace") || !strcmp(pass->name, "audit"))
+            reused.total_ms -= pass->estimate_ms;
+        else
+            add_cost(&reused, pass->name, pass->estimate_ms);
+    }
+    kd_governor_expect(&s->governor, &traced);
+    kd_governor_expect(&s->governor, &reused);
+}
+
+/* On the render thread, unlocked: the next frame may be traced while this one is encoded. */
+static void rendered(struct kd_render_job *job)
+{
+    struct kd_session_frame *live = (struct kd_session_frame *)job;
+    struct kd_session *s = live->session;
+    struct kd_sessions *all = s->all;
+    pthread_mutex_lock(&all->lock);
+    live->rendered = true;
+    s->rendering = NULL;
+    s->encoding++;
+    s->exposed_ms = live->begun_ms;
+    s->exposure = job->frame.exposure;
+    s->exposed_revision = live->revision;
+    const struct kd_frame_cost cost = cost_of(job);
+    kd_governor_frame(&s->governor, kd_clock_ms(), &live->turn, &cost);
+    kd_session_pump(s);
+    pthread_mutex_unlock(&all->lock);
+}
+
+static void publish(struct kd_session *s, struct kd_session_frame *live)
+{
+    double now = kd_clock_ms();
+    if (s->latest && s->latest->number > live->number)
+        return; /* overtaken */
+    if (s->shown_ms > 0 && now - s->shown_ms < 1000)
+        s->interval_ms += (s->interval_ms > 0 ? 0.2 : 1) * (now - s->shown_ms - s->interval_ms);
+    else
+        s->interval_ms = 0;
+    s->shown_ms = now;
+    const struct kd_live_note note = { live->number, live->revision, live->turn.quality.final, s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
+    struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
+    if (!frame)
+        return; /* the next one may have more luck */
+    kd_live_frame_release(s->latest);
+    s->latest = frame;
+    s->all->frames++;
+    s->all->bytes += frame->png.size;
+    kd_session_wake(s);
+}
+
+/* On a thread of the queue, unlocked. */
+static void done(struct kd_render_job *job)
+{
+    struct kd_session_frame *live = (struct kd_session_frame *)job;
+    struct kd_session *s = live->session;
+    struct kd_sessions *all = s->all;
+    pthread_mutex_lock(&all->lock);
+    if (live->rendered)
+        s->encoding--;
+    else
+        s->rendering = NULL;
+    job->error.status = job->status;
+    if (!job->status)
+        publish(s, live);
+    else if (job->status != KD_ECANCELLED)
+        fail(s, &job->error);
+    kd_session_pump(s);
+    kd_session_let_go(s);
+    pthread_mutex_unlock(&all->lock);
+    kd_buffer_finish(&job->png);
+    kd_frame_finish(&job->frame);
+    free(live);
+}

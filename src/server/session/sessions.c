@@ -1,0 +1,241 @@
+#include "base/clock.h"
+#include "server/session/internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNTS_MS 20. /* that who only wants to know may wait for the lock */
+
+#define TARGET_MS 33.0 /* of a frame while the scene changes */
+
+enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error)
+{
+    struct kd_sessions *all = calloc(1, sizeof *all);
+    if (!all)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    all->params = *params;
+    pthread_mutex_init(&all->lock, NULL);
+    for (unsigned i = 0; i < KD_ENCODERS; i++)
+        if (kd_png_live_create(kd_deflate_fastest(), &all->encoders[i], error)) {
+            kd_sessions_destroy(all);
+            return KD_ENOMEM;
+        }
+    *out = all;
+    return KD_OK;
+}
+
+/* Locked. */
+
+void kd_session_let_go(struct kd_session *s)
+{
+    if (--s->references)
+        return;
+    kd_live_frame_release(s->latest);
+    free(s);
+}
+
+void kd_session_unlist(struct kd_session *s)
+{
+    if (!s->listed)
+        return;
+    struct kd_session **link = &s->all->first;
+    while (*link != s)
+        link = &(*link)->next;
+    *link = s->next;
+    s->listed = false;
+    s->all->count--;
+    kd_session_drop(s);
+    kd_session_wake(s);
+    kd_session_let_go(s);
+}
+
+struct kd_scene kd_session_scene(const struct kd_session *s, double now)
+{
+    struct kd_scene scene = s->scene;
+    kd_scene_advance(&scene, 1e-3 * (now - s->since_ms));
+    return scene;
+}
+
+/* Not locked. */
+
+enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
+{
+    if (plan->estimate_ms <= all->params.longest_s * 1e3)
+        return KD_OK;
+    return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s, more than the %u s a render may take",
+                        plan->estimate_ms * 1e-3, all->params.longest_s);
+}
+
+static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(all->params.renders, &capacity);
+    enum kd_status status = kd_plan_make(scene, &capacity, plan, error);
+    return status ? status : kd_sessions_takes(all, plan, error);
+}
+
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
+                                bool *quota, struct kd_session **out, struct kd_error *error)
+{
+    *quota = false;
+    struct kd_session *s = calloc(1, sizeof *s);
+    if (!s || !kd_secret_make(s->id, sizeof s->id) || !kd_secret_make(s->token, sizeof s->token)) {
+        free(s);
+        return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a session");
+    }
+    s->all = all;
+    s->references = 2; /* the list's and the caller's */
+    snprintf(s->client, sizeof s->client, "%s", client);
+    s->scene = *scene;
+    s->revision = 1;
+    s->since_ms = s->used_ms = kd_clock_ms();
+    memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
+    kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
+    kd_governor_changed(&s->governor, s->since_ms, scene, true);
+    kd_session_expect(s, plan);
+    pthread_mutex_lock(&all->lock);
+    unsigned own = 0;
+    for (const struct kd_session *other = all->first; other; other = other->next)
+        own += !strcmp(other->client, client);
+    bool full = all->closed || all->count >= all->params.limit;
+    if (!full && own >= all->params.client_limit) {
+        pthread_mutex_unlock(&all->lock);
+        free(s);
+        *quota = true;
+        return kd_error_set(error, KD_EBUSY, "%u of your sessions are open, as many as one client may have", own);
+    }
+    if (full) {
+        unsigned n = all->count;
+        pthread_mutex_unlock(&all->lock);
+        free(s);
+        return kd_error_set(error, KD_EBUSY, "%u sessions are open, as many as may", n);
+    }
+    s->listed = true;
+    s->next = all->first;
+    all->first = s;
+    all->count++;
+    kd_session_pump(s);
+    pthread_mutex_unlock(&all->lock);
+    *out = s;
+    return KD_OK;
+}
+
+struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_session *s = all->first;
+    while (s && strcmp(s->id, id))
+        s = s->next;
+    if (s) {
+        s->references++;
+        s->used_ms = kd_clock_ms();
+    }
+    pthread_mutex_unlock(&all->lock);
+    return s;
+}
+
+void kd_session_release(struct kd_session *s)
+{
+    struct kd_sessions *all = s->all;
+    pthread_mutex_lock(&all->lock);
+    kd_session_let_go(s);
+    pthread_mutex_unlock(&all->lock);
+}
+
+const char *kd_session_id(const struct kd_session *s) { return s->id; }
+const char *kd_session_token(const struct kd_session *s) { return s->token; }
+
+bool kd_session_owned(const struct kd_session *s, const char *token)
+{
+    return kd_secret_equal(s->token, token);
+}
+
+static unsigned viewers_of(const struct kd_session *s) /* locked */
+{
+    unsigned n = 0;
+    for (const struct kd_viewer *v = s->viewers; v; v = v->next)
+        n++;
+    return n;
+}
+
+static void state(const struct kd_session *s, struct kd_session_state *out) /* locked */
+{
+    *out = (struct kd_session_state) { .scene = kd_session_scene(s, kd_clock_ms()), .revision = s->revision,
+                                       .viewers = viewers_of(s), .frame = s->latest ? s->latest->number : 0 };
+}
+
+void kd_session_state(struct kd_session *s, struct kd_session_state *out)
+{
+    pthread_mutex_lock(&s->all->lock);
+    state(s, out);
+    pthread_mutex_unlock(&s->all->lock);
+}
+
+enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, struct kd_session_state *out,
+                                struct kd_error *error)
+{
+    struct kd_plan plan;
+    double now = kd_clock_ms();
+    pthread_mutex_lock(&s->all->lock);
+    struct kd_scene scene = kd_session_scene(s, now);
+    pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
+    enum kd_status status = kd_scene_patch(&scene, text, length, error);
+    if (!status)
+        status = kd_scene_validate(&scene, error);
+    if (!status)
+        status = make_plan(s->all, &scene, &plan, error);
+    if (status)
+        return status;
+    pthread_mutex_lock(&s->all->lock);
+    s->scene = scene;
+    s->since_ms = now;
+    s->revision++;
+    s->failed = KD_OK;
+    kd_governor_changed(&s->governor, now, &scene, strcmp(s->lens_key, plan.lens_key) != 0);
+    kd_session_expect(s, &plan);
+    memcpy(s->lens_key, plan.lens_key, sizeof s->lens_key);
+    kd_session_drop_refinement(s);
+    kd_session_pump(s);
+    state(s, out);
+    pthread_mutex_unlock(&s->all->lock);
+    return KD_OK;
+}
+
+void kd_session_end(struct kd_session *s)
+{
+    pthread_mutex_lock(&s->all->lock);
+    kd_session_unlist(s);
+    pthread_mutex_unlock(&s->all->lock);
+}
+
+void kd_sessions_close(struct kd_sessions *all)
+{
+    pthread_mutex_lock(&all->lock);
+    all->closed = true;
+    while (all->first)
+        kd_session_unlist(all->first);
+    pthread_mutex_unlock(&all->lock);
+}
+
+bool kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out)
+{
+    if (!kd_clock_lock(&all->lock, COUNTS_MS))
+        return false;
+    *out = (struct kd_sessions_counts) { .sessions = all->count, .frames = all->frames, .bytes = all->bytes };
+    for (const struct kd_session *s = all->first; s; s = s->next)
+        out->viewers += viewers_of(s);
+    pthread_mutex_unlock(&all->lock);
+    return true;
+}
+
+void kd_sessions_destroy(struct kd_sessions *all)
+{
+    if (!all)
+        return;
+    kd_sessions_close(all);
+    for (unsigned i = 0; i < KD_ENCODERS; i++)
+        kd_png_live_destroy(all->encoders[i]);
+    pthread_mutex_destroy(&all->lock);
+    free(all);
+}

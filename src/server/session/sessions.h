@@ -1,0 +1,96 @@
+/* Live sessions: a scene that its owner changes, the newest frame of it, and those who watch.
+ *
+ * A session is rendered only while somebody waits for a newer frame, and only if a newer one would differ: the scene has
+ * changed, goes on by itself, or a finer picture of it is still to come. One frame is traced while the one before is
+ * encoded; all who watch share it. Any thread; the functions on viewers belong to the HTTP thread. */
+#ifndef KD_SERVER_SESSION_SESSIONS_H
+#define KD_SERVER_SESSION_SESSIONS_H
+
+#include "server/render/live_frame.h"
+#include "server/render/queue.h"
+#include "server/http/counts.h"
+
+#include <microhttpd.h>
+
+struct kd_sessions;
+struct kd_session;
+
+struct kd_sessions_params {
+    struct kd_render_queue *renders;
+    unsigned limit;   /* sessions at once, */
+    unsigned client_limit; /* and those of one client */
+    unsigned idle_ms; /* without anybody watching or asking, after which a session ends */
+    unsigned longest_s; /* a frame as asked may take, by its plan */
+};
+enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error);
+/* Nothing may be under way: after kd_sessions_close, and when the render queue has finished. Accepts NULL. */
+void kd_sessions_destroy(struct kd_sessions *all);
+
+/* KD_ETOOBIG where a frame would take too long. */
+enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
+
+/* A valid scene with its plan, to a new session, of which the caller holds a reference; whose frames are from the
+ * client's share. KD_EBUSY: as many as may, or with *quota as many of this client. */
+enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
+                                bool *quota, struct kd_session **out, struct kd_error *error);
+/* A reference to the session of this id, or NULL. Counts as being asked. */
+struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
+void kd_session_release(struct kd_session *session);
+
+const char *kd_session_id(const struct kd_session *session);
+const char *kd_session_token(const struct kd_session *session);
+bool kd_session_owned(const struct kd_session *session, const char *token); /* in constant time; token may be NULL */
+
+/* The scene as it is now, what goes on by itself included. */
+struct kd_session_state {
+    struct kd_scene scene;
+    unsigned revision, viewers;
+    uint64_t frame; /* the newest one's number, 0: none yet */
+};
+void kd_session_state(struct kd_session *session, struct kd_session_state *out);
+/* Merge a patch (RFC 7396). Without change on failure. */
+enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, struct kd_session_state *out,
+                                struct kd_error *error);
+/* Those who watch are told that it is over. */
+void kd_session_end(struct kd_session *session);
+
+/* Somebody who watches: a suspended request or a stream. */
+struct kd_viewer {
+    struct kd_session *session; /* a reference */
+    struct MHD_Connection *mhd;
+    int socket;
+    uint64_t seen;       /* number of the newest frame taken */
+    double deadline_ms;  /* on kd_clock_ms, of waiting; INFINITY: none */
+    bool waiting;        /* suspended */
+    bool late, gone;     /* woken because the deadline has passed; because the client has hung up */
+    struct kd_viewer *previous, *next;
+};
+/* Takes over the reference in viewer->session. */
+void kd_viewer_attach(struct kd_viewer *viewer);
+void kd_viewer_detach(struct kd_viewer *viewer);
+enum kd_viewer_news {
+    KD_VIEWER_FRAME, /* *frame, a reference: the newest, newer than viewer->seen */
+    KD_VIEWER_OVER,  /* none will come: the session has ended, or *error says why */
+    KD_VIEWER_GONE,  /* the client has hung up */
+    KD_VIEWER_LATE,  /* the deadline has passed, which the caller may set anew */
+    KD_VIEWER_LATER, /* the connection has been suspended, and is resumed for one of these */
+};
+/* After KD_VIEWER_LATER the viewer is the session's until the connection is resumed. error may be NULL. */
+enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error);
+
+/* Deadlines, clients that have gone, idle sessions, refinement that is due. One thread, ten times a second. */
+void kd_sessions_sweep(struct kd_sessions *all);
+/* No new sessions, all viewers told that it is over; what is being rendered finishes. */
+void kd_sessions_close(struct kd_sessions *all);
+struct kd_sessions_counts;
+/* False, and nothing is known, where that takes more than a moment. */
+bool kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out);
+
+struct kd_request;
+struct kd_particles_job;
+/* routes.c: a reference to the session that the path names, or NULL after a refusal. */
+struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused);
+void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; accepts NULL */
+void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */
+
+#endif
