@@ -143,9 +143,10 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         return status;
     }
     set_etag_tail(server);
-    status = kd_turns_create(or_default(params->queue, 16), &server->rays, error);
+    const unsigned tasks = or_default(params->queue, 16);
+    status = kd_turns_create(tasks, share_of(params, tasks), &server->rays, error);
     if (!status)
-        status = kd_turns_create(or_default(params->queue, 16), &server->turns, error);
+        status = kd_turns_create(tasks, share_of(params, tasks), &server->turns, error);
     if (status) {
         close(fd);
         return status;

@@ -96,6 +96,48 @@ class Device(Case):
         self.assertEqual(self.ask('127.0.0.2', 'GET', RENDER).status, 200)
 
 
+class Tasks(Case):
+    """What workers answer by turns."""
+    options = ('--queue', 8, '--client-share', 50)
+
+    def fill(self, n, method, target, body=b''):
+        for _ in range(n):
+            s = self.daemon.connect()
+            self.addCleanup(s.close)
+            s.sendall(f'{method} {target} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+                      f'Content-Length: {len(body)}\r\n\r\n'.encode() + body)
+
+    def look(self, unfinished, method, target, body=None):
+        """One client has filled its share of four: it is told so, and another one is served."""
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_' + unfinished] == 4))
+        problem = self.ask('127.0.0.1', method, target, body)
+        self.assertIn('4 such requests of yours', self.assertProblem(problem, 429, 'quota')['detail'])
+        self.assertTrue(problem.header('Retry-After'))
+        self.assertEqual(self.ask('127.0.0.2', method, target, body).status, 200)
+
+    def test_rays(self):
+        slow = {'rays': [[5, i * 1e-3] for i in range(20000)], 'accuracy': {'engine': 'mino-rkn6', 'steps': 12}}  # 1 ms each
+        self.fill(4, 'POST', '/v1/rays', json.dumps(slow).encode())
+        self.look('rays_unfinished', 'POST', '/v1/rays', {'rays': [[5, 1]]})
+
+    def test_quantities_and_orbits(self):
+        self.fill(4, 'GET', '/v1/physics/redshift?r=6:60:100000&phi_deg=0')
+        self.look('turns_unfinished', 'GET', '/v1/physics/qnm?spin=0:0.9:10')
+        orbit = {'orbit': {'case': 'isco'}, 'samples': 2, 'duration': {'periods': 1}}
+        self.look('turns_unfinished', 'POST', '/v1/orbits', orbit)
+
+    def test_the_whole_before_the_share(self):
+        long = 'GET /v1/physics/redshift?r=6:60:100000&phi_deg=0 HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode()
+        for source in ('127.0.0.1', '127.0.0.2'):
+            for _ in range(4):
+                s = self.daemon.connect(source=source)
+                self.addCleanup(s.close)
+                s.sendall(long)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_turns_unfinished'] == 8))
+        for source in ('127.0.0.1', '127.0.0.3'):
+            self.assertProblem(self.ask(source, 'GET', '/v1/physics/qnm?spin=0:0.9:10'), 503, 'queue-full')
+
+
 class Sessions(Case):
     options = ('--sessions', 4, '--jobs', 4, '--client-share', 50)
 

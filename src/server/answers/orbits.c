@@ -304,6 +304,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     job->format = format;
     job->owner = request;
     job->mhd = request->mhd;
+    snprintf(job->turns.client, sizeof job->turns.client, "%s", request->client);
     job->socket = kd_connection_socket(request->connection);
     job->suspended = true;
     job->submitted_ms = kd_clock_ms();

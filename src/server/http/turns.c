@@ -4,17 +4,19 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define WORKERS_MAX 16
 
 struct kd_turns {
-    unsigned limit;
+    unsigned limit, share;
     _Atomic bool cancel;
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
     struct kd_turns_job *first, **end, *parked; /* in the order of their turns; waiting to be woken */
-    unsigned accepted, unfinished;              /* the former no longer counts what is being handed back */
+    struct kd_turns_job *accepted;              /* all but those that are being handed back */
+    unsigned n_accepted, unfinished;
     pthread_t workers[WORKERS_MAX];
     unsigned n_workers;
 };
@@ -65,6 +67,24 @@ static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
     turns->parked = job;
 }
 
+static void accept(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    job->next_accepted = turns->accepted;
+    job->accepted_at = &turns->accepted;
+    if (job->next_accepted)
+        job->next_accepted->accepted_at = &job->next_accepted;
+    turns->accepted = job;
+    turns->n_accepted++;
+}
+
+static void let_go(struct kd_turns *turns, struct kd_turns_job *job)
+{
+    *job->accepted_at = job->next_accepted;
+    if (job->next_accepted)
+        job->next_accepted->accepted_at = job->accepted_at;
+    turns->n_accepted--;
+}
+
 /* Locked on entry and exit; the job is the first in the list. */
 static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
 {
@@ -87,7 +107,7 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
         append(turns, job);
     if (!job->over || job->workers)
         return;
-    turns->accepted--;
+    let_go(turns, job);
     pthread_mutex_unlock(&turns->lock);
     job->done(job);
     pthread_mutex_lock(&turns->lock);
@@ -114,12 +134,13 @@ static unsigned cores(void)
     return n > WORKERS_MAX ? WORKERS_MAX : n;
 }
 
-enum kd_status kd_turns_create(unsigned limit, struct kd_turns **out, struct kd_error *error)
+enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns **out, struct kd_error *error)
 {
     struct kd_turns *turns = calloc(1, sizeof *turns);
     if (!turns)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     turns->limit = limit;
+    turns->share = share;
     turns->end = &turns->first;
     pthread_mutex_init(&turns->lock, NULL);
     pthread_cond_init(&turns->changed, NULL);
@@ -147,18 +168,24 @@ void kd_turns_destroy(struct kd_turns *turns)
     free(turns);
 }
 
-enum kd_status kd_turns_admit(struct kd_turns *turns, struct kd_error *error)
+enum kd_status kd_turns_admit(struct kd_turns *turns, const char *client, bool *quota, struct kd_error *error)
 {
+    unsigned own = 0;
     pthread_mutex_lock(&turns->lock);
-    unsigned n = turns->accepted;
+    unsigned n = turns->n_accepted;
+    for (const struct kd_turns_job *job = turns->accepted; job; job = job->next_accepted)
+        own += !strcmp(job->client, client);
     pthread_mutex_unlock(&turns->lock);
-    return n < turns->limit ? KD_OK : kd_error_set(error, KD_EBUSY, "%u such requests are under way, as many as may", n);
+    *quota = n < turns->limit && own >= turns->share;
+    if (n >= turns->limit)
+        return kd_error_set(error, KD_EBUSY, "%u such requests are under way, as many as may", n);
+    return *quota ? kd_error_set(error, KD_EBUSY, "%u such requests of yours are under way, as many as one client may have", own) : KD_OK;
 }
 
 void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job)
 {
     pthread_mutex_lock(&turns->lock);
-    turns->accepted++;
+    accept(turns, job);
     turns->unfinished++;
     append(turns, job);
     pthread_mutex_unlock(&turns->lock);

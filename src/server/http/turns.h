@@ -3,6 +3,7 @@
 #define KD_SERVER_HTTP_TURNS_H
 
 #include "base/error.h"
+#include "server/http/shares.h"
 
 #include <stdbool.h>
 
@@ -17,21 +18,22 @@ struct kd_turns_job {
     enum kd_turn (*turn)(struct kd_turns_job *job); /* on a worker */
     void (*done)(struct kd_turns_job *job);         /* on a worker, once, when every turn has returned: may free the job */
     bool shared;                                    /* several workers at once from the next turn on; a turn may set it */
+    char client[KD_CLIENT];                         /* whose it is: what kd_turns_admit was asked for */
     /* the queue's own */
-    struct kd_turns_job *next;
+    struct kd_turns_job *next, *next_accepted, **accepted_at;
     bool listed, parked, away, woken, over;
     unsigned workers;
 };
 
 struct kd_turns;
 
-/* limit: unfinished jobs. */
-enum kd_status kd_turns_create(unsigned limit, struct kd_turns **out, struct kd_error *error);
+/* limit: unfinished jobs; share: of these, those of one client. */
+enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns **out, struct kd_error *error);
 /* Nothing may be unfinished. Accepts NULL. */
 void kd_turns_destroy(struct kd_turns *turns);
 
-/* Whether one more fits: KD_EBUSY or KD_OK. The submitting thread. */
-enum kd_status kd_turns_admit(struct kd_turns *turns, struct kd_error *error);
+/* Whether one more of this client fits: KD_OK, or KD_EBUSY, with *quota where others would still be let in. The submitting thread. */
+enum kd_status kd_turns_admit(struct kd_turns *turns, const char *client, bool *quota, struct kd_error *error);
 void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job);
 /* End a park, also one that a turn under way is about to ask for. The job must not be done. Any thread. */
 void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job);

@@ -52,6 +52,7 @@ void kd_task_init(struct kd_task *task, struct kd_request *request, struct kd_tu
 {
     *task = (struct kd_task) { .turns = { .turn = take_turn, .done = done }, .queue = queue, .request = request,
                                .submitted_ms = kd_clock_ms() };
+    snprintf(task->turns.client, sizeof task->turns.client, "%s", request->client);
     task->deadline_ms = task->submitted_ms + 1e3 * request->server->longest_s;
 }
 
@@ -66,6 +67,8 @@ void kd_task_destroy(struct kd_task *task)
 bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const char *what, enum MHD_Result *refused)
 {
     struct kd_error error = { 0 };
+    struct kd_problem problem;
+    bool quota;
     char stopping[80];
     snprintf(stopping, sizeof stopping, "the server is stopping and takes no new %s", what);
     if (atomic_load(&request->server->phase) >= KD_REFUSING)
@@ -73,9 +76,12 @@ bool kd_task_admit(struct kd_request *request, struct kd_turns *queue, const cha
                                                                     .detail = stopping });
     else if (!request->connection)
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
-    else if (kd_turns_admit(queue, &error))
-        *refused = kd_reply_error(request, &error);
-    else
+    else if (kd_turns_admit(queue, request->client, &quota, &error)) {
+        problem = kd_problem_from(&error);
+        if (quota)
+            problem.type = KD_PROBLEM_QUOTA;
+        *refused = kd_reply_problem(request, &problem);
+    } else
         return true;
     return false;
 }
