@@ -2,7 +2,7 @@
 
 #include "base/log.h"
 #include "server/http/descriptors.h"
-#include "server/http/keeper.h"
+#include "server/keeper.h"
 #include "server/http/library.h"
 #include "server/http/listen.h"
 #include "server/http/names.h"

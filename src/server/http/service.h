@@ -2,7 +2,7 @@
  *
  * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health routes, another
  * every other handler ("the HTTP thread"); the render queue has its render threads and
- * encoders, those who take turns (turns.h) their workers; the keeper (server.c) watches deadlines, vanished clients and the way down. */
+ * encoders, those who take turns (turns.h) their workers; the keeper (keeper.h) watches deadlines, vanished clients and the way down. */
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 

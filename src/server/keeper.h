@@ -1,6 +1,6 @@
 /* The thread that watches the clock: deadlines, clients that went away, and the way down. */
-#ifndef KD_SERVER_HTTP_KEEPER_H
-#define KD_SERVER_HTTP_KEEPER_H
+#ifndef KD_SERVER_KEEPER_H
+#define KD_SERVER_KEEPER_H
 
 #include "server/http/service.h"
 

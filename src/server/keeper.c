@@ -1,7 +1,10 @@
-#include "server/http/keeper.h"
+#include "server/keeper.h"
 
-#include "base/log.h"
 #include "base/clock.h"
+#include "base/log.h"
+#include "server/job/jobs.h"
+#include "server/render/queue.h"
+#include "server/session/sessions.h"
 
 #include <poll.h>
 #include <unistd.h>
