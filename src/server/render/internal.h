@@ -16,6 +16,7 @@ struct kd_render_list {
 struct kd_lane {
     struct kd_render_queue *queue;
     struct kd_render_job *job; /* NULL: it is free */
+    uint64_t bytes;            /* of the device's memory that count as the job's, by its plan; 0: they are not worth counting */
     pthread_t thread;
 };
 
@@ -34,8 +35,7 @@ struct kd_render_queue {
     struct kd_render_job *holder; /* who has the device; NULL: nobody */
     struct kd_lane lanes[KD_ASIDES];
     unsigned n_lanes; /* whose threads run */
-    uint64_t lane_bytes; /* of the device's memory, by the plans of the large pictures in lanes */
-    unsigned large;      /* how many those are */
+    uint64_t lane_bytes; /* of all of them */
 
     struct kd_render_list encoding;
     size_t frame_bytes; /* rendered, and not yet encoded */
@@ -57,6 +57,8 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 {
     return job->run ? 0 : (size_t)job->plan.width * job->plan.height * 3 * (job->scene.image.bit_depth > 8 ? 2 : 1);
 }
+
+static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
 /* Whether a client waits for it who may have to be told that it is too much. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)

@@ -196,7 +196,7 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
         return KD_EDEVICE;
     pthread_mutex_lock(&queue->lock);
     for (const struct kd_render_job *job = queue->jobs.first; job; job = job->next) {
-        bool waits = kd_render_is_awaited(job) && !job->begun;
+        bool waits = kd_render_is_awaited(job) && !kd_render_has_begun(job);
         n += waits;
         own += waits && !strcmp(job->claim.client, client);
     }
@@ -210,12 +210,23 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     return kd_error_set(error, KD_EBUSY, "%u of your renders are waiting, as many as one client may have", own);
 }
 
+/* Whether it goes on in slices. A job's picture always does: nobody waits for it. One of a moving view never does: its governor knows
+ * better than its plan what it takes, since the lens map may be there already. */
+static bool wants_lane(const struct kd_render_job *job)
+{
+    switch (job->claim.class) {
+    case KD_CLASS_JOB: return !job->run;
+    case KD_CLASS_LIVE: return false;
+    default: return !job->run && job->plan.estimate_ms > KD_MOMENT_MS;
+    }
+}
+
 void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->queue = queue;
     job->submitted_ms = job->away_ms = kd_clock_ms();
     job->claim.left_ms = job->plan.estimate_ms;
-    job->sliced = !job->run && !job->whole && (job->claim.class == KD_CLASS_JOB || job->plan.estimate_ms > KD_MOMENT_MS);
+    job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
     pthread_mutex_lock(&queue->lock);
     kd_render_list_append(&queue->jobs, job);
     kd_shares_add(&queue->shares, &job->claim);
@@ -234,7 +245,7 @@ void kd_render_queue_sweep(struct kd_render_queue *queue)
         if (!kd_socket_abandoned(job->socket))
             continue;
         atomic_store(&job->drop, true);
-        if (job->begun)
+        if (kd_render_has_begun(job))
             continue;
         kd_render_take_out(queue, job);
         kd_render_list_append(&gone, job);

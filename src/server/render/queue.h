@@ -27,9 +27,17 @@ struct kd_render_queue;
 #define KD_ENCODERS 2      /* one of which is for frames that do not take long */
 #define KD_MOMENT_MS 100.0 /* of device time, that others may be made to wait */
 
+/* How far a job is. The last two have begun. */
+enum kd_render_stage {
+    KD_RENDER_WAITS,          /* for its first turn */
+    KD_RENDER_WAITS_FOR_LANE, /* the same, a long picture */
+    KD_RENDER_WORKS,
+    KD_RENDER_WORKS_IN_LANE,
+};
+
 struct kd_render_job {
     /* filled in by the submitter */
-    struct kd_claim claim; /* client and class; what is left is by the plan */
+    struct kd_claim claim; /* client and class, which says how it is served; what is left is by the plan */
     struct kd_scene scene;
     struct kd_plan plan;
     int compression;
@@ -38,7 +46,6 @@ struct kd_render_job {
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
     bool more;
-    bool whole; /* never in slices, whatever its plan says: whoever submits it knows better */
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; of a picture in slices, with the device */
     const struct kd_glance *glance; /* of a picture in slices; may be NULL; user: the job. With the device */
     /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
@@ -57,7 +64,7 @@ struct kd_render_job {
     /* the queue's own */
     struct kd_render_job *next;
     struct kd_render_queue *queue;
-    bool begun, sliced, large; /* large: its buffers are counted */
+    enum kd_render_stage stage;
     double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
 };
 

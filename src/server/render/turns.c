@@ -22,7 +22,7 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
 {
     struct kd_capacity c;
     kd_renderer_capacity(queue->renderer, &c);
-    return !queue->large || !is_large(queue, job) || queue->lane_bytes + job->plan.device_bytes <= c.memory_bytes / 4 * 3;
+    return !queue->lane_bytes || !is_large(queue, job) || queue->lane_bytes + job->plan.device_bytes <= c.memory_bytes / 4 * 3;
 }
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.estimate_ms <= BRIEF_MS; }
@@ -57,7 +57,8 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    return job->begun || queue->lost || (frame_fits(queue, job) && (!job->sliced || lane_for(queue, job)));
+    return kd_render_has_begun(job) || queue->lost ||
+           (frame_fits(queue, job) && (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
 /* One that only has to be told that it is over: that takes no time, and others may wait for it. A long one that has not begun needs
@@ -76,6 +77,18 @@ static struct kd_render_job *choose(struct kd_render_queue *queue)
     return dropped ? dropped : (struct kd_render_job *)kd_shares_next(&queue->shares, may_have_it, queue);
 }
 
+static void begin(struct kd_render_queue *queue, struct kd_render_job *job)
+{
+    bool dropped = queue->lost || atomic_load(&job->drop) || atomic_load(&queue->cancel);
+    struct kd_lane *lane = job->stage == KD_RENDER_WAITS_FOR_LANE && !dropped ? lane_for(queue, job) : NULL;
+    job->stage = lane ? KD_RENDER_WORKS_IN_LANE : KD_RENDER_WORKS;
+    if (!lane)
+        return;
+    lane->job = job;
+    lane->bytes = is_large(queue, job) ? job->plan.device_bytes : 0;
+    queue->lane_bytes += lane->bytes;
+}
+
 void kd_render_next(struct kd_render_queue *queue)
 {
     if (queue->holder || !queue->opened)
@@ -83,17 +96,8 @@ void kd_render_next(struct kd_render_queue *queue)
     struct kd_render_job *job = choose(queue);
     if (!job)
         return;
-    if (job->sliced && !job->begun) {
-        struct kd_lane *lane = queue->lost || atomic_load(&job->drop) || atomic_load(&queue->cancel) ? NULL : lane_for(queue, job);
-        job->sliced = lane;
-        if (lane) {
-            lane->job = job;
-            job->large = is_large(queue, job);
-            queue->large += job->large;
-            queue->lane_bytes += job->large ? job->plan.device_bytes : 0;
-        }
-    }
-    job->begun = true;
+    if (!kd_render_has_begun(job))
+        begin(queue, job);
     job->turn_ms = kd_clock_ms();
     job->queue_ms += job->turn_ms - job->away_ms;
     queue->holder = job;
@@ -166,7 +170,7 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
         return;
     if (job->run)
         job->status = job->run(job, queue->renderer, go_on, job);
-    else if (job->sliced)
+    else if (job->stage == KD_RENDER_WORKS_IN_LANE)
         job->status = kd_render_aside(queue->renderer, &job->scene, &job->plan, between_slices, job->glance, job, &job->frame, &job->error);
     else
         job->status = kd_render(queue->renderer, &job->scene, &job->plan, go_on, job, &job->frame, &job->error);
@@ -180,12 +184,12 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
 
 static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
 {
-    for (unsigned i = 0; i < queue->n_lanes; i++)
-        if (queue->lanes[i].job == job)
-            queue->lanes[i].job = NULL;
-    if (job->large) {
-        queue->large--;
-        queue->lane_bytes -= job->plan.device_bytes;
+    for (unsigned i = 0; i < queue->n_lanes; i++) {
+        struct kd_lane *lane = &queue->lanes[i];
+        if (lane->job != job)
+            continue;
+        lane->job = NULL;
+        queue->lane_bytes -= lane->bytes;
     }
 }
 
@@ -236,7 +240,7 @@ void *kd_render_short_main(void *user)
     open_renderer(queue);
     pthread_mutex_lock(&queue->lock);
     while (!queue->open_status && (!queue->closing || queue->jobs.first)) {
-        if (queue->holder && !queue->holder->sliced)
+        if (queue->holder && queue->holder->stage != KD_RENDER_WORKS_IN_LANE)
             take_turn(queue, queue->holder);
         else
             pthread_cond_wait(&queue->changed, &queue->lock);

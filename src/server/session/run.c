@@ -54,9 +54,8 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->session = s;
     live->turn = *turn;
     live->begun_ms = now;
-    /* While the scene changes the governor knows better than the plan what a frame takes: its lens map may be there already. */
     live->job = (struct kd_render_job) {
-        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .whole = !turn->refining, .socket = -1,
+        .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .socket = -1,
         .encode = encode, .rendered = rendered, .done = done,
     };
     memcpy(live->job.claim.client, s->client, sizeof s->client);
