@@ -127,7 +127,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     write_log(request, why);
     atomic_fetch_add(&server->answers[request->status / 100 % KD_STATUS_CLASSES], 1);
     stage(request, KD_STAGE_IDLE);
-    kd_bodies_give(server->bodies, request->client, request->body.size);
+    kd_bytes_give(server->bodies, request->client, request->body.size);
     if (request->job) {
         kd_buffer_finish(&request->job->png);
         kd_frame_finish(&request->job->frame);
@@ -196,7 +196,7 @@ static bool body_fault(const struct kd_request *request, struct kd_problem *prob
         *problem = (struct kd_problem) { .type = KD_PROBLEM_BODY_TOO_LARGE, .detail = too_large(request) };
         return true;
     }
-    bool quota, refused = kd_bodies_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
+    bool quota, refused = kd_bytes_take(request->server->bodies, request->client, 0, request->header.content_length, &quota);
     *problem = (struct kd_problem) { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_CROWDED, .retry_after = 1,
                                      .detail = quota ? BODIES_OF_CLIENT : BODIES_TOO_MANY };
     return refused;
@@ -285,10 +285,10 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
         return cut_body(request, KD_PROBLEM_BODY_TOO_LARGE, too_large(request));
     size_t all = request->body.size + *size;
     bool quota;
-    if (kd_bodies_take(server->bodies, request->client, *size, all > request->header.content_length ? all : request->header.content_length, &quota))
+    if (kd_bytes_take(server->bodies, request->client, *size, all > request->header.content_length ? all : request->header.content_length, &quota))
         return quota ? cut_body(request, KD_PROBLEM_QUOTA, BODIES_OF_CLIENT) : cut_body(request, KD_PROBLEM_CROWDED, BODIES_TOO_MANY);
     if (kd_buffer_append(&request->body, data, *size)) {
-        kd_bodies_give(server->bodies, request->client, *size);
+        kd_bytes_give(server->bodies, request->client, *size);
         return cut_body(request, KD_PROBLEM_NO_MEMORY, "no memory for the body");
     }
     *size = 0;

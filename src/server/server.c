@@ -124,8 +124,11 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     server->connections = kd_connections_create(connections, share_of(params, connections), or_default(params->header_ms, 10000),
                                                 or_default(params->body_ms, 30000));
     server->cross_site = params->cross_site;
-    server->bodies = kd_bodies_create(&(struct kd_bodies_params) { KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX });
-    if (server->stop_fd < 0 || !server->connections || !server->bodies)
+    const unsigned clients = kd_connections_most(connections);
+    server->bodies = kd_bytes_create(&(struct kd_bytes_params) { clients, KD_BODIES_MAX, KD_BODIES_SHARE, KD_BODIES_SMALL, KD_BODY_MAX, false });
+    server->replies = kd_bytes_create(&(struct kd_bytes_params) { clients, KD_REPLIES_MAX, share_of(params, KD_REPLIES_MAX),
+                                                                  KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
+    if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
     enum kd_status status = collect_hosts(server, address, params->hosts, error);
     if (!status)
@@ -247,7 +250,8 @@ void kd_server_destroy(struct kd_server *server)
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);
     kd_connections_destroy(server->connections);
-    kd_bodies_destroy(server->bodies);
+    kd_bytes_destroy(server->bodies);
+    kd_bytes_destroy(server->replies);
     kd_kept_destroy(server->kept);
     for (size_t i = 0; server->hosts && server->hosts[i]; i++)
         free((void *)server->hosts[i]);

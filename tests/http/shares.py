@@ -2,6 +2,7 @@
 import http.client
 import json
 import re
+import socket
 import threading
 import time
 import unittest
@@ -136,6 +137,28 @@ class Tasks(Case):
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_turns_unfinished'] == 8))
         for source in ('127.0.0.1', '127.0.0.3'):
             self.assertProblem(self.ask(source, 'GET', '/v1/physics/qnm?spin=0:0.9:10'), 503, 'queue-full')
+
+
+class Unread(Case):
+    """Answers that wait for a client who does not take them: 128 MiB a client here, of 512, and 16 of 64 more for small ones."""
+    options = ('--client-share', 25)
+
+    def test_answers_of_one_client(self):
+        large = {'orders': 8, 'accuracy': {'engine': 'mino-rkn6'}, 'rays': [[5, 1]] * 500000}  # 145 MiB: who has nothing may have one
+        text = json.dumps(large).encode()
+        s = self.daemon.connect()
+        self.addCleanup(s.close)
+        s.sendall(b'POST /v1/rays HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n'
+                  b'Content-Length: %d\r\n\r\n' % len(text) + text)
+        self.assertTrue(s.recv(1))
+        small = {'rays': [[5, 1]] * 20000}
+        for method, target, body in (('POST', '/v1/rays', small), ('GET', RENDER, None),
+                                     ('GET', '/v1/physics/kerr?spin=0.5', None),
+                                     ('POST', '/v1/orbits', {'orbit': {'case': 'isco'}, 'samples': 200000, 'duration': {'periods': 1}})):
+            problem = self.ask('127.0.0.1', method, target, body)
+            self.assertIn('one client', self.assertProblem(problem, 429, 'quota')['detail'])
+            self.assertTrue(problem.header('Retry-After'))
+            self.assertEqual(self.ask('127.0.0.2', method, target, body).status, 200, target)
 
 
 class Sessions(Case):

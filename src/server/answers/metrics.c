@@ -65,8 +65,8 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)now.sessions.bytes },
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },
-        { "bodies_bytes", "gauge", "Bodies being received.", (double)kd_bodies_bytes(s->bodies) },
-        { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)atomic_load(&s->reply_bytes) },
+        { "bodies_bytes", "gauge", "Bodies being received.", (double)kd_bytes_held(s->bodies) },
+        { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)kd_bytes_held(s->replies) },
         { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
     };
     enum kd_status status = add_answers(&text, s);

@@ -43,14 +43,14 @@ struct kd_orbits_job {
     size_t taken;
     enum kd_status status;
     struct kd_error error;
-    bool malformed;
+    bool malformed, quota; /* no JSON; KD_EBUSY because the client has its share */
 };
 
 static void let_go(struct kd_orbits_job *job)
 {
     if (atomic_fetch_sub(&job->holders, 1) != 1)
         return;
-    atomic_fetch_sub(&job->server->reply_bytes, job->held);
+    kd_bytes_give(job->server->replies, job->turns.client, job->held);
     kd_orbit_feed_finish(&job->feed);
     kd_orbit_request_finish(&job->request);
     kd_buffer_finish(&job->out);
@@ -101,7 +101,7 @@ static enum kd_status hold(struct kd_orbits_job *job, struct kd_error *error)
     size_t bytes = job->format == KD_ORBIT_NDJSON ? 2 * FULL : rows * BYTES_PER_SAMPLE + r->n * BYTES_PER_ORBIT;
     if (r->many)
         bytes += kd_orbit_batch_bytes(r);
-    return kd_task_hold(job->server, bytes, &job->held, error);
+    return kd_task_hold(job->server, job->turns.client, bytes, &job->held, &job->quota, error);
 }
 
 static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *error)
@@ -250,9 +250,11 @@ static int choose_format(struct kd_request *request)
     return best;
 }
 
-static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed)
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed, bool quota)
 {
     struct kd_problem problem = kd_problem_from(error);
+    if (quota)
+        problem.type = KD_PROBLEM_QUOTA;
     if (error->status == KD_EINVAL)
         problem.type = malformed ? KD_PROBLEM_MALFORMED_JSON : KD_PROBLEM_INVALID_ORBIT;
     return kd_reply_problem(request, &problem);
@@ -270,7 +272,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
     if (status)
-        return refuse(request, &job->error, job->malformed);
+        return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
         request->reply_bytes = (unsigned long)job->server->longest_s << 24; /* as long as the integration may take */

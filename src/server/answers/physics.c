@@ -75,6 +75,8 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     struct kd_problem problem = kd_problem_from(error);
     if (error->status == KD_EINVAL)
         problem.type = KD_PROBLEM_INVALID_PARAMETERS;
+    if (request->task && request->task->quota)
+        problem.type = KD_PROBLEM_QUOTA;
     return kd_reply_problem(request, &problem);
 }
 
@@ -91,7 +93,7 @@ static enum kd_status hold(struct job *job, const struct kd_quantity_request *as
     size_t numbers = asked->quantity->n_outputs + asked->quantity->n_parameters;
     size_t bytes = kd_quantity_points(asked) * numbers * (sizeof(double) + BYTES_PER_NUMBER);
     bytes += job->form == FORM_WAV ? KD_SOUND_BYTES : 0;
-    return kd_task_hold(job->task.request->server, bytes, &job->task.held, error);
+    return kd_task_hold(job->task.request->server, job->task.turns.client, bytes, &job->task.held, &job->task.quota, error);
 }
 
 static enum kd_status write_answer(struct job *job, struct kd_error *error)

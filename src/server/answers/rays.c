@@ -17,6 +17,7 @@
 /* The answer on its way out; it outlives the request where a client takes it slowly. */
 struct outgoing {
     struct kd_server *server;
+    char client[KD_CLIENT];
     size_t held;
     struct kd_rays_answer answer;
     struct kd_rays_stream stream;
@@ -33,7 +34,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 static void release(void *cls)
 {
     struct outgoing *out = cls;
-    atomic_fetch_sub(&out->server->reply_bytes, out->held);
+    kd_bytes_give(out->server->replies, out->client, out->held);
     kd_rays_stream_finish(&out->stream);
     kd_rays_answer_finish(&out->answer);
     free(out);
@@ -46,6 +47,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     if (!out)
         return NULL;
     out->server = request->server;
+    memcpy(out->client, request->client, sizeof out->client);
     out->held = job->task.held;
     out->answer = job->answer;
     job->task.held = 0;
@@ -110,7 +112,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (job->task.status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
     if (job->task.status)
-        return refuse(request, &job->task.error, job->malformed, job->quota);
+        return refuse(request, &job->task.error, job->malformed, job->task.quota);
     enum kd_rays_format format = (enum kd_rays_format)choose_format(request);
     struct outgoing *out = take_answer(request, format);
     if (!out)

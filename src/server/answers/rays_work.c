@@ -30,7 +30,8 @@ static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
     if (!status)
         status = kd_rays_request_check(request, error);
     if (!status)
-        status = kd_task_hold(server, kd_rays_answer_bytes(&request->params, request->n), &job->task.held, error);
+        status = kd_task_hold(server, job->task.turns.client, kd_rays_answer_bytes(&request->params, request->n), &job->task.held, &job->task.quota,
+                              error);
     if (status)
         return status;
     double *alpha_beta = request->alpha_beta;
@@ -67,7 +68,7 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
 {
     struct kd_render_queue *renders = job->task.request->server->renders;
     struct kd_capacity capacity;
-    enum kd_status status = kd_render_queue_admit(renders, job->task.request->client, &job->quota, error);
+    enum kd_status status = kd_render_queue_admit(renders, job->task.request->client, &job->task.quota, error);
     if (status)
         return status;
     kd_render_queue_capacity(renders, &capacity);

@@ -23,7 +23,6 @@ struct kd_rays_job {
     _Atomic size_t begun; /* rays handed to workers */
     struct kd_render_job device;
     size_t traced, turn; /* rays, on the device: so far, and those of the next turn */
-    bool quota; /* KD_EBUSY because the client has its share */
 };
 
 /* To be submitted, and then filled in: `request`, `npy`. NULL: no memory. */

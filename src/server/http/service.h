@@ -6,7 +6,7 @@
 #ifndef KD_SERVER_HTTP_SERVICE_H
 #define KD_SERVER_HTTP_SERVICE_H
 
-#include "server/http/bodies.h"
+#include "server/http/bytes.h"
 #include "server/http/connections.h"
 #include "server/http/counts.h"
 #include "server/http/front.h"
@@ -21,7 +21,9 @@
 #define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received, */
 #define KD_BODIES_SHARE ((size_t)128 << 20) /* of those of one client: it leaves room for the largest one of another, */
 #define KD_BODIES_SMALL ((size_t)16 << 20) /* and beside all these, of bodies of up to KD_BODY_MAX */
-#define KD_REPLIES_MAX ((size_t)512 << 20) /* pictures and rays not yet taken by their clients; one may exceed it */
+#define KD_REPLIES_MAX (512u << 20) /* answers not yet taken by their clients, of which one may exceed it, */
+#define KD_REPLIES_RESERVE ((size_t)64 << 20) /* and beside these some more ... */
+#define KD_REPLIES_SMALL ((size_t)4 << 20)    /* ... of up to so much */
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
 #define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
@@ -65,9 +67,8 @@ struct kd_server {
 
     _Atomic int phase;
     _Atomic unsigned requests; /* begun and not yet answered in full */
-    struct kd_bodies *bodies;
+    struct kd_bytes *bodies, *replies; /* being received; not yet taken by their clients */
     bool cross_site; /* pages of other sites may use it */
-    _Atomic size_t reply_bytes;
     _Atomic unsigned long answers[KD_STATUS_CLASSES]; /* by the first digit of their status; 0: cut off before one */
 
     int stop_fd; /* eventfd that wakes the keeper */

@@ -89,6 +89,7 @@ static void add_timings(struct MHD_Response *response, const struct kd_render_jo
 
 struct picture {
     struct kd_server *server;
+    char client[KD_CLIENT];
     void *data;
     size_t size;
 };
@@ -96,7 +97,7 @@ struct picture {
 static void release_picture(void *cls)
 {
     struct picture *picture = cls;
-    atomic_fetch_sub(&picture->server->reply_bytes, picture->size);
+    kd_bytes_give(picture->server->replies, picture->client, picture->size);
     free(picture->data);
     free(picture);
 }
@@ -107,14 +108,15 @@ static struct MHD_Response *picture_response(struct kd_request *request)
     struct picture *picture = malloc(sizeof *picture);
     if (!picture)
         return NULL;
-    *picture = (struct picture) { request->server, png->data, png->size };
+    *picture = (struct picture) { .server = request->server, .data = png->data, .size = png->size };
+    memcpy(picture->client, request->client, sizeof picture->client);
     struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
         png->size, png->data, release_picture, picture);
     if (!response) {
         free(picture);
         return NULL;
     }
-    atomic_fetch_add(&request->server->reply_bytes, png->size);
+    kd_bytes_add(request->server->replies, request->client, png->size);
     request->reply_bytes = png->size;
     *png = (struct kd_buffer) { 0 };
     MHD_add_response_header(response, "Content-Type", OFFERED);
@@ -171,8 +173,10 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
     }
     bool quota;
     enum kd_status status = kd_render_queue_admit(server->renders, request->client, &quota, error);
-    if (!status && atomic_load(&server->reply_bytes) > KD_REPLIES_MAX)
-        status = kd_error_set(error, KD_EBUSY, "too many pictures wait for their clients to take them");
+    /* How many bytes it will have is known when it has been encoded: fewer than its pixels. */
+    if (!status && kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
+        status = kd_error_set(error, KD_EBUSY, quota ? "as many bytes of pictures wait for you to take them as may for one client"
+                                                     : "too many pictures wait for their clients to take them");
     if (!status)
         return true;
     *problem = kd_problem_from(error);

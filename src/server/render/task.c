@@ -60,7 +60,7 @@ void kd_task_destroy(struct kd_task *task)
 {
     if (!task)
         return;
-    atomic_fetch_sub(&task->request->server->reply_bytes, task->held);
+    kd_bytes_give(task->request->server->replies, task->turns.client, task->held);
     task->free(task);
 }
 
@@ -94,19 +94,17 @@ enum MHD_Result kd_task_submit(struct kd_task *task)
     return MHD_YES;
 }
 
-enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held, struct kd_error *error)
+enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota, struct kd_error *error)
 {
-    size_t all = atomic_load(&server->reply_bytes);
-    do {
-        if (all && all + bytes > KD_REPLIES_MAX)
-            return kd_error_set(error, KD_EBUSY, "too many answers wait for their clients to take them");
-    } while (!atomic_compare_exchange_weak(&server->reply_bytes, &all, all + bytes));
+    if (kd_bytes_take(server->replies, client, bytes, bytes, quota))
+        return kd_error_set(error, KD_EBUSY, *quota ? "as many bytes of answers wait for you to take them as may for one client"
+                                                    : "too many answers wait for their clients to take them");
     *held = bytes;
     return KD_OK;
 }
 
 void kd_task_drop_body(struct kd_request *request)
 {
-    kd_bodies_give(request->server->bodies, request->client, request->body.size);
+    kd_bytes_give(request->server->bodies, request->client, request->body.size);
     kd_buffer_finish(&request->body);
 }

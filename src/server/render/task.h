@@ -18,6 +18,7 @@ struct kd_task {
     void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
     void (*free)(struct kd_task *task);                          /* with what it is embedded in */
     size_t held;                                                 /* of kd_task_hold, given back with the task */
+    bool quota;                                                  /* KD_EBUSY because its client has its share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
     _Atomic enum kd_status status; /* KD_ECANCELLED: nobody listens */
     struct kd_error error;
@@ -38,8 +39,9 @@ enum MHD_Result kd_task_submit(struct kd_task *task);
 /* Why one must end now whose client may have gone, and which may go on until then; KD_OK: it need not. Any thread. */
 enum kd_status kd_task_over(struct kd_server *server, struct kd_turns *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
-/* Count bytes of an answer as held, to be subtracted from server->reply_bytes by whoever holds them; KD_EBUSY: too many are. */
-enum kd_status kd_task_hold(struct kd_server *server, size_t bytes, size_t *held, struct kd_error *error);
+/* Count bytes of an answer as held, to be given back to server->replies by whoever holds them; KD_EBUSY: too many are, with *quota
+ * of this client. Any thread. */
+enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota, struct kd_error *error);
 /* The body is not needed any more. While the request is suspended it is nobody else's. */
 void kd_task_drop_body(struct kd_request *request);
 

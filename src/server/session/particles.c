@@ -30,7 +30,7 @@ void kd_particles_job_destroy(struct kd_particles_job *job)
 {
     if (!job)
         return;
-    atomic_fetch_sub(&job->request->server->reply_bytes, job->held);
+    kd_bytes_give(job->request->server->replies, job->request->client, job->held);
     kd_buffer_finish(&job->rows);
     free(job);
 }
@@ -109,10 +109,10 @@ static enum MHD_Result deliver(struct kd_request *request)
 }
 
 /* Memory for the answer, counted as held. */
-static enum kd_status allocate(struct kd_particles_job *job, struct kd_error *error)
+static enum kd_status allocate(struct kd_particles_job *job, bool *quota, struct kd_error *error)
 {
     size_t bytes = job->list.n * kd_particle_list_row(&job->list);
-    if (kd_task_hold(job->request->server, bytes, &job->held, error))
+    if (kd_task_hold(job->request->server, job->request->client, bytes, &job->held, quota, error))
         return KD_EBUSY;
     job->rows.data = malloc(bytes);
     if (!job->rows.data)
@@ -139,7 +139,7 @@ static enum MHD_Result submit(struct kd_request *request)
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
                                                                 .detail = "the server is stopping and begins nothing long" });
-    if (kd_render_queue_admit(server->renders, request->client, &quota, &error) || allocate(job, &error))
+    if (kd_render_queue_admit(server->renders, request->client, &quota, &error) || allocate(job, &quota, &error))
         return refuse(request, &error, quota);
     kd_render_queue_capacity(server->renders, &capacity);
     job->begun_ms = kd_clock_ms();

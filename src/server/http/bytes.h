@@ -1,0 +1,33 @@
+/* Bytes that are held for requests, in all and by client: bodies that are being received, answers that are not taken yet. Any thread.
+ *
+ * No client has more than its share, which leaves room for others; and some room is kept for small ones. */
+#ifndef KD_SERVER_HTTP_BYTES_H
+#define KD_SERVER_HTTP_BYTES_H
+
+#include "base/error.h"
+#include "server/http/shares.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct kd_bytes;
+
+/* NULL: out of memory. */
+struct kd_bytes_params {
+    unsigned clients;      /* told apart at once: more than connections there are never; what others have counts as that of one */
+    size_t max, share;     /* in all; of one client */
+    size_t reserve, small; /* beside max, for what has at most `small` bytes; and as large a share of it */
+    bool lone;             /* who has nothing here may have more than a share, and where nobody has anything more than max */
+};
+struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params);
+void kd_bytes_destroy(struct kd_bytes *bytes); /* accepts NULL */
+
+/* n more of what has `size` in the end or will: KD_EBUSY, and nothing is counted, where they are too many in all, or with *quota of
+ * this client. n 0: whether any may come. */
+enum kd_status kd_bytes_take(struct kd_bytes *bytes, const char *client, size_t n, size_t size, bool *quota);
+/* The same, whether they are too many or not: they are there already. */
+void kd_bytes_add(struct kd_bytes *bytes, const char *client, size_t n);
+void kd_bytes_give(struct kd_bytes *bytes, const char *client, size_t n);
+size_t kd_bytes_held(const struct kd_bytes *bytes); /* waits for nobody */
+
+#endif
