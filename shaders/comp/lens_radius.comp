@@ -28,7 +28,7 @@ void main()
     if (!kd_this_ray(step_, at))
         return;
     kd_ray ray = kd_camera_ray(step_.x, step_.y);
-    kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_radial radial = kd_radial_of(m, cam.horizon);
 

@@ -22,9 +22,9 @@ layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
 layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
 
 /* Cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
-kd_turn swing(uint random, uint phase)
+kd_phasor swing(uint random, uint phase)
 {
-    kd_turn t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
+    kd_phasor t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
     float u = sqrt(float(kd_hash(random ^ push.key) >> 8) * (1.0 / 16777216.0));
     t.c *= u;
     t.s *= u;
@@ -79,7 +79,7 @@ void main()
     uint phi = random + guides[k].phi;
     float row = guides[k].row;
     if (SWING) {
-        kd_turn t = swing(kd_hash(random + 0x9e3779b9u), guides[k].radial);
+        kd_phasor t = swing(kd_hash(random + 0x9e3779b9u), guides[k].radial);
         row += guides[k].swing_row * t.c;
         phi += uint(int(guides[k].swing_phi * t.s * 4294967296.0));
     }

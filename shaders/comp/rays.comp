@@ -52,12 +52,12 @@ kd_state radial(kd_full p)
 }
 
 /* E + w' for E = 1, without cancellation on the way out. */
-float energy_and_fall(kd_motion m, float w, float dw)
+float energy_and_fall(kd_geodesic m, float w, float dw)
 {
     return dw > 0.0 ? 1.0 + dw : max(-w * w * (m.a2 + w * (2.0 * m.k - m.d * w)), 1e-30) / (1.0 - dw);
 }
 
-kd_rates rates(kd_motion m, kd_full p, float b, float way)
+kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
 {
     float w = p.y.x, u = p.y.y, dw = p.dy.x, a = cam.spin, c = sqrt(b + m.energy2), lost = 1.0 - u * u;
     kd_state y = radial(p);
@@ -75,7 +75,7 @@ kd_rates rates(kd_motion m, kd_full p, float b, float way)
 }
 
 /* What the regularisations leave at a point, to be taken between the ends; nothing at infinity. */
-float delay_edge(kd_motion m, kd_state y, float way)
+float delay_edge(kd_geodesic m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
         return 0.0;
@@ -86,7 +86,7 @@ float delay_edge(kd_motion m, kd_state y, float way)
 
 /* How far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the time of a half
  * period. */
-float drifted(kd_motion m, kd_state y, float time)
+float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_fall_squared(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
@@ -107,7 +107,7 @@ void main()
     ray.l = -cam.list[3 * i];
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
-    kd_motion m = kd_motion_of(ray, cam.spin, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 

@@ -99,7 +99,7 @@ kd_pair drift_b(kd_pair y, float h)
     return y;
 }
 /* Rotation that binds the copies: (x - x', p - p') turns by 2 omega h, whose cosine and sine are t. */
-kd_pair bind(kd_pair y, kd_turn t)
+kd_pair bind(kd_pair y, kd_phasor t)
 {
     vec3 sx = 0.5 * (y.a.x + y.b.x), sp = 0.5 * (y.a.p + y.b.p), dx = 0.5 * (y.a.x - y.b.x), dp = 0.5 * (y.a.p - y.b.p);
     vec3 rx = t.c * dx + t.s * dp, rp = t.c * dp - t.s * dx;
@@ -109,7 +109,7 @@ kd_pair bind(kd_pair y, kd_turn t)
     y.b.p = sp - rp;
     return y;
 }
-kd_pair tao_2(kd_pair y, float h, kd_turn t)
+kd_pair tao_2(kd_pair y, float h, kd_phasor t)
 {
     y = drift_a(y, 0.5 * h);
     y = drift_b(y, 0.5 * h);
@@ -119,7 +119,7 @@ kd_pair tao_2(kd_pair y, float h, kd_turn t)
 }
 const float YOSHIDA[4] = float[4](0.784513610477560, 0.235573213359357, -1.17767998417887, 1.315186320683906);
 
-kd_pair tao_6(kd_pair y, float h, kd_turn turns[4])
+kd_pair tao_6(kd_pair y, float h, kd_phasor turns[4])
 {
     for (int i = 0; i < 7; i++) {
         int k = i < 4 ? i : 6 - i;
@@ -183,7 +183,7 @@ void main()
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
     /* Once, not in each step: the series has ten rounds. */
-    kd_turn turns[4];
+    kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
     KD_TRACE_STEP(KD_TRACE_START, 0.0, vec4(y.a.x, 0.0), vec4(y.a.p, 0.0), 0.0);

@@ -38,11 +38,11 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_transfer { KD_TRANSFER_FIELDS_(F, U) };
-struct kd_spot { KD_SPOT_FIELDS_(F, U) };
+struct kd_spot_block { KD_SPOT_FIELDS_(F, U) };
 layout(set = 0, binding = 1) readonly buffer Transfer {
     kd_transfer header;
     float pad[KD_TRANSFER_HEADER - 32];
-    kd_spot spots[KD_SPOT_MAX];
+    kd_spot_block spots[KD_SPOT_MAX];
     float disk_table[KD_DISK_TABLE];
     vec4 colour_table[KD_COLOUR_TABLE];
     vec2 plunge_table[KD_PLUNGE_TABLE];
@@ -161,7 +161,7 @@ vec4 spot_light(float w, float phi, float ago, float energy, float momentum)
     if (r < tr.r_isco)
         return sum;
     for (uint i = 0; i < SPOTS; i++) {
-        kd_spot spot = tables.spots[i];
+        kd_spot_block spot = tables.spots[i];
         float s = kd_cos_sin(0.5 * (phi - spot.phi + (SLOW ? spot.omega * ago : 0.0))).s;
         float off = (r - spot.r) * (r - spot.r) + 4.0 * r * spot.r * s * s;
         if (off > spot.reach)

@@ -26,17 +26,17 @@ kd_path kd_path_start(kd_ray ray, float u, float s)
 }
 
 /* On the plane, leaving it upwards (side = 1) or downwards (-1): |u'| = sqrt(Q). */
-kd_path kd_path_crossing(kd_motion m, kd_state y, float psi, float chi, float side)
+kd_path kd_path_crossing(kd_geodesic m, kd_state y, float psi, float chi, float side)
 {
     kd_path o;
-    kd_turn t = kd_cos_sin(psi);
+    kd_phasor t = kd_cos_sin(psi);
     o.y = vec4(t.c, t.s, 0.0, y.w);
     o.v = vec4(-m.momentum * t.s, m.momentum * t.c, side * sqrt(max(m.q, 0.0)), y.dw);
     o.chi = chi;
     return o;
 }
 
-vec4 kd_path_pull(kd_motion m, vec4 y)
+vec4 kd_path_pull(kd_geodesic m, vec4 y)
 {
     float e = m.energy2, u = y.z, w = y.w;
     vec4 f = -(m.q + m.momentum * m.momentum + 2.0 * e * u * u) * y;
@@ -45,7 +45,7 @@ vec4 kd_path_pull(kd_motion m, vec4 y)
     return f;
 }
 
-kd_path kd_path_step(kd_motion m, kd_path p, float h)
+kd_path kd_path_step(kd_geodesic m, kd_path p, float h)
 {
     kd_path o;
     KD_NYSTROEM_STEP(vec4, kd_path_pull, m, p.y, p.v, h, o.y, o.v)
@@ -54,7 +54,7 @@ kd_path kd_path_step(kd_motion m, kd_path p, float h)
 }
 
 /* The drag over one step: Simpson's rule, with the middle from the quintic that fits w, w' and w'' at both ends. */
-float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h)
+float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
 {
     kd_state a, b, c;
     a.w = p.y.w;
@@ -71,7 +71,7 @@ float kd_path_drag(kd_motion m, kd_ray ray, kd_path p, kd_path q, float h)
                        kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-kd_escape kd_path_escape(kd_motion m, kd_ray ray, kd_path p)
+kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
 {
     kd_escape o;
     o.fate = KD_FATE_UNDECIDED;

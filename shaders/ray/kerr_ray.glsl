@@ -14,15 +14,16 @@ struct kd_ray {
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
 
-struct kd_motion {
+/* Constants of motion and the coefficients of R(w) and U(u). */
+struct kd_geodesic {
     float momentum, q, energy2; /* L, Q, a^2 E^2 */
     float a2, k, d;             /* A, K, D       */
 };
 
 /* a: spin; u, s: cosine and sine of the observer's polar angle. */
-kd_motion kd_motion_of(kd_ray ray, float a, float u, float s)
+kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
 {
-    kd_motion m;
+    kd_geodesic m;
     float ae = a * ray.e;
     m.energy2 = ae * ae;
     m.momentum = ray.l * s;

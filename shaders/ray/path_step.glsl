@@ -7,14 +7,14 @@
 
 struct kd_full { vec3 y, dy; }; /* (w, u, v) */
 
-vec3 kd_full_pull(kd_motion m, vec3 y)
+vec3 kd_full_pull(kd_geodesic m, vec3 y)
 {
     float w = y.x, u = y.y;
     return vec3(w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)), u * (m.a2 - 2.0 * m.energy2 * u * u),
                 y.z * (m.a2 + w * (6.0 * m.k - 6.0 * m.d * w)));
 }
 
-kd_full kd_full_step(kd_motion m, kd_full p, float h)
+kd_full kd_full_step(kd_geodesic m, kd_full p, float h)
 {
     kd_full o;
     KD_NYSTROEM_STEP(vec3, kd_full_pull, m, p.y, p.dy, h, o.y, o.dy)

@@ -20,7 +20,7 @@ struct kd_polar {
 };
 
 /* u: cosine of the observer's polar angle; s: its sine. The traced path starts with u' = s p. */
-kd_polar kd_polar_of(kd_motion m, kd_ray ray, float u, float s)
+kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
 {
     kd_polar o;
     float root = sqrt(max(m.a2 * m.a2 + 4.0 * m.energy2 * m.q, 0.0));

@@ -23,10 +23,10 @@ float kd_azimuth_rate(float y, float root_c)
     return 1.0 / (root * (root + root_c));
 }
 
-float kd_azimuth_pull(kd_motion m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
+float kd_azimuth_pull(kd_geodesic m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
 
 /* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's rule. */
-float kd_azimuth_smooth(kd_motion m, float b, float u, float du, float time)
+float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
 {
     const uint steps = 32;
     float c = sqrt(b + m.energy2), h = time * (1.0 / float(steps)), sum = 7.0 / (sqrt(b + m.energy2 * u * u) + c);
@@ -41,7 +41,7 @@ float kd_azimuth_smooth(kd_motion m, float b, float u, float du, float time)
     return m.momentum * m.energy2 / c * sum * h * (2.0 / 45.0);
 }
 
-kd_azimuth kd_azimuth_of(kd_motion m, kd_ray ray, kd_polar polar, float u, float s)
+kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, float s)
 {
     kd_azimuth o;
     float dp = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;

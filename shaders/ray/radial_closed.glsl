@@ -21,7 +21,7 @@ struct kd_radial {
 };
 
 /* horizon: 1/r+. */
-kd_radial kd_radial_of(kd_motion m, float horizon)
+kd_radial kd_radial_of(kd_geodesic m, float horizon)
 {
     kd_radial o;
     o.scale = sqrt(max(abs(m.a2), 1.0));

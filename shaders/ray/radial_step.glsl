@@ -7,9 +7,9 @@
 
 struct kd_state { float w, dw; };
 
-float kd_pull(kd_motion m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)); }
+float kd_pull(kd_geodesic m, float w) { return w * (m.a2 + w * (3.0 * m.k - 2.0 * m.d * w)); }
 
-kd_state kd_radial_step(kd_motion m, kd_state y, float h)
+kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
 {
     kd_state o;
     KD_NYSTROEM_STEP(float, kd_pull, m, y.w, y.dw, h, o.w, o.dw)
@@ -20,13 +20,13 @@ kd_state kd_radial_step(kd_motion m, kd_state y, float h)
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
 /* W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
-float kd_one_way(kd_motion m, kd_state y, float e, float a, float way)
+float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 {
     return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
 }
 
 /* w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
-float kd_fall_squared(kd_motion m, float w, float e, float a, float root)
+float kd_fall_squared(kd_geodesic m, float w, float e, float a, float root)
 {
     precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2, square = all * all - kd_delta(w, root) * m.k * w2;
     return square;
@@ -38,7 +38,7 @@ float kd_fall_squared(kd_motion m, float w, float e, float a, float root)
  * azimuth of ingoing Kerr-Schild coordinates: less a w'/D, whose integral is elementary and is put back by kd_drag_fall. As
  * w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference; and the same with the other sign of w'
  * for one that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 straight out, else 0. */
-float kd_drag(kd_motion m, kd_state y, float e, float a, float root, float way)
+float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;
     if (way != 0.0)
@@ -72,7 +72,7 @@ struct kd_barrier {
 };
 
 /* u: cosine of the observer's polar angle. */
-kd_barrier kd_barrier_of(kd_motion m, kd_ray ray, float a, float u, float horizon, float root, float epsilon)
+kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float horizon, float root, float epsilon)
 {
     kd_barrier o;
     float disc = sqrt(max(9.0 * m.k * m.k + 8.0 * m.d * m.a2, 0.0));

@@ -63,10 +63,10 @@ float kd_log(float x)
 #endif
 }
 
-struct kd_turn { float c, s; };
+struct kd_phasor { float c, s; }; /* cosine and sine of an angle */
 
-/* Cosine and sine, by the series on [-pi/4, pi/4]. */
-kd_turn kd_cos_sin(float angle)
+/* Both, by the series on [-pi/4, pi/4]. */
+kd_phasor kd_cos_sin(float angle)
 {
     float n = floor(angle * (2.0 / KD_PI) + 0.5), x = angle - n * (KD_PI * 0.5), z = x * x;
 #ifdef KD_DOUBLE
@@ -82,7 +82,7 @@ kd_turn kd_cos_sin(float angle)
     float s = x + x * z * (-1.6666654611e-1 + z * (8.3321608736e-3 + z * -1.9515295891e-4));
 #endif
     int quarter = int(n) & 3;
-    kd_turn o;
+    kd_phasor o;
     o.c = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
     o.s = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
     return o;

@@ -11,7 +11,7 @@
 #define STRETCH 0.2 /* of ln rho, at most: where the image has a corner, beside the axis, phi can make a whole turn */
 
 /* Directions: chi turns evenly where the ring seen from afar, (cos chi, cos i sin chi), does. */
-static void place(const struct kd_ring *ring, double chi, double log_rho, double *alpha, double *beta)
+static void place(const struct kd_ring_image *ring, double chi, double log_rho, double *alpha, double *beta)
 {
     double x = cos(chi), y = ring->flatten * sin(chi), rho = exp(log_rho) / hypot(x, y);
     *alpha = rho * x;
@@ -19,7 +19,7 @@ static void place(const struct kd_ring *ring, double chi, double log_rho, double
 }
 
 /* ln(r_n/r), or -INFINITY for a ray that is captured before its crossing n, INFINITY for one that escapes. */
-static double mismatch(const struct kd_ring *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
+static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
     struct kd_null_ray ray = { .spin = ring->spin, .radius = ring->observer_r, .cos_theta = ring->cos_theta,
                                .sin_theta = ring->sin_theta, .orders = ring->order + 1 };
@@ -33,7 +33,7 @@ static double mismatch(const struct kd_ring *ring, double chi, double log_rho, s
 
 /* Towards ln r_n = ln r along chi from a guess: out to where the sign differs, then halved until both ends have a crossing,
  * then by Illinois' rule, until |ln r_n/r| is below the bound. */
-static bool approach(const struct kd_ring *ring, double chi, double bound, double *log_rho, struct kd_null_crossing *crossing)
+static bool approach(const struct kd_ring_image *ring, double chi, double bound, double *log_rho, struct kd_null_crossing *crossing)
 {
     double h = INFINITY, step = 0.02, at = *log_rho, f = mismatch(ring, chi, at, crossing), other, g = f;
     for (other = at; (f < 0) == (g < 0) && step < 40; step *= 2) {
@@ -65,7 +65,7 @@ static bool approach(const struct kd_ring *ring, double chi, double bound, doubl
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
 /* One node more, at most `step` on; false when they run out or the image is not found. */
-static bool add_node(struct kd_ring *ring, double *step)
+static bool add_node(struct kd_ring_image *ring, double *step)
 {
     int k = ring->nodes - 1;
     struct kd_null_crossing crossing;
@@ -90,18 +90,18 @@ static bool add_node(struct kd_ring *ring, double *step)
     }
 }
 
-struct kd_ring kd_ring_plain(double spin, double inclination, double observer_r, double r, int order)
+struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double observer_r, double r, int order)
 {
-    return (struct kd_ring) { .spin = spin, .observer_r = observer_r, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
+    return (struct kd_ring_image) { .spin = spin, .observer_r = observer_r, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
                               .flatten = cos(inclination), .radius = r, .order = order };
 }
 
 /* A guess: next to the critical curve, or where the ring would be without lensing. */
-static double around(const struct kd_ring *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
+static double around(const struct kd_ring_image *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
 
-bool kd_ring_init(struct kd_ring *ring, double spin, double inclination, double observer_r, double r, int order)
+bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double observer_r, double r, int order)
 {
-    *ring = kd_ring_plain(spin, inclination, observer_r, r, order);
+    *ring = kd_ring_image_plain(spin, inclination, observer_r, r, order);
     struct kd_null_crossing crossing;
     double step = STEP;
     ring->log_rho[0] = around(ring);
@@ -117,7 +117,7 @@ bool kd_ring_init(struct kd_ring *ring, double spin, double inclination, double 
 }
 
 /* phi of the image in the direction chi less the wanted one; *log_rho is a guess on entry. */
-static bool azimuth(const struct kd_ring *ring, double phi, double chi, double *log_rho, double *miss)
+static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, double *log_rho, double *miss)
 {
     struct kd_null_crossing crossing;
     bool found = approach(ring, chi, TABLE, log_rho, &crossing);
@@ -126,7 +126,7 @@ static bool azimuth(const struct kd_ring *ring, double phi, double chi, double *
 }
 
 /* Between the nodes k and k + 1, where phi is passed, by Illinois' rule to 1e-4: near enough for Newton's method. */
-static bool bracket(const struct kd_ring *ring, double phi, int k, double *chi, double *log_rho)
+static bool bracket(const struct kd_ring_image *ring, double phi, int k, double *chi, double *log_rho)
 {
     double low = ring->chi[k], high = ring->chi[k + 1], f = turn(ring->phi[k] - phi), g = f + (ring->phi[k + 1] - ring->phi[k]), h;
     for (int i = 0, side = 0; i < 60; i++) {
@@ -148,7 +148,7 @@ static bool bracket(const struct kd_ring *ring, double phi, int k, double *chi, 
 }
 
 /* Slope of ln r_n in ln rho: steep for late orders and large r, so that the step follows it. */
-static double slope(const struct kd_ring *ring, double chi, double log_rho, double f, double *phi_slope, double phi)
+static double slope(const struct kd_ring_image *ring, double chi, double log_rho, double f, double *phi_slope, double phi)
 {
     struct kd_null_crossing out;
     double h = 1e-6, change;
@@ -162,7 +162,7 @@ static double slope(const struct kd_ring *ring, double chi, double log_rho, doub
 
 /* One step of Newton's method for (ln r_n, phi) = (ln r, phi) in (chi, ln rho). Returns its size, INFINITY where there is no
  * crossing. */
-static double newton(const struct kd_ring *ring, double phi, double *chi, double *log_rho, struct kd_null_crossing *here)
+static double newton(const struct kd_ring_image *ring, double phi, double *chi, double *log_rho, struct kd_null_crossing *here)
 {
     const double h = 1e-7;
     struct kd_null_crossing aside;
@@ -181,12 +181,12 @@ static double newton(const struct kd_ring *ring, double phi, double *chi, double
     return isfinite(step) && isfinite(d_rho) ? fabs(step) + fabs(d_rho) : INFINITY;
 }
 
-bool kd_ring_find(const struct kd_ring *ring, double phi, struct kd_ring_point *point)
+bool kd_ring_image_find(const struct kd_ring_image *ring, double phi, struct kd_ring_image_point *point)
 {
     struct kd_null_crossing crossing;
     double chi = 0, log_rho = 0, size = 1;
     int first = -1;
-    *point = (struct kd_ring_point) { 0 };
+    *point = (struct kd_ring_image_point) { 0 };
     for (int k = 0; k + 1 < ring->nodes; k++) {
         double f = turn(ring->phi[k] - phi), g = f + (ring->phi[k + 1] - ring->phi[k]);
         if (f < 0 ? g <= 0 : f > 0 && g >= 0)
@@ -208,11 +208,11 @@ bool kd_ring_find(const struct kd_ring *ring, double phi, struct kd_ring_point *
     return size <= 1e-8;
 }
 
-bool kd_ring_seen(const struct kd_ring *ring, double chi, struct kd_ring_point *point)
+bool kd_ring_image_seen(const struct kd_ring_image *ring, double chi, struct kd_ring_image_point *point)
 {
     struct kd_null_crossing crossing;
     double log_rho = around(ring);
-    *point = (struct kd_ring_point) { 0 };
+    *point = (struct kd_ring_image_point) { 0 };
     if (!approach(ring, chi, 1e-12, &log_rho, &crossing))
         return false;
     point->phi = crossing.phi;

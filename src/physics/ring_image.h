@@ -13,7 +13,7 @@
 
 enum { KD_RING_NODES = 320 };
 
-struct kd_ring {
+struct kd_ring_image {
     double spin, observer_r, cos_theta, sin_theta, radius, flatten;
     int order, nodes;
     double chi[KD_RING_NODES], log_rho[KD_RING_NODES], phi[KD_RING_NODES]; /* phi without jumps, one turn in all */
@@ -22,14 +22,14 @@ struct kd_ring {
 /* r and observer_r (INFINITY allowed) outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4.
  * False where the image turns too quickly for the table, which has not been seen for r >= 1.02 r+, and where light of the ring
  * arrives from further out, as it may once the observer is not far outside both the ring and the photon orbits. Some 500 rays. */
-bool kd_ring_init(struct kd_ring *ring, double spin, double inclination, double observer_r, double r, int order);
+bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double observer_r, double r, int order);
 
-/* The same without its table, for kd_ring_seen alone. */
-struct kd_ring kd_ring_plain(double spin, double inclination, double observer_r, double r, int order);
+/* The same without its table, for kd_ring_image_seen alone. */
+struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double observer_r, double r, int order);
 
 /* phi, sense: as of struct kd_null_crossing. residual: the last step of Newton's method, before it was taken; the error is some
  * 1e-6 of it and rounding. */
-struct kd_ring_point {
+struct kd_ring_image_point {
     int images; /* of this order: 1, but 3 or more beyond a caustic (high inclination, a != 0; order 0 next to edge-on) */
     double alpha, beta, phi, delay, residual;
     int sense;
@@ -37,10 +37,10 @@ struct kd_ring_point {
 
 /* phi: source minus observer. Of several images the first from +alpha towards +beta. False where it is not found; some 30
  * rays. */
-bool kd_ring_find(const struct kd_ring *ring, double phi, struct kd_ring_point *point);
+bool kd_ring_image_find(const struct kd_ring_image *ring, double phi, struct kd_ring_image_point *point);
 
 /* In the direction (cos(chi), cos(i) sin(chi)) of the image plane, from alpha = beta = 0: each meets the image once. images stays 0;
  * residual: ln of the crossing's radius over the ring's. Some 20 rays. */
-bool kd_ring_seen(const struct kd_ring *ring, double chi, struct kd_ring_point *point);
+bool kd_ring_image_seen(const struct kd_ring_image *ring, double chi, struct kd_ring_image_point *point);
 
 #endif

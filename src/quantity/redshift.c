@@ -41,11 +41,11 @@ static const char *const approximations[] = {
 };
 
 struct memory {
-    struct kd_ring rings[2];
+    struct kd_ring_image rings[2];
     double r;
 };
 
-static double g_of(const struct parameters *p, double r, const struct kd_ring_point *at)
+static double g_of(const struct parameters *p, double r, const struct kd_ring_image_point *at)
 {
     double s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), lambda = -at->alpha * s;
     double eta = (at->alpha * at->alpha - p->spin * p->spin) * c * c + at->beta * at->beta;
@@ -66,8 +66,8 @@ static enum kd_status make_rings(const struct parameters *p, struct memory *m, s
     m->r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r;
     if (m->r <= kd_kerr_horizon(p->spin))
         return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", kd_kerr_horizon(p->spin));
-    bool found = kd_ring_init(&m->rings[0], p->spin, up, INFINITY, m->r, 0) &&
-                 kd_ring_init(&m->rings[1], p->spin, up, INFINITY, m->r, 1);
+    bool found = kd_ring_image_init(&m->rings[0], p->spin, up, INFINITY, m->r, 0) &&
+                 kd_ring_image_init(&m->rings[1], p->spin, up, INFINITY, m->r, 1);
     return found ? KD_OK : not_found(m, error);
 }
 
@@ -76,15 +76,15 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    struct kd_ring_point at;
+    struct kd_ring_image_point at;
     if (fresh && make_rings(p, m, error))
         return KD_EINVAL;
     double phi = p->phi_deg * (M_PI / 180), side = p->inclination_deg > 90 ? -1 : 1, s = kd_sin_deg(p->inclination_deg);
-    if (!kd_ring_find(&m->rings[0], phi, &at))
+    if (!kd_ring_image_find(&m->rings[0], phi, &at))
         return not_found(m, error);
     o->g = g_of(p, m->r, &at);
     o->alpha = at.alpha, o->beta = side * at.beta, o->delay = at.delay, o->images = at.images;
-    if (!kd_ring_find(&m->rings[1], phi, &at))
+    if (!kd_ring_image_find(&m->rings[1], phi, &at))
         return not_found(m, error);
     o->g_1 = g_of(p, m->r, &at);
     o->alpha_1 = at.alpha, o->beta_1 = side * at.beta, o->delay_1 = at.delay, o->images_1 = at.images;

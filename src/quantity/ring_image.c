@@ -36,7 +36,7 @@ static const char *const sources[] = {
 static const char *const approximations[] = { NULL };
 
 struct memory {
-    struct kd_ring ring;
+    struct kd_ring_image ring;
     struct kd_tetrad frame; /* of an observer at a finite radius */
 };
 
@@ -60,15 +60,15 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
     struct memory *m = memory;
-    struct kd_ring_point at;
+    struct kd_ring_image_point at;
     const double i = p->inclination_deg, r = isinf(p->r) ? kd_kerr_isco(p->spin) : p->r, side = i > 90 ? -1 : 1;
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(error, "inclination_deg", i, "where the ring is a line; allowed are 0 to 89.9 and 90.1 to 180");
     if (kd_quantity_outside_horizon(p->spin, r, error) || (fresh && make_frame(p, m, error)))
         return KD_EINVAL;
     if (fresh) /* from below the plane it looks the same but for beta */
-        m->ring = kd_ring_plain(p->spin, (i > 90 ? 180 - i : i) * (M_PI / 180), p->observer_r, r, (int)p->order);
-    if (!kd_ring_seen(&m->ring, side * p->angle_deg * (M_PI / 180), &at))
+        m->ring = kd_ring_image_plain(p->spin, (i > 90 ? 180 - i : i) * (M_PI / 180), p->observer_r, r, (int)p->order);
+    if (!kd_ring_image_seen(&m->ring, side * p->angle_deg * (M_PI / 180), &at))
         return kd_quantity_outside(error, "r", r, "too large for this observer, or too near the horizon: its light does not come from "
                                                   "further in; allowed are rings well inside observer_r");
     struct kd_look look = { NAN, NAN, NAN, NAN };

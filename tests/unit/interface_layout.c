@@ -37,9 +37,7 @@ struct spirv {
     const uint32_t *words;
     size_t n;
 };
-/* clang-format off */
 #define SPIRV(name) { #name, kd_spv_##name, sizeof kd_spv_##name / 4 }
-/* clang-format on */
 
 /* The next instruction of this opcode whose first operand is `id` (0: any) after *at; NULL at the end. */
 static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, uint32_t id)
@@ -214,7 +212,7 @@ static void transfer_buffer(void **state)
 {
     (void)state;
     same(&transfer, "kd_transfer", transfer_fields, COUNT(transfer_fields), 0);
-    same(&transfer, "kd_spot", spot_fields, COUNT(spot_fields), 0);
+    same(&transfer, "kd_spot_block", spot_fields, COUNT(spot_fields), 0);
     assert_int_equal(sizeof(struct kd_spot_block), 4 * COUNT(spot_fields));
     const struct {
         const char *name;

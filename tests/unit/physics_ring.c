@@ -27,11 +27,11 @@ static void within(const char *what, double a, double x, double got, double want
                  fabs(got - want), bound);
 }
 
-static struct kd_ring_point image_of(double a, double i_deg, double r, double phi_deg, int order)
+static struct kd_ring_image_point image_of(double a, double i_deg, double r, double phi_deg, int order)
 {
-    struct kd_ring ring;
-    struct kd_ring_point point = { 0 };
-    if (!kd_ring_init(&ring, a, i_deg * RADIAN, INFINITY, r, order) || !kd_ring_find(&ring, phi_deg * RADIAN, &point))
+    struct kd_ring_image ring;
+    struct kd_ring_image_point point = { 0 };
+    if (!kd_ring_image_init(&ring, a, i_deg * RADIAN, INFINITY, r, order) || !kd_ring_image_find(&ring, phi_deg * RADIAN, &point))
         fail_msg("no image of order %d of a ring at %.17g, %.17g degrees, a = %.17g, i = %.17g", order, r, phi_deg, a, i_deg);
     return point;
 }
@@ -42,7 +42,7 @@ static void without_spin(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT(ring_reference); k++) {
         const struct ring_reference *f = &ring_reference[k];
-        struct kd_ring_point p = image_of(0, f->inclination_deg, f->r, f->phi_deg, f->order);
+        struct kd_ring_image_point p = image_of(0, f->inclination_deg, f->r, f->phi_deg, f->order);
         double size = hypot(f->alpha, f->beta), lambda = -p.alpha * sin(f->inclination_deg * RADIAN);
         within("alpha", 0, f->r, p.alpha, f->alpha, 1e-12 * size);
         within("beta", 0, f->r, p.beta, f->beta, 1e-12 * size);
@@ -64,7 +64,7 @@ static void with_spin(void **state)
     for (size_t k = 0; k < COUNT(cases); k++)
         for (int order = 0; order < 2; order++) {
             const double *c = cases[k];
-            struct kd_ring_point p = image_of(c[0], c[1], c[2], c[3], order);
+            struct kd_ring_image_point p = image_of(c[0], c[1], c[2], c[3], order);
             struct ks_path path = ks_trace(ks_from_infinity(c[0], cos(c[1] * RADIAN), p.alpha, p.beta), order + 1);
             double magnified = order ? 1e3 : 30;
             assert_int_equal(path.crossings, order + 1);
@@ -75,7 +75,7 @@ static void with_spin(void **state)
 
 /* The oracle's ray sets out in the direction in which an image is seen from (i, observer_r), in a frame that it makes itself; its
  * energy at infinity is the one that goes with the direction. */
-static void seen_from(double a, double i, double observer_r, bool zamo, double r, int order, const struct kd_ring_point *p)
+static void seen_from(double a, double i, double observer_r, bool zamo, double r, int order, const struct kd_ring_image_point *p)
 {
     struct kd_tetrad frame = (zamo ? kd_tetrad_zamo : kd_tetrad_static)(a, observer_r, cos(i), sin(i));
     struct kd_look look = kd_tetrad_look(&frame, p->alpha, p->beta);
@@ -100,13 +100,13 @@ static void from_nearby(void **state)
     for (size_t k = 0; k < 2 * COUNT(cases); k++)
         for (int order = 0; order < 2; order++) {
             const double *c = cases[k / 2], i = c[1] * RADIAN, turned = c[4] * RADIAN;
-            struct kd_ring ring;
-            struct kd_ring_point p;
-            if (!kd_ring_init(&ring, c[0], i, c[2], c[3], order) || !kd_ring_find(&ring, turned, &p))
+            struct kd_ring_image ring;
+            struct kd_ring_image_point p;
+            if (!kd_ring_image_init(&ring, c[0], i, c[2], c[3], order) || !kd_ring_image_find(&ring, turned, &p))
                 fail_msg("no image of order %d of a ring at %g, %g degrees, a = %g, i = %g, from %g", order, c[3], c[4], c[0], c[1], c[2]);
             within("phi asked for", c[0], c[3], remainder(p.phi - turned, 2 * M_PI), 0, 1e-10);
             seen_from(c[0], i, c[2], k % 2, c[3], order, &p);
-            if (!kd_ring_seen(&ring, turned, &p))
+            if (!kd_ring_image_seen(&ring, turned, &p))
                 fail_msg("no image of order %d of a ring at %g, direction %g, a = %g, i = %g, from %g", order, c[3], c[4], c[0], c[1], c[2]);
             within("direction", c[0], c[3], p.alpha * ring.flatten * sin(turned), p.beta * cos(turned), 1e-13 * hypot(p.alpha, p.beta));
             seen_from(c[0], i, c[2], k % 2, c[3], order, &p);
@@ -116,10 +116,10 @@ static void from_nearby(void **state)
 /* Light of a ring outside the observer, or beside it, comes from outside: that is said, not guessed. */
 static void from_within(void **state)
 {
-    struct kd_ring ring;
+    struct kd_ring_image ring;
     (void)state;
-    assert_false(kd_ring_init(&ring, 0.9, 60 * RADIAN, 6, 20, 0));
-    assert_false(kd_ring_init(&ring, 0.5, 80 * RADIAN, 2.2, 6, 1));
+    assert_false(kd_ring_image_init(&ring, 0.9, 60 * RADIAN, 6, 20, 0));
+    assert_false(kd_ring_image_init(&ring, 0.5, 80 * RADIAN, 2.2, 6, 1));
 }
 
 /* Every point of every ring has its images, an odd number of them, as across a caustic two are born or vanish. Several occur at
@@ -133,12 +133,12 @@ static void everywhere(void **state)
         for (size_t i = 0; i < COUNT(inclinations); i++)
             for (double r = 1.5 * kd_kerr_horizon(spins[s]); r < 1e4; r *= 5)
                 for (int order = 0; order < 2; order++) {
-                    struct kd_ring ring;
-                    struct kd_ring_point p;
-                    if (!kd_ring_init(&ring, spins[s], inclinations[i] * RADIAN, INFINITY, r, order))
+                    struct kd_ring_image ring;
+                    struct kd_ring_image_point p;
+                    if (!kd_ring_image_init(&ring, spins[s], inclinations[i] * RADIAN, INFINITY, r, order))
                         fail_msg("order %d, a = %g, i = %g, r = %.17g", order, spins[s], inclinations[i], r);
                     for (double phi = 0; phi < 2 * M_PI; phi += 0.7) {
-                        if (!kd_ring_find(&ring, phi, &p))
+                        if (!kd_ring_image_find(&ring, phi, &p))
                             fail_msg("order %d, a = %g, i = %g, r = %.17g, phi = %g", order, spins[s], inclinations[i], r, phi);
                         if (p.images % 2 == 0 || (p.images > 1 && inclinations[i] < (order ? 50 : 85)))
                             fail_msg("%d images of order %d, a = %g, i = %g, r = %.17g, phi = %g", p.images, order, spins[s],

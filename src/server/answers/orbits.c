@@ -134,7 +134,7 @@ static bool has_room(struct kd_orbits_job *job)
     return !job->full;
 }
 
-static enum kd_turn end(struct kd_orbits_job *job, enum kd_status status, const struct kd_error *error)
+static enum kd_turn_end end(struct kd_orbits_job *job, enum kd_status status, const struct kd_error *error)
 {
     pthread_mutex_lock(&job->lock);
     if (!job->status && status) {
@@ -146,7 +146,7 @@ static enum kd_turn end(struct kd_orbits_job *job, enum kd_status status, const 
     return KD_TURN_LAST;
 }
 
-static enum kd_turn one_piece(struct kd_orbits_job *job)
+static enum kd_turn_end one_piece(struct kd_orbits_job *job)
 {
     struct kd_error error = { 0 };
     struct kd_buffer piece = { 0 };
@@ -164,7 +164,7 @@ static enum kd_turn one_piece(struct kd_orbits_job *job)
     return room ? KD_TURN_MORE : KD_TURN_PARK;
 }
 
-static enum kd_turn take_turn(struct kd_turns_job *turns)
+static enum kd_turn_end take_turn(struct kd_turns_job *turns)
 {
     struct kd_orbits_job *job = (struct kd_orbits_job *)turns;
     struct kd_error error = { 0 };

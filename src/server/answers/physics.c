@@ -106,7 +106,7 @@ static enum kd_status write_answer(struct job *job, struct kd_error *error)
 }
 
 /* Points until it is time, then the text. */
-static enum kd_turn work(struct kd_task *task, double until_ms)
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct job *job = (struct job *)task;
     struct kd_quantity_run *run = &job->run;

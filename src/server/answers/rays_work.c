@@ -82,7 +82,7 @@ static enum kd_status push_to_device(struct kd_rays_job *job, struct kd_error *e
     return KD_OK;
 }
 
-static enum kd_turn begin(struct kd_rays_job *job)
+static enum kd_turn_end begin(struct kd_rays_job *job)
 {
     struct kd_error error = { 0 };
     enum kd_status status = read_body(job, &error);
@@ -97,7 +97,7 @@ static enum kd_turn begin(struct kd_rays_job *job)
     return status ? KD_TURN_LAST : device ? KD_TURN_AWAY : KD_TURN_MORE;
 }
 
-static enum kd_turn trace_slice(struct kd_rays_job *job)
+static enum kd_turn_end trace_slice(struct kd_rays_job *job)
 {
     struct kd_rays_answer *answer = &job->answer;
     struct kd_error error = { 0 };
@@ -112,7 +112,7 @@ static enum kd_turn trace_slice(struct kd_rays_job *job)
     return status || first + n == answer->n ? KD_TURN_LAST : KD_TURN_MORE;
 }
 
-static enum kd_turn work(struct kd_task *task, double until_ms)
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct kd_rays_job *job = (struct kd_rays_job *)task;
     (void)until_ms;

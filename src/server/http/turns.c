@@ -94,7 +94,7 @@ static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
     if (job->shared)
         append(turns, job); /* for whoever is free */
     pthread_mutex_unlock(&turns->lock);
-    enum kd_turn turn = job->turn(job);
+    enum kd_turn_end turn = job->turn(job);
     pthread_mutex_lock(&turns->lock);
     job->workers--;
     if (turn == KD_TURN_LAST)

@@ -7,7 +7,8 @@
 
 #include <stdbool.h>
 
-enum kd_turn {
+/* How a turn of a job ended: what is left to do. */
+enum kd_turn_end {
     KD_TURN_MORE, /* there is another piece */
     KD_TURN_PARK, /* there is, but not before kd_turns_wake, or kd_turns_cancel */
     KD_TURN_AWAY, /* there is, but not before kd_turns_wake: somebody else has it meanwhile */
@@ -15,10 +16,10 @@ enum kd_turn {
 };
 
 struct kd_turns_job {
-    enum kd_turn (*turn)(struct kd_turns_job *job); /* on a worker */
-    void (*done)(struct kd_turns_job *job);         /* on a worker, once, when every turn has returned: may free the job */
-    bool shared;                                    /* several workers at once from the next turn on; a turn may set it */
-    char client[KD_CLIENT];                         /* whose it is: what kd_turns_admit was asked for */
+    enum kd_turn_end (*turn)(struct kd_turns_job *job); /* on a worker */
+    void (*done)(struct kd_turns_job *job);             /* on a worker, once, when every turn has returned: may free the job */
+    bool shared;                                        /* several workers at once from the next turn on; a turn may set it */
+    char client[KD_CLIENT];                             /* whose it is: what kd_turns_admit was asked for */
     /* the queue's own */
     struct kd_turns_job *next, *next_accepted, **accepted_at;
     bool listed, parked, away, woken, over;

@@ -6,7 +6,7 @@
 
 #include <pthread.h>
 
-struct kd_job_frame; /* one on its way through the render queue */
+struct kd_job_render; /* one on its way through the render queue */
 
 /* What can be seen of it, glance.c. */
 struct kd_job_glance {
@@ -49,7 +49,7 @@ struct kd_jobs {
     pthread_mutex_t lock;
     struct kd_job *first; /* oldest first */
     struct kd_job *gone;  /* whose files are to be removed */
-    struct kd_job_frame *rendering;
+    struct kd_job_render *rendering;
     unsigned behind;
     uint64_t bytes;
     uint64_t frames; /* finished here, of all */

@@ -105,7 +105,7 @@ static void destroy(struct kd_task *task)
     free(d);
 }
 
-static enum kd_turn work(struct kd_task *task, double until_ms)
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct draft *d = (struct draft *)task;
     struct kd_jobs *jobs = task->request->server->jobs;

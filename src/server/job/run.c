@@ -10,7 +10,7 @@
 
 #define BEHIND_MAX 2      /* frames rendered and not yet in their files: one is rendered while one is encoded */
 #define COMPRESSION 6     /* files that stay: smaller, and nobody waits */
-struct kd_job_frame {
+struct kd_job_render {
     struct kd_render_job render; /* first: the queue's pointer is ours */
     struct kd_job *job;
     unsigned number;
@@ -52,7 +52,7 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
 /* Of a light curve: a row of it instead of a picture. */
 static enum kd_status encode_row(struct kd_render_job *render, unsigned encoder)
 {
-    const struct kd_job_frame *frame = (const struct kd_job_frame *)render;
+    const struct kd_job_render *frame = (const struct kd_job_render *)render;
     const struct kd_curve_row row = kd_curve_row_of(frame->number, &render->scene, &render->frame);
     (void)encoder;
     if (kd_buffer_append(&render->png, &row, sizeof row))
@@ -79,7 +79,7 @@ static bool begin(struct kd_job *job)
         job->next++;
     if (job->next == job->frames)
         return false;
-    struct kd_job_frame *frame = calloc(1, sizeof *frame);
+    struct kd_job_render *frame = calloc(1, sizeof *frame);
     kd_render_queue_capacity(all->params.renders, &capacity);
     enum kd_status status = frame ? plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)
                                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
@@ -116,7 +116,7 @@ static bool begin(struct kd_job *job)
 
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number)
 {
-    const struct kd_job_frame *frame = render;
+    const struct kd_job_render *frame = render;
     if (number)
         *number = frame->number;
     return frame->job;
@@ -169,7 +169,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
 
 static void progress(struct kd_render_job *render, double fraction)
 {
-    struct kd_job_frame *frame = (struct kd_job_frame *)render;
+    struct kd_job_render *frame = (struct kd_job_render *)render;
     pthread_mutex_lock(&frame->job->all->lock);
     frame->job->fraction = fraction;
     frame->job->revision++;
@@ -178,7 +178,7 @@ static void progress(struct kd_render_job *render, double fraction)
 
 static void rendered(struct kd_render_job *render)
 {
-    struct kd_job_frame *frame = (struct kd_job_frame *)render;
+    struct kd_job_render *frame = (struct kd_job_render *)render;
     struct kd_jobs *all = frame->job->all;
     pthread_mutex_lock(&all->lock);
     frame->rendered = true;
@@ -191,7 +191,7 @@ static void rendered(struct kd_render_job *render)
 
 static void done(struct kd_render_job *render)
 {
-    struct kd_job_frame *frame = (struct kd_job_frame *)render;
+    struct kd_job_render *frame = (struct kd_job_render *)render;
     struct kd_job *job = frame->job;
     struct kd_jobs *all = job->all;
     enum kd_status status = render->status;

@@ -40,7 +40,7 @@ static bool make_plan(struct kd_planned *p, bool check)
     return !status || fail(p, status, &error, kd_problem_from(&error));
 }
 
-static enum kd_turn work(struct kd_task *task, double until_ms)
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct kd_planned *p = (struct kd_planned *)task;
     (void)until_ms;

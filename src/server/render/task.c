@@ -26,7 +26,7 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
     task->error.status = status;
 }
 
-static enum kd_turn take_turn(struct kd_turns_job *turns)
+static enum kd_turn_end take_turn(struct kd_turns_job *turns)
 {
     struct kd_task *task = (struct kd_task *)turns;
     struct kd_request *request = task->request;

@@ -14,7 +14,7 @@ struct kd_task {
     struct kd_turns_job turns; /* first */
     struct kd_turns *queue;
     struct kd_request *request;
-    enum kd_turn (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
+    enum kd_turn_end (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
     void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
     void (*free)(struct kd_task *task);                          /* with what it is embedded in */
     size_t held;                                                 /* of kd_task_hold, given back with the task */
