@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* clang-format off */
 const struct kd_preset kd_presets[] = {
     { "schwarzschild", "A hole that does not spin, its disk seen from 10 degrees above",
       "{\"spacetime\":{\"spin\":0},"
@@ -63,7 +62,6 @@ const struct kd_preset kd_presets[] = {
       "\"style\":{\"exposure\":-0.5},"
       "\"motion\":{\"time_rate\":10}}" },
 };
-/* clang-format on */
 const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
 
 static enum kd_status unknown(const char *name, struct kd_error *error)

@@ -63,7 +63,6 @@ static void the_approaching_side_is_left(void **state)
 static void symmetries(void **state)
 {
     (void)state;
-    /* clang-format off */
     const struct { const char *what, *one, *other; int flip; } pairs[] = {
         { "left and right without spin and Doppler shift",
           "\"spacetime\":{\"spin\":0},\"disk\":{\"doppler\":false}",
@@ -96,7 +95,6 @@ static void symmetries(void **state)
           "\"disk\":{\"mdot_edd\":0.1}",
           "\"disk\":{\"mdot_edd\":3},\"spacetime\":{\"mass_msun\":10}", 0 },
     };
-    /* clang-format on */
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         struct kd_frame a = studio_shoot("{%s," SIZE(128, 72) "," LINEAR "}", pairs[i].one);
         struct kd_frame b = studio_shoot("{%s," SIZE(128, 72) "," LINEAR "}", pairs[i].other);

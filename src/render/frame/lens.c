@@ -382,4 +382,3 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
             *trace_ms = times[i].ms;
     return status;
 }
-

@@ -343,7 +343,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
                !plan->delay; /* which only listed rays know */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
     if (plan->delay && !outside(scene))
-        return kd_error_field(error, "/disk/slow_light", 
+        return kd_error_field(error, "/disk/slow_light",
                               "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
     return map ? KD_OK : may_list(scene, by, error);
 }

@@ -89,4 +89,3 @@ enum kd_status kd_first_start(struct kd_renderer *r, struct kd_error *error)
         kd_verdict_save(r, r->capacity);
     return KD_OK;
 }
-
