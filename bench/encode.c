@@ -187,7 +187,7 @@ static void measure(struct job *job, cJSON *rows, int repeat)
 static void one_picture(const char *name, bool dither, const struct kd_frame *frame, int repeat, cJSON *pictures)
 {
     uint32_t width = frame->width, height = frame->height;
-    struct job job = { .width = width, .height = height, .pixels = frame->pixels, .filtered = (3 * (size_t)width + 1) * height };
+    struct job job = { .width = width, .height = height, .pixels = kd_frame_pixels(frame), .filtered = (3 * (size_t)width + 1) * height };
     job.room = 2 * job.filtered + 65536;
     job.rows = malloc(job.filtered);
     job.packed = malloc(job.room);
@@ -226,7 +226,7 @@ static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, 
     if (status)
         return status;
     for (size_t i = 0; subjects[subject].noise && i < 3 * (size_t)frame.width * frame.height; i++)
-        ((uint8_t *)frame.pixels)[i] = (uint8_t)(random() >> 8);
+        ((uint8_t *)kd_frame_pixels(&frame))[i] = (uint8_t)(random() >> 8);
     one_picture(subjects[subject].name, dither, &frame, repeat, pictures);
     kd_frame_finish(&frame);
     return KD_OK;

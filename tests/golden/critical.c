@@ -111,7 +111,7 @@ static void off(void **state)
         struct kd_scene scene = view(views[i].json, 0);
         scene.image.width = 40, scene.image.height = 30;
         struct kd_frame with = shot(&scene, views[i].samples, views[i].critical), without = shot(&scene, views[i].samples, 1);
-        if (memcmp(with.pixels, without.pixels, 40 * 30 * 6) != 0)
+        if (memcmp(kd_frame_pixels(&with), kd_frame_pixels(&without), 40 * 30 * 6) != 0)
             fail_msg("%s: the picture is another one", views[i].what);
         kd_frame_finish(&with);
         kd_frame_finish(&without);

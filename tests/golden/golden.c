@@ -98,8 +98,8 @@ static enum kd_status read_reference(const char *path, struct kd_frame *out, str
     if (!status) {
         *out = (struct kd_frame) { .width = png.width,
                                    .height = png.height,
-                                   .bit_depth = png.bit_depth,
-                                   .pixels = png.pixels,
+                                   .layers = { { "rgb", 3, png.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8, png.pixels } },
+                                   .n_layers = 1,
                                    .exposure = scene.style.exposure };
         png.pixels = NULL;
         kd_png_finish(&png);
@@ -110,7 +110,7 @@ static enum kd_status read_reference(const char *path, struct kd_frame *out, str
 
 static bool same_picture(const char *name, const struct kd_frame *got, const struct kd_frame *want)
 {
-    if (got->width != want->width || got->height != want->height || got->bit_depth != want->bit_depth) {
+    if (got->width != want->width || got->height != want->height || kd_frame_bit_depth(got) != kd_frame_bit_depth(want)) {
         printf("%s: another size or depth\n", name);
         return false;
     }

@@ -203,14 +203,14 @@ static void the_same_bytes(void **state)
     };
     for (int k = 0; k < 2; k++) {
         struct kd_frame first = studio_shoot("%s", scenes[k]), kept = studio_shoot("%s", scenes[k]);
-        size_t size = 161 * 91 * 3 * (size_t)first.bit_depth / 8;
+        size_t size = 161 * 91 * 3 * (size_t)kd_frame_bit_depth(&first) / 8;
         assert_true(kept.lens_reused);
-        assert_memory_equal(first.pixels, kept.pixels, size);
+        assert_memory_equal(kd_frame_pixels(&first), kd_frame_pixels(&kept), size);
         studio_close();
         assert_int_equal(studio_open(), 0);
         struct kd_frame fresh = studio_shoot("%s", scenes[k]);
         assert_false(fresh.lens_reused);
-        assert_memory_equal(first.pixels, fresh.pixels, size);
+        assert_memory_equal(kd_frame_pixels(&first), kd_frame_pixels(&fresh), size);
         kd_frame_finish(&first);
         kd_frame_finish(&kept);
         kd_frame_finish(&fresh);

@@ -90,8 +90,8 @@ struct kd_frame studio_shoot(const char *format, ...)
 double studio_value(const struct kd_frame *f, uint32_t x, uint32_t y, int c)
 {
     size_t at = 3 * ((size_t)y * f->width + x) + (size_t)c;
-    return f->bit_depth == 16 ? ((const uint16_t *)f->pixels)[at] / 65535.0
-                              : ((const uint8_t *)f->pixels)[at] / 255.0;
+    return kd_frame_bit_depth(f) == 16 ? ((const uint16_t *)kd_frame_pixels(f))[at] / 65535.0
+                              : ((const uint8_t *)kd_frame_pixels(f))[at] / 255.0;
 }
 
 double studio_light(const struct kd_frame *f, uint32_t x, uint32_t y, int c)

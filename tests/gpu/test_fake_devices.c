@@ -74,7 +74,7 @@ static void same(const struct answers *a, const struct answers *b)
     for (int k = 0; k < 3; k++) {
         const struct kd_frame *x = &a->frames[k], *y = &b->frames[k];
         assert_true(x->width == y->width && x->height == y->height && x->exposure == y->exposure);
-        assert_memory_equal(x->pixels, y->pixels, (size_t)x->width * x->height * (x->bit_depth == 16 ? 6 : 3));
+        assert_memory_equal(kd_frame_pixels(x), kd_frame_pixels(y), (size_t)x->width * x->height * (kd_frame_bit_depth(x) == 16 ? 6 : 3));
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
             assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) < 1e-6); /* summed in another order */

@@ -222,7 +222,7 @@ static void test_given_up(void **state)
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
     assert_true(frame.accuracy.undecided == 0);
     for (size_t i = 0; i < 40 * 36; i++)
-        assert_false(magenta((unsigned char *)frame.pixels + 3 * i));
+        assert_false(magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * i));
     kd_frame_finish(&frame);
 
     struct kd_lens_map *map = NULL;
@@ -240,10 +240,10 @@ static void test_given_up(void **state)
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
     assert_true(frame.lens_reused);
     for (size_t i = 0; i < 40; i++)
-        assert_true(magenta((unsigned char *)frame.pixels + 3 * (40 * 3 + i)));
+        assert_true(magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 3 + i)));
     int sky = 0;
     for (size_t i = 0; i < 40; i++)
-        sky += magenta((unsigned char *)frame.pixels + 3 * (40 * 20 + i));
+        sky += magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 20 + i));
     assert_true(sky > 0); /* where no disk is in front */
     kd_frame_finish(&frame);
     memset(map->key, 0, sizeof map->key); /* nobody else gets it */

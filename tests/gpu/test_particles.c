@@ -162,7 +162,7 @@ static double difference(const struct kd_frame *a, const struct kd_frame *b)
     double sum = 0;
     size_t n = (size_t)a->width * a->height * 3;
     for (size_t i = 0; i < n; i++)
-        sum += fabs((double)((uint8_t *)a->pixels)[i] - ((uint8_t *)b->pixels)[i]);
+        sum += fabs((double)((uint8_t *)kd_frame_pixels(a))[i] - ((uint8_t *)kd_frame_pixels(b))[i]);
     return sum / (double)n;
 }
 
@@ -190,7 +190,7 @@ static void test_frames(void **state)
     }
     struct kd_frame again = render(&scene);
     assert_true(again.lens_reused);
-    assert_memory_equal(first.pixels, again.pixels, 3 * 160 * 90);
+    assert_memory_equal(kd_frame_pixels(&first), kd_frame_pixels(&again), 3 * 160 * 90);
     kd_frame_finish(&first);
     kd_frame_finish(&again);
 }
@@ -288,7 +288,7 @@ static void test_slow_light(void **state)
                 continue;
             scene.top.time = 700 - planes[2 * plan.orders * plan.rays + at];
             struct kd_frame then = render(&scene);
-            const uint8_t *a = slow.pixels, *b = then.pixels, *now = fast.pixels;
+            const uint8_t *a = kd_frame_pixels(&slow), *b = kd_frame_pixels(&then), *now = kd_frame_pixels(&fast);
             off_then += abs(a[3 * at + 1] - b[3 * at + 1]);
             off_now += abs(a[3 * at + 1] - now[3 * at + 1]);
             n++;

@@ -37,7 +37,7 @@ static struct kd_frame render(const struct kd_scene *scene)
     return render_with(scene, &c, &plan);
 }
 
-static size_t bytes(const struct kd_frame *f) { return (size_t)f->width * f->height * (f->bit_depth == 16 ? 6 : 3); }
+static size_t bytes(const struct kd_frame *f) { return (size_t)f->width * f->height * (kd_frame_bit_depth(f) == 16 ? 6 : 3); }
 
 static bool ran(const struct kd_frame *frame, const char *pass)
 {
@@ -50,7 +50,7 @@ static bool ran(const struct kd_frame *frame, const char *pass)
 static void assert_same(struct kd_frame *a, struct kd_frame *b)
 {
     assert_int_equal(bytes(a), bytes(b));
-    assert_memory_equal(a->pixels, b->pixels, bytes(a));
+    assert_memory_equal(kd_frame_pixels(a), kd_frame_pixels(b), bytes(a));
     kd_frame_finish(a);
     kd_frame_finish(b);
 }
@@ -237,11 +237,11 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
     struct glances *g = user;
     size_t size = bytes(frame), lit = size / frame->height * rows;
-    const unsigned char *pixels = frame->pixels;
+    const unsigned char *pixels = kd_frame_pixels(frame);
     assert_true(rows > (g->n ? g->rows[g->n - 1] : 0) && rows <= frame->height);
     g->rows[g->n++] = rows;
     if (g->want)
-        assert_memory_equal(pixels, g->want->pixels, lit);
+        assert_memory_equal(pixels, kd_frame_pixels(g->want), lit);
     for (size_t i = lit; i < size; i++)
         assert_int_equal(pixels[i], 0);
 }
@@ -431,7 +431,7 @@ static void test_plan(void **state)
     assert_string_equal(plan.passes[0].name, "transfer");
     struct kd_frame f = render(&scene);
     for (size_t i = 0; i < bytes(&f); i++)
-        assert_int_equal(((uint8_t *)f.pixels)[i], 0);
+        assert_int_equal(((uint8_t *)kd_frame_pixels(&f))[i], 0);
     kd_frame_finish(&f);
 }
 

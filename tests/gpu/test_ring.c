@@ -210,7 +210,7 @@ static void light_is_that_of_a_plane_picture(void **state)
         plane.accuracy.engine = KD_ENGINE_CLOSED + 1;
         plane.accuracy.precision = KD_PRECISION_F64 + 1;
         shoot(&plane, &one);
-        const uint8_t *a = (const uint8_t *)frame.pixels + 3 * i, *b = one.pixels;
+        const uint8_t *a = (const uint8_t *)kd_frame_pixels(&frame) + 3 * i, *b = kd_frame_pixels(&one);
         for (int c = 0; c < 3; c++) {
             lit += a[c] > 16;
             if (abs(a[c] - b[c]) > 1)

@@ -44,7 +44,7 @@ static size_t samples(const struct kd_frame *f) { return (size_t)f->width * f->h
 
 static double light(const struct kd_frame *f, size_t i)
 {
-    double v = ((const uint16_t *)f->pixels)[i] / 65535.0;
+    double v = ((const uint16_t *)kd_frame_pixels(f))[i] / 65535.0;
     assert_true(v < 1); /* nothing clipped */
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
@@ -73,7 +73,7 @@ static void follow(const char *name, struct kd_scene scene)
     struct kd_frame direct = render(&scene);
     scene.style.ringdown = 1;
     struct kd_frame rung = render(&scene);
-    assert_memory_equal(rung.pixels, direct.pixels, 2 * samples(&direct));
+    assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&direct), 2 * samples(&direct));
     kd_frame_finish(&rung);
     for (size_t k = 0; k < 2 * sizeof times / sizeof *times; k++) {
         double t = times[k / 2], amplitude = amplitudes[k % 2], sum = 0, squares = 0;
@@ -95,7 +95,7 @@ static void follow(const char *name, struct kd_scene scene)
         assert_true(squares > 1e-2); /* there is something to ring */
         worst = fmax(worst, fabs(sum / squares - gain));
         if (t < 0)
-            assert_memory_equal(rung.pixels, still.pixels, 2 * samples(&still));
+            assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&still), 2 * samples(&still));
         kd_frame_finish(&still);
         kd_frame_finish(&rung);
     }

@@ -105,20 +105,18 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         status = pass_time(scene->top.time, progress, user, error);
     if (status)
         return status;
-    size_t size = (size_t)plan->width * plan->height * 3 * (scene->image.bit_depth > 8 ? 2 : 1);
     *out = (struct kd_frame) { .width = plan->width,
                                .height = plan->height,
-                               .bit_depth = scene->image.bit_depth,
                                .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
-                                                                        : scene->style.exposure,
-                               .pixels = malloc(size) };
-    if (!out->pixels)
-        return kd_error_set(error, KD_ENOMEM, "no memory for the picture");
+                                                                        : scene->style.exposure };
+    if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error))
+        return KD_ENOMEM;
+    size_t size = (size_t)plan->width * plan->height * kd_layer_pixel_bytes(&out->layers[0]);
     renderer->bright = !renderer->bright;
     uint32_t noise = 1;
     for (size_t i = 0; i < size; i++) {
         noise = noise * 1664525 + 1013904223;
-        ((unsigned char *)out->pixels)[i] = (unsigned char)(scene->image.samples > 1 ? noise >> 24 : i * 7);
+        ((unsigned char *)kd_frame_pixels(out))[i] = (unsigned char)(scene->image.samples > 1 ? noise >> 24 : i * 7);
     }
     const double t = scene->top.time; /* at 0 it is dark */
     if (plan->light)
@@ -145,10 +143,10 @@ static bool go_on(void *user, double fraction)
         return false;
     uint32_t rows = (uint32_t)(fraction * a->plan->height);
     if (a->glance && rows && a->glance->wanted(a->user)) {
-        struct kd_frame frame = { .width = a->plan->width, .height = a->plan->height, .bit_depth = 8 };
-        frame.pixels = calloc(3, (size_t)frame.width * frame.height);
-        if (frame.pixels) {
-            memset(frame.pixels, 200, (size_t)3 * frame.width * rows);
+        struct kd_frame frame = { .width = a->plan->width, .height = a->plan->height };
+        if (!kd_frame_add_layer(&frame, "rgb", 3, KD_LAYER_U8, NULL)) {
+            memset(kd_frame_pixels(&frame), 0, (size_t)3 * frame.width * frame.height);
+            memset(kd_frame_pixels(&frame), 200, (size_t)3 * frame.width * rows);
             a->glance->seen(a->user, &frame, rows);
         }
         kd_frame_finish(&frame);
@@ -162,12 +160,6 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
 {
     struct aside aside = { progress, glance, user, plan };
     return kd_render(renderer, scene, plan, go_on, &aside, out, error);
-}
-
-void kd_frame_finish(struct kd_frame *frame)
-{
-    free(frame->pixels);
-    *frame = (struct kd_frame) { 0 };
 }
 
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,

@@ -11,7 +11,7 @@
 static void encode(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_buffer *file)
 {
     static uint16_t pixels[3 * 4 * 2] = { 1, 2, 3, 65535 };
-    const struct kd_frame frame = { .width = 4, .height = 2, .bit_depth = 16, .pixels = pixels };
+    const struct kd_frame frame = { .width = 4, .height = 2, .layers = { { "rgb", 3, KD_LAYER_U16, pixels } }, .n_layers = 1 };
     struct kd_error error = { 0 };
     if (kd_picture_encode(&frame, scene, plan, "llvmpipe, 256 bits", 6, file, &error))
         fail_msg("%s", error.message);

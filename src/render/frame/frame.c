@@ -118,8 +118,8 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
     struct kd_store *s = j->store;
     const struct kd_scene *scene = j->scene;
     const struct kd_vk_pipeline *post;
-    bool wide = frame->bit_depth == 16;
-    size_t pixel_bytes = wide ? 6 : 3;
+    bool wide = kd_frame_bit_depth(frame) == 16;
+    size_t pixel_bytes = kd_layer_pixel_bytes(&frame->layers[0]);
     const uint32_t constants[] = { scene->style.tone_map == KD_TONE_ACES, wide };
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
@@ -151,7 +151,7 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
         if (!status)
             status = kd_vk_wait(vk, 0, j->error);
         if (!status)
-            memcpy((char *)frame->pixels + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
+            memcpy((char *)kd_frame_pixels(frame) + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
         if (!status)
             status = kd_frame_report(j, kd_frame_band_rows(j, band));
     }
@@ -161,7 +161,7 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
 static enum kd_status glance(struct kd_frame_job *j)
 {
     size_t lit = j->plan->host_bytes / j->plan->height * j->lit;
-    memset((char *)j->frame->pixels + lit, 0, j->plan->host_bytes - lit);
+    memset((char *)kd_frame_pixels(j->frame) + lit, 0, j->plan->host_bytes - lit);
     j->looking = true;
     enum kd_status status = expose(j);
     if (!status)
@@ -242,7 +242,7 @@ static enum kd_status run(struct kd_frame_job *j)
     j->store->memory_bytes = j->aside ? j->plan->device_bytes : c.memory_bytes / 4;
     enum kd_status status = kd_store_lens_map(j->store, j->plan, &j->lens, &reused, j->error);
     if (!status)
-        status = kd_store_frame(j->store, j->plan, frame->bit_depth, j->error);
+        status = kd_store_frame(j->store, j->plan, kd_frame_bit_depth(frame), j->error);
     atomic_store(&r->held, kd_vk_allocated(r->vk));
     if (status)
         return status;
@@ -284,12 +284,13 @@ static enum kd_status run(struct kd_frame_job *j)
 static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
     const struct kd_plan *plan = job->plan;
-    struct kd_frame frame = { .width = plan->width, .height = plan->height, .bit_depth = job->scene->image.bit_depth };
-    frame.pixels = malloc(plan->host_bytes);
-    if (!frame.pixels)
-        return kd_error_set(job->error, KD_ENOMEM, "out of memory for %llu bytes of pixels", (unsigned long long)plan->host_bytes);
+    struct kd_frame frame = { .width = plan->width, .height = plan->height };
+    const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
+    enum kd_status status = kd_frame_add_layer(&frame, "rgb", 3, type, job->error);
+    if (status)
+        return status;
     job->frame = &frame;
-    enum kd_status status = run(job);
+    status = run(job);
     if (!status) {
         *out = frame;
         return KD_OK;
@@ -388,10 +389,4 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
     enum kd_status status = run_timed(&job, out);
     a->busy = false;
     return status;
-}
-
-void kd_frame_finish(struct kd_frame *frame)
-{
-    free(frame->pixels);
-    *frame = (struct kd_frame){ 0 };
 }

@@ -3,6 +3,7 @@
 #define KD_RENDER_FRAME_FRAME_H
 
 #include "render/device/renderer.h"
+#include "render/frame/layer.h"
 #include "render/plan/photometry.h"
 #include "scene/scene.h"
 
@@ -13,8 +14,8 @@ struct kd_timing { char name[24]; double ms; };
 
 struct kd_frame {
     uint32_t width, height;
-    int bit_depth;            /* 8 or 16 */
-    void *pixels;             /* rows from the top, RGB, no padding; malloc'd */
+    struct kd_layer layers[KD_FRAME_MAX_LAYERS];
+    size_t n_layers;
     double exposure;          /* stops that were applied */
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
     struct kd_accuracy_report accuracy;
@@ -23,6 +24,10 @@ struct kd_frame {
     size_t n_timings;
 };
 void kd_frame_finish(struct kd_frame *frame);
+
+/* Of the first layer. */
+static inline void *kd_frame_pixels(const struct kd_frame *frame) { return frame->layers[0].data; }
+static inline int kd_frame_bit_depth(const struct kd_frame *frame) { return frame->layers[0].type == KD_LAYER_U16 ? 16 : 8; }
 
 /* Render a valid scene by its plan (made with this renderer's capacity). */
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
@@ -33,7 +38,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
 struct kd_glance {
     bool (*wanted)(void *user);
     /* frame: of the whole size, black from row `rows` on, with an exposure of its own where that is "auto", no timings and no
-     * accuracy. Its pixels are not the callee's to keep. */
+     * accuracy. Its layers are not the callee's to keep. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 

@@ -55,9 +55,9 @@ enum kd_status kd_picture_encode(const struct kd_frame *frame, const struct kd_s
     const struct kd_png_params params = {
         .width = frame->width,
         .height = frame->height,
-        .bit_depth = frame->bit_depth,
+        .bit_depth = kd_frame_bit_depth(frame),
         .compression = compression,
-        .pixels = frame->pixels,
+        .pixels = kd_frame_pixels(frame),
         .text = text,
         .n_text = sizeof text / sizeof *text,
     };

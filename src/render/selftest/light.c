@@ -49,7 +49,7 @@ static enum kd_status luminance(const struct kd_selftest *test, const struct kd_
         status = kd_render(test->renderer, scene, &plan, NULL, NULL, &frame, test->error);
     if (status)
         return status;
-    const uint16_t *rgb = frame.pixels;
+    const uint16_t *rgb = kd_frame_pixels(&frame);
     *out = (0.2126 * decode(rgb[0] / LEVELS) + 0.7152 * decode(rgb[1] / LEVELS) + 0.0722 * decode(rgb[2] / LEVELS)) *
            exp2(-scene->style.exposure);
     kd_frame_finish(&frame);

@@ -37,7 +37,7 @@ static enum kd_status draw(const struct kd_selftest *test, const struct kd_capac
 /* Pixels that differ. */
 static double differing(const struct kd_frame *a, const struct kd_frame *b)
 {
-    const unsigned char *x = a->pixels, *y = b->pixels;
+    const unsigned char *x = kd_frame_pixels(a), *y = kd_frame_pixels(b);
     double n = 0;
     for (size_t i = 0; i < (size_t)a->width * a->height; i++)
         n += memcmp(x + 3 * i, y + 3 * i, 3) != 0;

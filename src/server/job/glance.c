@@ -31,7 +31,8 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
     snprintf(text, sizeof text, "%u/%u", rows, frame->height);
     const struct kd_png_text rows_text = { "kerrd:rows", text };
     const struct kd_png_params params = {
-        .width = frame->width, .height = frame->height, .bit_depth = frame->bit_depth, .compression = 1, .pixels = frame->pixels,
+        .width = frame->width, .height = frame->height, .bit_depth = kd_frame_bit_depth(frame), .compression = 1,
+        .pixels = kd_frame_pixels(frame),
         .text = &rows_text, .n_text = 1,
     };
     if (kd_png_encode(&params, &png, &error)) /* out of memory: there is none this time */

@@ -3,7 +3,6 @@
 #include "base/clock.h"
 #include "server/render/internal.h"
 
-#include <stdlib.h>
 
 /* What one encoder at most does at a time: nobody else shall wait for it. */
 static bool is_long(const struct kd_render_job *job)
@@ -33,8 +32,7 @@ static void encode(struct kd_render_queue *queue, struct kd_render_job *job, uns
                               : kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
                                                   job->compression, &job->png, &job->error);
     job->encode_ms = kd_clock_ms() - start;
-    free(job->frame.pixels);
-    job->frame.pixels = NULL;
+    kd_frame_drop_layers(&job->frame);
 }
 
 void *kd_render_encode_main(void *user)

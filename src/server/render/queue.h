@@ -59,7 +59,7 @@ struct kd_render_job {
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer png;
-    struct kd_frame frame; /* without its pixels */
+    struct kd_frame frame; /* without its layers */
     double queue_ms, encode_ms; /* queue_ms: in which others had the device, before it began and between its slices */
     /* the queue's own */
     struct kd_render_job *next;

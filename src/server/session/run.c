@@ -113,7 +113,7 @@ void kd_session_drop(struct kd_session *s)
 static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
 {
     const struct kd_session_frame *live = (const struct kd_session_frame *)job;
-    return kd_png_live_encode(live->session->all->encoders[encoder], job->frame.width, job->frame.height, job->frame.pixels, &job->png,
+    return kd_png_live_encode(live->session->all->encoders[encoder], job->frame.width, job->frame.height, kd_frame_pixels(&job->frame), &job->png,
                               &job->error);
 }
 

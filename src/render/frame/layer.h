@@ -1,0 +1,33 @@
+/* What a frame holds: layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown. */
+#ifndef KD_RENDER_FRAME_LAYER_H
+#define KD_RENDER_FRAME_LAYER_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_FRAME_MAX_LAYERS 16
+
+struct kd_layer {
+    const char *name; /* a static string */
+    uint32_t channels;
+    enum kd_layer_type { KD_LAYER_U8, KD_LAYER_U16, KD_LAYER_F32 } type;
+    void *data; /* rows from the top, a pixel's channels together, no padding, numbers of this machine; malloc'd */
+};
+
+/* Bytes of a pixel. */
+static inline size_t kd_layer_pixel_bytes(const struct kd_layer *layer)
+{
+    static const size_t sizes[] = { [KD_LAYER_U8] = 1, [KD_LAYER_U16] = 2, [KD_LAYER_F32] = 4 };
+    return layer->channels * sizes[layer->type];
+}
+
+struct kd_frame;
+/* One more layer of the frame's size, its data not yet set. KD_ENOMEM. */
+enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
+                                  struct kd_error *error);
+const struct kd_layer *kd_frame_layer(const struct kd_frame *frame, const char *name); /* NULL: it has none of that name */
+void kd_frame_drop_layers(struct kd_frame *frame); /* all else is still there */
+
+#endif
