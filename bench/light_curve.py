@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 
 from physics_plots import BLUE, GREEN, RED
 
-SCENE = {"spacetime.spin": 0.5, "disk.model": "none", "spot1.brightness": 1, "spot1.r": 9, "spot1.size": 1, "camera.field_m": 40,
+SCENE = {"spacetime.spin": 0.5, "disk.model": "none", "spots.0.brightness": 1, "spots.0.r": 9, "spots.0.size": 1, "camera.field_m": 40,
          "image.width": 400, "image.height": 400, "image.samples": 2}
 
 

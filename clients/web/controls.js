@@ -1,6 +1,6 @@
 // Controls of a scene, made from the schema: a row a field.
 import { el } from './dom.js';
-import { named, number, section, tell, unit, word } from './i18n.js';
+import { element, named, number, section, tell, unit, word } from './i18n.js';
 import { hasSpots, showsTime } from './living.js';
 import { scale, stepByArrows } from './slider.js';
 
@@ -142,25 +142,39 @@ function row(field, scene) {
 }
 
 export function buildControls(root, scene, living_root) {
-  const rows = [...scene.fields.values()].filter(field => !left_out.includes(field.path)).map(field => row(field, scene));
+  const rows = [],
+    lists = [];
+  // home: 'camera', 'spots.0', or '' for the document itself.
+  function add(home) {
+    const own = [...scene.fields.values()].filter(({ path }) => path.slice(0, Math.max(0, path.lastIndexOf('.'))) === home && !left_out.includes(path));
+    return own.map(field => rows[rows.push(row(field, scene)) - 1]);
+  }
+  function group(name, title, home) {
+    const shown = add(home).filter(r => !living.includes(r.path)).map(r => r.node);
+    return shown.length ? [el('details', { open: open.includes(name), class: 'group' }, el('summary', {}, title), shown)] : [];
+  }
+  for (const { name, help, most } of scene.sections) {
+    if (most) root.append(lists[lists.push({ name, most, groups: [], node: el('div', {}) }) - 1].node);
+    else root.append(...group(name, section(name, help), name));
+  }
+  add('');
   living_root.append(...living.map(path => rows.find(r => r.path === path).node));
-  for (const { name, help } of scene.sections) {
-    const own = rows.filter(r => r.path.split('.')[0] === name && !living.includes(r.path));
-    if (own.length)
-      root.append(
-        el(
-          'details',
-          { open: open.includes(name), class: 'group' },
-          el('summary', {}, section(name, help)),
-          own.map(r => r.node),
-        ),
-      );
+
+  // Of a list, the elements that there are and the next one.
+  function grow({ name, most, groups, node }) {
+    const wanted = Math.min(most, scene.count(name) + 1);
+    for (let i = groups.length; i < wanted; i++) {
+      groups.push(...group(name, element(name, i), `${name}.${i}`));
+      node.append(groups[i]);
+    }
+    groups.forEach((g, i) => (g.hidden = i >= wanted));
   }
   function means_something(path) {
-    const [section, name] = path.split('.');
+    const [section, ...names] = path.split('.'),
+      name = names.at(-1);
     if (path === 'time' || path === 'motion.time_rate') return showsTime(scene);
     if (path === 'disk.slow_light') return hasSpots(scene) || scene.get('disk.model') === 'particles';
-    if (section.startsWith('spot') && name !== 'brightness') return scene.get(section + '.brightness') > 0;
+    if (section === 'spots' && name !== 'brightness') return scene.get(`${section}.${names[0]}.brightness`) > 0;
     const projection = scene.get('camera.projection');
     const seen = projection !== 'auto' ? projection : scene.get('camera.r') === 'infinity' ? 'plane' : 'pinhole';
     const [choices, chosen] = { camera: [only.projection, seen], disk: [only.model, scene.get('disk.model')] }[section] ?? [{}];
@@ -168,6 +182,7 @@ export function buildControls(root, scene, living_root) {
   }
 
   function show() {
+    lists.forEach(grow);
     for (const r of rows) ((r.node.hidden = !means_something(r.path)), r.show());
   }
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);

@@ -47,7 +47,7 @@ function diskOf(scene) {
 }
 
 export function describe(scene) {
-  const lit = spots.filter(path => scene.get(path) > 0).map(path => `${number(scene.get(path.replace('brightness', 'r')))} M`);
+  const lit = spots(scene).map(path => `${number(scene.get(path + '.r'))} M`);
   return [
     t(`A black hole, ${nameOf(scene)}, ${whence(scene)}.`, `Un buco nero, ${nameOf(scene)}, ${whence(scene)}.`),
     diskOf(scene),

@@ -74,15 +74,14 @@ const labels = {
   l: 'L, angular momentum',
   'motion.azimuth_rate_deg': 'Going round',
   'motion.time_rate': 'Pace of time',
-  spot1: 'Spot 1',
-  spot2: 'Spot 2',
-  spot3: 'Spot 3',
+  spots: 'Spot',
 };
 
 const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');
 
 // Label and help of a field of the scene or of a parameter, from its path and the server's English.
 export function named(path, help) {
+  path = path.replace(/\.\d+\./, '.'); // elements of a list have the same fields
   const it = words?.fields[path];
   const short = path.split('.').pop();
   return {
@@ -97,6 +96,7 @@ function helpOf(help) {
 }
 
 export const section = (name, help) => words?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
+export const element = (list, index) => `${words?.fields[list]?.[0] ?? labels[list] ?? spell(list)} ${index + 1}`;
 export const word = value => words?.values[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title;
 

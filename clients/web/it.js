@@ -49,21 +49,7 @@ export const values = {
   unbound: 'non legata',
 };
 
-// The three spots have the same fields.
-const spot = name => ({
-  [name]: [`Macchia ${name.slice(-1)}`],
-  [`${name}.brightness`]: [
-    'Brillanza',
-    'Brillanza al centro nel riferimento del gas, in unità della massima del disco; 0: la macchia non c’è',
-  ],
-  [`${name}.r`]: ['Raggio', 'Raggio dell’orbita circolare su cui gira il centro; mai dentro l’ISCO'],
-  [`${name}.phase_deg`]: ['Fase', 'Azimut del centro al tempo 0'],
-  [`${name}.size`]: ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
-  [`${name}.index`]: ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
-  [`${name}.temperature_k`]: ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
-});
-
-// path or name: [label, help]; help may be left out.
+// path or name: [label, help]; help may be left out. A list stands here for each of its elements.
 export const fields = {
   spacetime: ['Il buco'],
   camera: ['La camera'],
@@ -141,9 +127,13 @@ export const fields = {
   'disk.band': ['Banda', 'Luminosità bolometrica, g⁴ F, oppure visibile: lo spettro di Planck come lo pesa l’occhio'],
   'disk.doppler': ['Doppler', 'Spostamento Doppler e concentrazione della luce del gas in orbita'],
   'disk.redshift': ['Redshift', 'Redshift gravitazionale e dilatazione del tempo del gas in orbita'],
-  ...spot('spot1'),
-  ...spot('spot2'),
-  ...spot('spot3'),
+  spots: ['Macchia'],
+  'spots.brightness': ['Brillanza', 'Brillanza al centro nel riferimento del gas, in unità della massima del disco; 0: la macchia non c’è'],
+  'spots.r': ['Raggio', 'Raggio dell’orbita circolare su cui gira il centro; mai dentro l’ISCO'],
+  'spots.phase_deg': ['Fase', 'Azimut del centro al tempo 0'],
+  'spots.size': ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
+  'spots.index': ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
+  'spots.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
   'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla, o un reticolo celeste che mostra la lente'],
   'sky.brightness': ['Luminosità', 'Luminosità del cielo in unità della massima brillanza del disco a g = 1'],
   'sky.grid_deg': ['Passo del reticolo', 'Spaziatura del reticolo celeste'],
@@ -250,6 +240,8 @@ const refusals = [
   ['{} is {}, inside the horizon at {}; allowed is outside', '{} è {}, dentro l’orizzonte, a {}; ammesso è fuori'],
   ['{} is {}, not outside the horizon at {}', '{} è {}, non fuori dall’orizzonte, a {}'],
   ['{} is {}, and l is {}; allowed is {} to {}', '{} è {}, e l è {}; ammessi sono da {} a {}'],
+  ['there is no {}: the list has {} elements, and the next free index is {}', 'non c’è {}: la lista ha {} elementi, e il prossimo indice libero è {}'],
+  ['there is no {}: the list has {} element, and the next free index is {}', 'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}'],
   ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
   ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
 ].map(([english, italian]) => {

@@ -4,9 +4,11 @@ import { duration, number, t, tell } from './i18n.js';
 import { physics } from './server.js';
 
 const usual_rate = 8; // M a second, where none was chosen
-export const spots = ['spot1.brightness', 'spot2.brightness', 'spot3.brightness'];
+const toggled = 'spots.0.brightness'; // by the button
 
-export const hasSpots = scene => spots.some(path => scene.get(path) > 0);
+// The spots that are on, as paths.
+export const spots = scene => scene.elements('spots').filter(path => scene.get(path + '.brightness') > 0);
+export const hasSpots = scene => spots(scene).length > 0;
 const hasParticles = scene => scene.get('disk.model') === 'particles';
 const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) || scene.get('disk.model') !== 'none');
 
@@ -45,7 +47,7 @@ export function buildLiving(stage, scene, source) {
     play.textContent = scene.goesOn() ? t('Pause', 'Pausa') : t('Play', 'Avvia');
     more.setAttribute('aria-pressed', hasParticles(scene));
     seed.hidden = !hasParticles(scene);
-    spot.setAttribute('aria-pressed', scene.get('spot1.brightness') > 0);
+    spot.setAttribute('aria-pressed', scene.get(toggled) > 0);
     strike.hidden = !canRing(scene);
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
@@ -57,9 +59,7 @@ export function buildLiving(stage, scene, source) {
   play.addEventListener('click', toggle);
   more.addEventListener('click', () => scene.change(hasParticles(scene) ? { 'disk.model': null } : { 'disk.model': 'particles', ...rate() }));
   seed.addEventListener('click', () => scene.change({ 'disk.seed': Math.floor(Math.random() * 1000) + 1 }));
-  spot.addEventListener('click', () =>
-    scene.change(scene.get('spot1.brightness') > 0 ? { 'spot1.brightness': null } : { 'spot1.brightness': 4, ...rate() }),
-  );
+  spot.addEventListener('click', () => scene.change(scene.get(toggled) > 0 ? { [toggled]: null } : { [toggled]: 4, ...rate() }));
   // Only in time that goes on does it ring.
   strike.addEventListener('click', () => {
     if (scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });

@@ -2,6 +2,7 @@
 import { byId, el } from './dom.js';
 import { preset, t } from './i18n.js';
 import * as link from './link.js';
+import { valueAt } from './scene.js';
 import { getJson } from './server.js';
 
 const document_of = name => getJson('v1/presets/' + encodeURIComponent(name));
@@ -23,8 +24,8 @@ export async function openPreset(scene) {
 function essence(scene, document) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {
-    const [section, name] = path.split('.'),
-      value = name ? document[section]?.[name] : document[section];
+    const [section] = path.split('.'),
+      value = valueAt(document, path);
     if (value != null && value !== usual && section !== 'image' && section !== 'time') own[path] = value;
   }
   return JSON.stringify(own);

@@ -10,13 +10,19 @@ const patience_ms = 1000;
 const link_ms = 1000;
 const known = ['view', 'lang', 'over', 'preset', 'pause']; // what a link has without a dot
 
+// Elements of a list have paths of their own: spots.0.r.
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
-    if (spec.properties) yield* flatten(spec, name + '.');
+    if (spec.deprecated) continue;
+    if (spec.items) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
+    else if (spec.properties) yield* flatten(spec, name + '.');
     else if (!('const' in spec))
       yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description };
   }
 }
+
+// What stands there in a document; undefined where nothing does.
+export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
 // { type: 'number' | 'integer' | 'choice' | 'switch', minimum, maximum, word, choices }
 function kind(spec) {
@@ -46,9 +52,10 @@ export class Scene extends EventTarget {
     const schema = await getJson('v1/schema'),
       scene = new Scene();
     scene.sections = Object.entries(schema.properties)
-      .filter(([, spec]) => spec.properties)
-      .map(([name, spec]) => ({ name, help: spec.description }));
+      .filter(([, spec]) => (spec.properties || spec.items) && !spec.deprecated)
+      .map(([name, spec]) => ({ name, help: spec.description, most: spec.items && spec.maxItems }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
+    scene.#renew(schema);
     for (const [path, field] of scene.fields) {
       const value = link.get(path) == null ? null : parse(field, link.get(path));
       if (Number.isNaN(value)) scene.unknown.push(path);
@@ -58,6 +65,25 @@ export class Scene extends EventTarget {
     for (const [key] of link.entries(''))
       if (key.includes('.') ? sections.includes(key.split('.')[0]) && !scene.fields.has(key) : !known.includes(key) && key !== 'time') scene.unknown.push(key);
     return scene;
+  }
+
+  // A link from before: what it calls by an old name is called by the new one.
+  #renew(schema) {
+    for (const [old, spec] of Object.entries(schema.properties).filter(([, spec]) => spec['x-now']))
+      for (const [key, value] of link.entries(old + '.')) {
+        link.set(spec['x-now'] + key.slice(old.length), value);
+        link.set(key, null);
+      }
+  }
+
+  // Elements of a list, as paths; and how many there are up to the last that is not all at its defaults.
+  elements(list) {
+    const { most } = this.sections.find(({ name }) => name === list);
+    return Array.from({ length: most }, (_, i) => `${list}.${i}`);
+  }
+
+  count(list) {
+    return Math.max(0, ...[...this.#values.keys()].filter(path => path.startsWith(list + '.')).map(path => Number(path.split('.')[1]) + 1));
   }
 
   #put(path, value) {
@@ -138,11 +164,7 @@ export class Scene extends EventTarget {
   replace(document) {
     this.held = still.matches;
     link.set('pause', null);
-    const values = Object.fromEntries([...this.fields.keys()].map(path => [path, null]));
-    for (const path of this.fields.keys()) {
-      const [first, second] = path.split('.');
-      values[path] = (second ? document[first]?.[second] : document[first]) ?? null;
-    }
+    const values = Object.fromEntries([...this.fields.keys()].map(path => [path, valueAt(document, path) ?? null]));
     this.change({ ...values, 'image.width': null, 'image.height': null });
   }
 
@@ -150,18 +172,29 @@ export class Scene extends EventTarget {
     return new Map([...this.#values, ...(this.#now == null ? [] : [['time', this.#now]]), ...Object.entries(other)]);
   }
 
-  // As JSON, with what differs only; other: values that go over those of the page.
+  // As JSON, with what differs only; other: values that go over those of the page. Elements at their defaults before others are {}.
   document(other = {}) {
     const out = {};
     for (const [path, value] of this.#with(other)) {
-      const [first, second] = path.split('.');
-      if (second) (out[first] ??= {})[second] = value;
-      else out[first] = value;
+      const names = path.split('.'),
+        last = names.pop();
+      names.reduce((inside, name) => (inside[name] ??= {}), out)[last] = value;
     }
+    for (const { name } of this.sections.filter(({ most }) => most)) if (out[name]) out[name] = Array.from({ length: this.count(name) }, (_, i) => out[name][i] ?? {});
     return out;
   }
 
+  // A query makes elements one after the other: of those that are {} it says one default.
+  #pairs(document, before = '') {
+    return Object.entries(document).flatMap(([name, value]) => {
+      const path = before + name;
+      if (typeof value !== 'object') return [[path, value]];
+      const inner = this.#pairs(value, path + '.');
+      return inner.length ? inner : [...this.fields.values()].filter(field => field.path.startsWith(path + '.')).slice(0, 1).map(field => [field.path, field.default]);
+    });
+  }
+
   query(other = {}) {
-    return new URLSearchParams([...this.#with(other)]).toString();
+    return new URLSearchParams(this.#pairs(this.document(other))).toString();
   }
 }

@@ -30,13 +30,14 @@ const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// RFC 7396, from one document to another.
+// RFC 7396, from one document to another: a list that changes is sent whole.
+const plain = value => value && typeof value === 'object' && !Array.isArray(value);
 function mergePatch(before, after) {
   const patch = {};
   for (const key of new Set([...Object.keys(before), ...Object.keys(after)])) {
     const [old, now] = [before[key], after[key]];
-    const inner = old && now && typeof now === 'object' ? mergePatch(old, now) : (now ?? null);
-    if (inner && typeof inner === 'object' ? Object.keys(inner).length : old !== now) patch[key] = inner;
+    const inner = plain(old) && plain(now) ? mergePatch(old, now) : (now ?? null);
+    if (plain(inner) ? Object.keys(inner).length : JSON.stringify(old) !== JSON.stringify(now)) patch[key] = inner;
   }
   return patch;
 }

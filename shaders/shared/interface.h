@@ -57,7 +57,7 @@
     F(sharp) F(reach)        /* log2(e)/(2 size^2); the square of the distance beyond which there is none of it */ \
     F(brightness) F(power)   /* at the centre; that of g */                                                    \
     F(log_t)                 /* log2 K */
-#define KD_SPOT_MAX 3
+#define KD_SPOT_MAX 16
 
 /* Tables behind the transfer parameters, in floats. */
 #define KD_TRANSFER_HEADER 36

@@ -1,4 +1,4 @@
-/* The scene document, version 1: one row a field.
+/* The scene document, version 1: one row a field, in sections and lists of sections.
  *
  * Each row expands to the struct member, the default, the JSON parser, --set, the query
  * parameter, the JSON Schema and docs/scene.md. Add a field here and nowhere else.
@@ -84,18 +84,15 @@
     BOOL(disk, slow_light, false, "each ray shows particles and spots where they were when its light left them, instead of all at " \
          "one coordinate time")
 
-/* The same rows for each spot. */
-#define KD_SPOT_FIELDS(spot, REAL)                                                                            \
-    REAL(spot, brightness, 0.0, 0.0, 1e6, "1",                                                                \
+#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \
+    REAL(spots, brightness, 0.0, 0.0, 1e6, "1",                                                                \
          "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot")  \
-    REAL(spot, r, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO")  \
-    REAL(spot, phase_deg, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0")                   \
-    REAL(spot, size, 1.0, 1e-3, 1e5, "M", "distance from the centre at which the Gaussian has fallen to exp(-1/2)")  \
-    REAL(spot, index, 1.0, -4.0, 6.0, "1", "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen")  \
-    REAL(spot, temperature_k, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
-#define KD_SPOT1_FIELDS(REAL, WORD, INT, BOOL, ENUM) KD_SPOT_FIELDS(spot1, REAL)
-#define KD_SPOT2_FIELDS(REAL, WORD, INT, BOOL, ENUM) KD_SPOT_FIELDS(spot2, REAL)
-#define KD_SPOT3_FIELDS(REAL, WORD, INT, BOOL, ENUM) KD_SPOT_FIELDS(spot3, REAL)
+    REAL(spots, r, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO")  \
+    REAL(spots, phase_deg, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0")                   \
+    REAL(spots, size, 1.0, 1e-3, 1e5, "M", "distance from the centre at which the Gaussian has fallen to exp(-1/2)")  \
+    REAL(spots, index, 1.0, -4.0, 6.0, "1", "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen")  \
+    REAL(spots, temperature_k, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
+#define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     ENUM(sky, model, KD_SKY_NONE,                                                                             \
@@ -145,20 +142,22 @@
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
     REAL(top, time, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
-/* The sections, in order: SECTION(name, rows, help). The rows of "top" are members of the document itself. */
-#define KD_SCENE_SECTIONS(SECTION)                                                                            \
+/* The sections, in order: SECTION(name, rows, help), and LIST(name, element, rows, most, help) for up to `most` elements that have these
+ * rows each. The rows of "top" are members of the document itself. */
+#define KD_SCENE_SECTIONS(SECTION, LIST)                                                                            \
     SECTION(spacetime, KD_SPACETIME_FIELDS, "the hole")                                                       \
     SECTION(camera, KD_CAMERA_FIELDS, "where the observer is and what it looks at")                           \
     SECTION(disk, KD_DISK_FIELDS, "the accretion disk in the equatorial plane, turning towards +phi")         \
-    SECTION(spot1, KD_SPOT1_FIELDS, "a hot spot: a Gaussian in the equatorial plane that goes round with the gas") \
-    SECTION(spot2, KD_SPOT2_FIELDS, "another one")                                                            \
-    SECTION(spot3, KD_SPOT3_FIELDS, "and another")                                                            \
+    LIST(spots, spot, KD_SPOTS_FIELDS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
     SECTION(sky, KD_SKY_FIELDS, "what lies at infinity")                                                      \
     SECTION(image, KD_IMAGE_FIELDS, "the size of the picture")                                                \
     SECTION(style, KD_STYLE_FIELDS, "from brightness to the colours of the file")                             \
     SECTION(motion, KD_MOTION_FIELDS, "what goes on by itself in a live session; a still picture knows none of it") \
     SECTION(accuracy, KD_ACCURACY_FIELDS, "how closely the rays are followed")                                \
     SECTION(top, KD_TOP_FIELDS, "members of the document itself")
+
+/* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
+#define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
 enum kd_observer { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO };
 enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING };

@@ -22,7 +22,7 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
 }
 
 /* "; did you mean camera.r?" or "; known are ..." */
-static void hint(const char *section, const char *name, char out[HINT_SIZE])
+static void hint(const char *section, size_t index, const char *name, char out[HINT_SIZE])
 {
     int best = KD_SLIP_FAR;
     char meant[KD_PATH_SIZE] = "";
@@ -33,7 +33,7 @@ static void hint(const char *section, const char *name, char out[HINT_SIZE])
                     (kd_slip_distance(section, field->section) > 2 ? 1 : 0);
         if (score < best) {
             best = score;
-            kd_field_path(field, meant);
+            kd_field_path(field, strcmp(section, field->section) ? 0 : index, meant);
         }
     }
     for (size_t i = 0; !*section && i + 1 < KD_SECTION_COUNT; i++) {
@@ -50,15 +50,19 @@ static void hint(const char *section, const char *name, char out[HINT_SIZE])
         known_names(home ? home : &kd_sections[KD_SECTION_COUNT - 1], out);
 }
 
-enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, const char *name)
+enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, size_t index, const char *name)
 {
-    char shown_section[48], shown_name[64], suggestion[HINT_SIZE], pointer[sizeof error->pointer] = "";
+    const struct kd_section *known = kd_section_find(section);
+    char shown_section[48], shown_name[64], element[24] = "", suggestion[HINT_SIZE], pointer[sizeof error->pointer] = "";
     kd_text_clip(shown_section, sizeof shown_section, section);
     kd_text_clip(shown_name, sizeof shown_name, name);
-    hint(section, name, suggestion);
+    hint(section, index, name, suggestion);
     if (*section)
         kd_text_pointer(pointer, sizeof pointer, section);
+    if (known && known->most) {
+        snprintf(element, sizeof element, ".%zu", index);
+        kd_text_pointer(pointer, sizeof pointer, element + 1);
+    }
     kd_text_pointer(pointer, sizeof pointer, name);
-    return kd_error_field(error, pointer, "unknown field %s%s%s%s", shown_section, *section ? "." : "",
-                          shown_name, suggestion);
+    return kd_error_field(error, pointer, "unknown field %s%s%s%s%s", shown_section, element, *section ? "." : "", shown_name, suggestion);
 }

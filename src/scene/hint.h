@@ -4,8 +4,11 @@
 
 #include "base/error.h"
 
+#include <stddef.h>
+
 /* KD_EINVAL for a field that does not exist: its pointer and the nearest name, "did you mean camera.r?", or
- * the names that section knows when none is near. section: "" for the document itself; need not exist. */
-enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, const char *name);
+ * the names that section knows when none is near. section: "" for the document itself; need not exist.
+ * index: of the element, where the section is a list. */
+enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, size_t index, const char *name);
 
 #endif

@@ -21,11 +21,10 @@ static bool time_goes_on(const struct kd_scene *scene)
 
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS])
 {
-    const struct kd_spot *spots[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
     size_t n = 0;
-    for (size_t i = 0; i < KD_SPOTS; i++)
-        if (spots[i]->brightness > 0)
-            on[n++] = spots[i];
+    for (size_t i = 0; i < scene->spots.count; i++)
+        if (scene->spots.at[i].brightness > 0)
+            on[n++] = &scene->spots.at[i];
     return n;
 }
 

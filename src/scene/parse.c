@@ -1,82 +1,203 @@
 /* Scene documents: JSON in. */
+#include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/scan.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 
+#include <stdio.h>
 #include <string.h>
 
 struct reader {
     struct kd_scene scene; /* a copy, handed over when the whole document is right */
-    bool seen_field[KD_FIELD_COUNT], seen_section[KD_SECTION_COUNT], seen_version;
+    bool seen_section[KD_SECTION_COUNT], seen_version;
+    const struct kd_old_name *old[KD_SECTION_COUNT]; /* by which an element of the list was given */
+    bool seen_old[KD_OLD_NAME_COUNT];
     bool patch; /* null takes a field, or a section, back to its default */
     struct kd_error *error;
 };
 
+/* One object of the document: a section, an element of a list, or the document itself. */
+struct object {
+    const struct kd_section *section;
+    size_t index;
+    bool patch;
+    bool seen[KD_FIELD_COUNT];
+};
+
 /* Once each: a second one would silently win. */
-static enum kd_status once(struct reader *reader, bool *seen, const char *section, const char *name)
+static enum kd_status once(struct reader *reader, bool *seen, const char *pointer)
 {
     if (!*seen) {
         *seen = true;
         return KD_OK;
     }
-    char pointer[KD_PATH_SIZE] = "";
-    if (*section)
-        kd_text_pointer(pointer, sizeof pointer, section);
-    kd_text_pointer(pointer, sizeof pointer, name);
-    return kd_error_field(reader->error, pointer, "%s%s%s is given twice", section, *section ? "." : "",
-                          name);
+    char path[KD_PATH_SIZE];
+    snprintf(path, sizeof path, "%s", pointer + 1);
+    for (char *c = path; *c; c++)
+        *c = *c == '/' ? '.' : *c;
+    return kd_error_field(reader->error, pointer, "%s is given twice", path);
 }
 
-static enum kd_status read_field(struct reader *reader, const char *section, const cJSON *item)
+/* pointer: of what should be this, and is the item. */
+static enum kd_status not_a(struct reader *reader, const cJSON *item, const char *pointer, const char *allowed)
 {
-    const struct kd_field *field = kd_field_find(section, item->string);
-    if (!field)
-        return kd_hint_unknown(reader->error, section, item->string);
+    char given[KD_VALUE_SIZE], path[KD_PATH_SIZE];
     struct kd_value value = kd_tree_value(item);
-    enum kd_status status = once(reader, &reader->seen_field[field - kd_fields], section, item->string);
-    if (!status && reader->patch && cJSON_IsNull(item)) {
-        kd_field_put(&reader->scene, field, field->initial);
-        return KD_OK;
-    }
-    return status ? status : kd_value_store(&reader->scene, field, &value, reader->error);
+    kd_value_describe(&value, given);
+    snprintf(path, sizeof path, "%s", pointer + 1);
+    for (char *c = path; *c; c++)
+        *c = *c == '/' ? '.' : *c;
+    return kd_error_field(reader->error, pointer, "%s is %s, allowed is %s", path, given, allowed);
 }
 
-static enum kd_status read_section(struct reader *reader, const struct kd_section *section,
-                                   const cJSON *object)
+static enum kd_status read_field(struct reader *reader, struct object *object, const cJSON *item)
 {
-    enum kd_status status = once(reader, &reader->seen_section[section - kd_sections], "", section->name);
-    if (!status && reader->patch && cJSON_IsNull(object)) {
-        for (size_t i = 0; i < section->count; i++)
-            kd_field_put(&reader->scene, &kd_fields[section->first + i], kd_fields[section->first + i].initial);
+    const struct kd_field *field = kd_field_find(object->section->name, item->string);
+    if (!field)
+        return kd_hint_unknown(reader->error, object->section->name, object->index, item->string);
+    char pointer[KD_PATH_SIZE];
+    struct kd_value value = kd_tree_value(item);
+    kd_field_pointer(field, object->index, pointer);
+    enum kd_status status = once(reader, &object->seen[field - kd_fields], pointer);
+    if (!status && object->patch && cJSON_IsNull(item)) {
+        kd_field_put(&reader->scene, field, object->index, field->initial);
         return KD_OK;
     }
-    if (!status && !cJSON_IsObject(object)) {
-        char pointer[KD_PATH_SIZE] = "", given[KD_VALUE_SIZE];
-        struct kd_value value = kd_tree_value(object);
-        kd_text_pointer(pointer, sizeof pointer, section->name);
-        kd_value_describe(&value, given);
-        status = kd_error_field(reader->error, pointer, "%s is %s, allowed is an object with fields",
-                                section->name, given);
+    return status ? status : kd_value_store(&reader->scene, field, object->index, &value, reader->error);
+}
+
+/* A section, or an element that is there. */
+static enum kd_status read_object(struct reader *reader, const struct kd_section *section, size_t index, const char *pointer,
+                                  const cJSON *item, bool patch)
+{
+    struct object object = { .section = section, .index = index, .patch = patch };
+    if (patch && cJSON_IsNull(item)) {
+        kd_section_reset(&reader->scene, section, index);
+        return KD_OK;
     }
-    for (const cJSON *item = object->child; item && !status; item = item->next)
-        status = read_field(reader, section->name, item);
+    if (!cJSON_IsObject(item))
+        return not_a(reader, item, pointer, "an object with fields");
+    enum kd_status status = KD_OK;
+    for (const cJSON *field = item->child; field && !status; field = field->next)
+        status = read_field(reader, &object, field);
     return status;
 }
 
-static enum kd_status read_member(struct reader *reader, const cJSON *item)
+/* Elements are made as they are needed; null makes none. */
+static enum kd_status read_element(struct reader *reader, const struct kd_section *list, size_t index, const cJSON *item, bool patch)
+{
+    char pointer[KD_PATH_SIZE];
+    size_t size = kd_section_size(&reader->scene, list);
+    kd_element_pointer(list, index, pointer);
+    if (index >= size && patch && cJSON_IsNull(item))
+        return KD_OK;
+    if (index >= size)
+        kd_section_resize(&reader->scene, list, index + 1);
+    return read_object(reader, list, index, pointer, item, patch);
+}
+
+/* An array takes the place of the whole list. */
+static enum kd_status read_array(struct reader *reader, const struct kd_section *list, const cJSON *array)
+{
+    size_t index = 0;
+    enum kd_status status = kd_element_count(list, (size_t)cJSON_GetArraySize(array), reader->error);
+    if (!status)
+        kd_section_resize(&reader->scene, list, 0);
+    for (const cJSON *item = array->child; item && !status; item = item->next)
+        status = read_element(reader, list, index++, item, false);
+    return status;
+}
+
+/* {"0": {...}} changes elements by their index, in any order: what it adds to the list must follow that without a gap. */
+static enum kd_status read_indices(struct reader *reader, const struct kd_section *list, const cJSON *object)
+{
+    size_t before = kd_section_size(&reader->scene, list), last = before;
+    const cJSON *given[KD_LIST_MOST] = { NULL };
+    enum kd_status status = KD_OK;
+    for (const cJSON *item = object->child; item && !status; item = item->next) {
+        size_t index = 0;
+        char pointer[KD_PATH_SIZE];
+        status = kd_element_find(list, item->string, &index, reader->error);
+        kd_element_pointer(list, index, pointer);
+        bool seen = given[index];
+        if (!status)
+            status = once(reader, &seen, pointer);
+        given[index] = item;
+        last = index >= last ? index + 1 : last;
+    }
+    for (size_t i = 0; i < last && !status; i++) {
+        if (given[i])
+            status = read_element(reader, list, i, given[i], reader->patch);
+        else if (i >= before)
+            status = kd_element_reach(list, i, last - 1, reader->error);
+    }
+    return status;
+}
+
+static enum kd_status both_names(struct reader *reader, const struct kd_old_name *old)
+{
+    char pointer[KD_PATH_SIZE];
+    snprintf(pointer, sizeof pointer, "/%s", old->name);
+    return kd_error_field(reader->error, pointer, "%s is an old name of %s.%zu, and %s is given too; allowed is one of them", old->name,
+                          old->section, old->index, old->section);
+}
+
+static enum kd_status read_list(struct reader *reader, const struct kd_section *list, const char *pointer, const cJSON *item)
+{
+    char allowed[96];
+    if (reader->old[list - kd_sections])
+        return both_names(reader, reader->old[list - kd_sections]);
+    if (cJSON_IsArray(item))
+        return read_array(reader, list, item);
+    if (cJSON_IsObject(item))
+        return read_indices(reader, list, item);
+    if (reader->patch && cJSON_IsNull(item)) {
+        kd_section_resize(&reader->scene, list, 0);
+        return KD_OK;
+    }
+    snprintf(allowed, sizeof allowed, "an array of up to %zu objects with fields", list->most);
+    return not_a(reader, item, pointer, allowed);
+}
+
+static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item)
+{
+    char pointer[KD_PATH_SIZE];
+    snprintf(pointer, sizeof pointer, "/%s", section->name);
+    enum kd_status status = once(reader, &reader->seen_section[section - kd_sections], pointer);
+    if (status)
+        return status;
+    return section->most ? read_list(reader, section, pointer, item) : read_object(reader, section, 0, pointer, item, reader->patch);
+}
+
+/* An element by its old name may be beyond the next free index: those between are made too, at their defaults. */
+static enum kd_status read_old(struct reader *reader, const struct kd_old_name *old, const cJSON *item)
+{
+    const struct kd_section *list = kd_section_find(old->section);
+    char pointer[KD_PATH_SIZE];
+    snprintf(pointer, sizeof pointer, "/%s", old->name);
+    enum kd_status status = once(reader, &reader->seen_old[old - kd_old_names], pointer);
+    if (!status && reader->seen_section[list - kd_sections])
+        status = both_names(reader, old);
+    reader->old[list - kd_sections] = old;
+    return status ? status : read_element(reader, list, old->index, item, reader->patch);
+}
+
+static enum kd_status read_member(struct reader *reader, struct object *top, const cJSON *item)
 {
     if (!strcmp(item->string, "version")) {
         struct kd_value value = kd_tree_value(item);
-        enum kd_status status = once(reader, &reader->seen_version, "", "version");
+        enum kd_status status = once(reader, &reader->seen_version, "/version");
         return status ? status : kd_value_version(&value, reader->error);
     }
     const struct kd_section *section = *item->string ? kd_section_find(item->string) : NULL;
-    return section ? read_section(reader, section, item) : read_field(reader, "", item);
+    const struct kd_old_name *old = kd_old_name_find(item->string);
+    return section ? read_section(reader, section, item) : old ? read_old(reader, old, item) : read_field(reader, top, item);
 }
 
-static enum kd_status read_document(struct reader *reader, const cJSON *root)
+static enum kd_status read_document(struct reader *reader, const struct kd_scene *before, const cJSON *root)
 {
+    struct object top = { .section = kd_section_find(""), .patch = reader->patch };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(root)) {
         char given[KD_VALUE_SIZE];
@@ -85,14 +206,17 @@ static enum kd_status read_document(struct reader *reader, const cJSON *root)
         return kd_error_field(reader->error, "", "the document is %s, allowed is an object", given);
     }
     for (const cJSON *item = root->child; item && !status; item = item->next)
-        status = read_member(reader, item);
+        status = read_member(reader, &top, item);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+        if (reader->old[i])
+            kd_section_trim(&reader->scene, &kd_sections[i], kd_section_size(before, &kd_sections[i]));
     return status;
 }
 
 enum kd_status kd_scene_from_tree(struct kd_scene *scene, const cJSON *object, bool patch, struct kd_error *error)
 {
     struct reader reader = { .scene = *scene, .patch = patch, .error = error };
-    enum kd_status status = read_document(&reader, object);
+    enum kd_status status = read_document(&reader, scene, object);
     if (!status)
         *scene = reader.scene;
     return status;

@@ -58,7 +58,7 @@ const struct kd_preset kd_presets[] = {
       "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6},"
       "\"camera\":{\"inclination_deg\":155,\"field_m\":50},"
       "\"disk\":{\"outer\":16,\"opacity\":0.3,\"peak_temperature_k\":4500},"
-      "\"spot1\":{\"brightness\":4,\"r\":9,\"size\":1.2},"
+      "\"spots\":[{\"brightness\":4,\"r\":9,\"size\":1.2}],"
       "\"style\":{\"exposure\":-0.5},"
       "\"motion\":{\"time_rate\":10}}" },
 };

@@ -20,6 +20,22 @@ static const char introduction[] = "# The scene document\n"
                                    "(`/v1/render?camera.inclination_deg=70`). Lengths and times are in M = "
                                    "GM/c^2. Ranges include both ends.\n"
                                    "\n"
+                                   "A list is an array of objects that have the same fields; what an object does "
+                                   "not name is at its default. An array\n"
+                                   "takes the place of the whole list, in a document over a preset and in a merge "
+                                   "patch (RFC 7396) alike. An object in its\n"
+                                   "place changes elements by their index, and keeps the others:\n"
+                                   "\n"
+                                   "    {\"spots\": [{\"brightness\": 4}, {\"brightness\": 2, \"r\": 12}]}   two spots\n"
+                                   "    {\"spots\": {\"1\": {\"r\": 14}}}                                the second "
+                                   "one goes elsewhere\n"
+                                   "\n"
+                                   "An index that is one beyond the last element makes another one; a greater one is "
+                                   "an error. On the command line and in a\n"
+                                   "link an element's field is `spots.1.r`. In a merge patch `null` takes a field, a "
+                                   "section or an element back to its\n"
+                                   "defaults, and empties a list.\n"
+                                   "\n"
                                    "An unknown field, a field given twice, a wrong type, `null` and a value "
                                    "outside its range are errors that point\n"
                                    "at the field. So are NaN, numbers that overflow, text after the "
@@ -36,10 +52,10 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
 {
     static const char *const types[] = { "number", "number or word", "whole number", "true or false",
                                          "word" };
-    char path[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
-    kd_field_path(field, path);
+    char allowed[KD_ALLOWED_SIZE];
     kd_value_allowed(field, allowed);
-    kd_write(w, "| `%s` | %s | `", path, types[field->kind]);
+    kd_write(w, "| `%s%s%s%s` | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "", field->name,
+             types[field->kind]);
     kd_write_value(w, field, field->initial);
     kd_write(w, "` | ");
     const char *whole = "whole numbers from "; /* the type column says so */
@@ -49,12 +65,25 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
     kd_write(w, " |\n");
 }
 
+static void write_list(struct kd_writer *w, const struct kd_section *list)
+{
+    kd_write(w, "A list of up to %zu, `[]` unless something else is said; N counts from 0.", list->most);
+    size_t names = 0;
+    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
+        if (!strcmp(kd_old_names[i].section, list->name))
+            kd_write(w, "%s`%s` is `%s.%zu`", names++ ? ", " : " Old names are still read: ", kd_old_names[i].name, list->name,
+                     kd_old_names[i].index);
+    kd_write(w, "%s\n\n", names ? "." : "");
+}
+
 static void write_section(struct kd_writer *w, const struct kd_section *section)
 {
     const char *name = *section->name ? section->name : "the document itself";
     kd_write(w, "\n## %s\n\n", name);
     if (*section->name)
         kd_write(w, "%c%s.\n\n", section->help[0] - 'a' + 'A', section->help + 1);
+    if (section->most)
+        write_list(w, section);
     kd_write(w, "| field | type | default | allowed | meaning |\n|---|---|---|---|---|\n");
     if (!*section->name)
         kd_write(w, "| `version` | whole number | `%d` | %d | version of this document format |\n",

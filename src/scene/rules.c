@@ -3,6 +3,7 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/qnm.h"
+#include "scene/element.h"
 #include "scene/number.h"
 #include "scene/value.h"
 
@@ -142,15 +143,17 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
 
 static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_spot *all[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
+    const struct kd_field *r = kd_field_find("spots", "r");
     double least = kd_kerr_isco(scene->spacetime.spin);
-    for (int i = 0; i < KD_SPOTS; i++) {
-        char pointer[] = "/spot1/r";
-        if (all[i]->brightness == 0 || all[i]->r >= least)
+    for (size_t i = 0; i < scene->spots.count; i++) {
+        const struct kd_spot *spot = &scene->spots.at[i];
+        char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+        if (spot->brightness == 0 || spot->r >= least)
             continue;
-        pointer[sizeof "/spot" - 1] = (char)('1' + i);
-        return kd_error_field(error, pointer, "spot%d.r is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s", i + 1,
-                              show(all[i]->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
+        kd_field_path(r, i, path);
+        kd_field_pointer(r, i, pointer);
+        return kd_error_field(error, pointer, "%s is %s M, allowed is at least %s M, the ISCO of spacetime.spin %s", path,
+                              show(spot->r).text, show_bound(least).text, show(scene->spacetime.spin).text);
     }
     return KD_OK;
 }
@@ -185,31 +188,40 @@ const struct kd_rule kd_rules[] = {
     { "A static observer is outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i).", ergosphere },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
-    { "`spot1.r`, `spot2.r` and `spot3.r` are not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
+    { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`accuracy.steps` is a multiple of 4.", steps },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;
 
 /* A scene that was filled in by hand has passed no parser. */
-static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field,
-                            struct kd_error *error)
+static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
 {
-    double value = kd_field_get(scene, field);
+    double value = kd_field_get(scene, field, index);
     if (kd_field_holds(field, value))
         return KD_OK;
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
-    kd_field_path(field, path);
-    kd_field_pointer(field, pointer);
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
     kd_value_allowed(field, allowed);
     return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, show(value).text, allowed);
+}
+
+static enum kd_status ranges(const struct kd_scene *scene, const struct kd_section *section, struct kd_error *error)
+{
+    size_t size = kd_section_size(scene, section);
+    enum kd_status status = section->most ? kd_element_count(section, size, error) : KD_OK;
+    for (size_t i = 0; i < size && !status; i++)
+        for (size_t f = 0; f < section->count && !status; f++)
+            status = range(scene, &kd_fields[section->first + f], i, error);
+    return status;
 }
 
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < KD_FIELD_COUNT && !status; i++)
-        status = range(scene, &kd_fields[i], error);
+    for (size_t i = 0; i < KD_SECTION_COUNT && !status; i++)
+        status = ranges(scene, &kd_sections[i], error);
     for (size_t i = 0; i < kd_rule_count && !status; i++)
         status = kd_rules[i].check(scene, error);
     return status;

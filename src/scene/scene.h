@@ -18,19 +18,24 @@
 #define KD_M_INT(s, name, ...) int32_t name;
 #define KD_M_BOOL(s, name, ...) bool name;
 #define KD_M_ENUM(s, name, ...) int32_t name;
-#define KD_M(LIST) LIST(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM)
+#define KD_M_ROWS(ROWS) ROWS(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM)
+#define KD_M_SECTION(name, ROWS, help)                                                                       \
+    struct kd_##name {                                                                                       \
+        KD_M_ROWS(ROWS)                                                                                      \
+    } name;
+#define KD_M_LIST(name, element, ROWS, most, help)                                                           \
+    struct kd_##name {                                                                                       \
+        size_t count;                                                                                        \
+        struct kd_##element {                                                                                \
+            KD_M_ROWS(ROWS)                                                                                  \
+        } at[most];                                                                                          \
+    } name;
 
+/* A member for each section: struct kd_camera camera, ... Members of the document itself are in `top`. A list is
+ * struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots; elements from count on hold their defaults, so that equal scenes
+ * are equal bytes. */
 struct kd_scene {
-    struct kd_spacetime { KD_M(KD_SPACETIME_FIELDS) } spacetime;
-    struct kd_camera { KD_M(KD_CAMERA_FIELDS) } camera;
-    struct kd_disk { KD_M(KD_DISK_FIELDS) } disk;
-    struct kd_spot { KD_M(KD_SPOT1_FIELDS) } spot1, spot2, spot3;
-    struct kd_sky { KD_M(KD_SKY_FIELDS) } sky;
-    struct kd_image { KD_M(KD_IMAGE_FIELDS) } image;
-    struct kd_style { KD_M(KD_STYLE_FIELDS) } style;
-    struct kd_motion { KD_M(KD_MOTION_FIELDS) } motion;
-    struct kd_accuracy { KD_M(KD_ACCURACY_FIELDS) } accuracy;
-    struct { KD_M(KD_TOP_FIELDS) } top; /* members of the document itself, without a section */
+    KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
 };
 
 /* Every field at its default: the picture of an empty document. */
@@ -43,7 +48,8 @@ const char *kd_scene_preset_name(size_t index);
 const char *kd_scene_preset_title(size_t index);
 
 /* Merge a JSON document into *scene. Fields it does not name keep the value they had, so
- * start from the defaults or a preset. Rejects, with a JSON pointer and what is allowed: text after the document,
+ * start from the defaults or a preset. An array takes the place of a whole list, an object {"0": {...}} changes elements of it by their
+ * index, of which the next free one makes an element. Rejects, with a JSON pointer and what is allowed: text after the document,
  * duplicate keys, unknown fields, wrong types, NaN and numbers that overflow, depth over 32,
  * text over KD_SCENE_JSON_MAX bytes, a version other than 1. On error *scene is unchanged.
  * Does not look across fields: call kd_scene_validate when every source has been merged. */
@@ -51,12 +57,17 @@ const char *kd_scene_preset_title(size_t index);
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
                                   struct kd_error *error);
 
-/* The same for a merge patch (RFC 7396): null takes a field, or all fields of a section, back to the default. */
+/* The same for a merge patch (RFC 7396): null takes a field, or all fields of a section or element, back to the default; it empties a
+ * list. */
 enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
-/* Set one scalar field by its dotted path ("camera.inclination_deg") from text. */
+/* Set one scalar field by its dotted path ("camera.inclination_deg", "spots.0.r") from text; one of the next free index of a list makes
+ * that element. */
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value,
                             struct kd_error *error);
+
+/* Whether both name the same field, one of them by an old name perhaps. */
+bool kd_scene_same_path(const char *a, const char *b);
 
 /* Rules that tie fields together: a static observer outside the ergosphere, a pinhole at a finite
  * radius, disk edges in order and outside the ISCO, bit depth 8 or 16, ... */
@@ -69,7 +80,6 @@ bool kd_scene_moves(const struct kd_scene *scene);
 bool kd_scene_only_rings(const struct kd_scene *scene);
 
 /* The spots that are on, in order. */
-#define KD_SPOTS 3
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 
 /* A struck hole at the scene's time: *wave = A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n = 0, t from

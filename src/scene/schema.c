@@ -62,13 +62,32 @@ static void write_fields(struct kd_writer *w, const struct kd_section *section)
     }
 }
 
-static void write_section(struct kd_writer *w, const struct kd_section *section)
+/* What follows a description and ends its schema. */
+static void write_object(struct kd_writer *w, const struct kd_section *section)
 {
-    kd_write(w, "\"%s\":{\"type\":\"object\",\"additionalProperties\":false,\"description\":", section->name);
-    kd_write_string(w, section->help);
-    kd_write(w, ",\"properties\":{");
+    kd_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
     write_fields(w, section);
     kd_write(w, "}}");
+}
+
+static void write_section(struct kd_writer *w, const struct kd_section *section)
+{
+    kd_write(w, "\"%s\":{\"description\":", section->name);
+    kd_write_string(w, section->help);
+    kd_write(w, ",");
+    if (section->most)
+        kd_write(w, "\"type\":\"array\",\"maxItems\":%zu,\"default\":[],\"items\":{", section->most);
+    write_object(w, section);
+    if (section->most)
+        kd_write(w, "}");
+}
+
+/* x-now: the path that has taken its place. */
+static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
+{
+    kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",", old->name, old->section,
+             old->index, old->section, old->index);
+    write_object(w, kd_section_find(old->section));
 }
 
 enum kd_status kd_scene_schema(struct kd_buffer *out)
@@ -87,6 +106,8 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
         else
             write_fields(w, &kd_sections[i]);
     }
+    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
+        write_old_name(w, &kd_old_names[i]);
     kd_write(w, "}}");
     return writer.status;
 }

@@ -1,35 +1,126 @@
 /* One field by its dotted path: --set and query parameters. */
+#include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/text.h"
 #include "scene/value.h"
 
+#include <stdio.h>
 #include <string.h>
+
+/* A path up to its field: the section, or "" for the document itself, and an element of it if that is a list. */
+struct place {
+    const struct kd_section *section;
+    size_t index;
+    const char *name; /* the rest of the path */
+    bool old;         /* an old name of an element, which may be beyond the next free one */
+};
 
 static enum kd_status whole_section(const struct kd_section *section, struct kd_error *error)
 {
-    char pointer[KD_PATH_SIZE] = "";
+    char pointer[KD_PATH_SIZE] = "", path[KD_PATH_SIZE];
     kd_text_pointer(pointer, sizeof pointer, section->name);
-    return kd_error_field(error, pointer, "%s is a section; name one of its fields, as in %s.%s",
-                          section->name, section->name, kd_fields[section->first].name);
+    kd_field_path(&kd_fields[section->first], 0, path);
+    return section->most ? kd_error_field(error, pointer, "%s is a list; name a field of one of its elements, as in %s", section->name, path)
+                         : kd_error_field(error, pointer, "%s is a section; name one of its fields, as in %s", section->name, path);
+}
+
+static enum kd_status whole_element(const struct kd_section *list, size_t index, struct kd_error *error)
+{
+    char pointer[KD_PATH_SIZE], path[KD_PATH_SIZE];
+    kd_element_pointer(list, index, pointer);
+    kd_field_path(&kd_fields[list->first], index, path);
+    return kd_error_field(error, pointer, "%s.%zu is an element; name one of its fields, as in %s", list->name, index, path);
+}
+
+/* The token of the path before its next dot, "" where it has none or is too long; *rest is what follows. */
+static void next_token(const char **rest, char out[KD_PATH_SIZE])
+{
+    const char *dot = strchr(*rest, '.');
+    size_t length = dot ? (size_t)(dot - *rest) : 0;
+    out[0] = 0;
+    if (!length || length >= KD_PATH_SIZE)
+        return;
+    memcpy(out, *rest, length);
+    out[length] = 0;
+    *rest = dot + 1;
+}
+
+static enum kd_status in_list(struct place *place, struct kd_error *error)
+{
+    char token[KD_PATH_SIZE];
+    next_token(&place->name, token);
+    bool whole = !*token;
+    enum kd_status status = kd_element_find(place->section, whole ? place->name : token, &place->index, error);
+    return status || !whole ? status : whole_element(place->section, place->index, error);
+}
+
+static enum kd_status find_place(const char *path, struct place *place, struct kd_error *error)
+{
+    char token[KD_PATH_SIZE];
+    const char *rest = path;
+    next_token(&rest, token);
+    const struct kd_old_name *old = kd_old_name_find(*token ? token : path);
+    if (old) {
+        *place = (struct place) { kd_section_find(old->section), old->index, rest, true };
+        return *token ? KD_OK : whole_element(place->section, old->index, error);
+    }
+    const struct kd_section *whole = *token || !*path ? NULL : kd_section_find(path);
+    if (whole)
+        return whole_section(whole, error);
+    *place = (struct place) { kd_section_find(token), 0, rest, false };
+    if (!place->section)
+        return kd_hint_unknown(error, token, 0, rest);
+    return place->section->most ? in_list(place, error) : KD_OK;
+}
+
+/* With what has taken the place of an old name. */
+static void renew(const char *path, char out[2 * KD_PATH_SIZE])
+{
+    char token[KD_PATH_SIZE];
+    const char *rest = path;
+    next_token(&rest, token);
+    const struct kd_old_name *old = kd_old_name_find(token);
+    if (old)
+        snprintf(out, 2 * KD_PATH_SIZE, "%s.%zu.%s", old->section, old->index, rest);
+    else
+        snprintf(out, 2 * KD_PATH_SIZE, "%s", path);
+}
+
+bool kd_scene_same_path(const char *a, const char *b)
+{
+    char one[2 * KD_PATH_SIZE], other[2 * KD_PATH_SIZE];
+    if (!strcmp(a, b))
+        return true;
+    renew(a, one);
+    renew(b, other);
+    return !strcmp(one, other);
 }
 
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *text,
                             struct kd_error *error)
 {
     struct kd_value value = kd_value_typed(text);
+    struct place place;
     if (!strcmp(path, "version"))
         return kd_value_version(&value, error);
+    enum kd_status status = find_place(path, &place, error);
+    if (status)
+        return status;
+    const struct kd_field *field = kd_field_find(place.section->name, place.name);
+    if (!field)
+        return kd_hint_unknown(error, place.section->name, place.index, place.name);
 
-    char section[KD_PATH_SIZE] = "";
-    const char *dot = strchr(path, '.'), *name = dot ? dot + 1 : path;
-    size_t length = dot ? (size_t)(dot - path) : 0;
-    if (length >= sizeof section || dot == path)
-        return kd_hint_unknown(error, "", path);
-    memcpy(section, path, length);
-
-    const struct kd_field *field = kd_field_find(section, name);
-    if (field)
-        return kd_value_store(scene, field, &value, error);
-    const struct kd_section *whole = dot || !*path ? NULL : kd_section_find(path);
-    return whole ? whole_section(whole, error) : kd_hint_unknown(error, section, name);
+    struct kd_scene grown = *scene;
+    size_t size = kd_section_size(scene, place.section);
+    if (!place.old)
+        status = place.section->most ? kd_element_reach(place.section, size, place.index, error) : KD_OK;
+    if (place.index >= size && !status)
+        kd_section_resize(&grown, place.section, place.index + 1);
+    if (!status)
+        status = kd_value_store(&grown, field, place.index, &value, error);
+    if (!status && place.old)
+        kd_section_trim(&grown, place.section, size);
+    if (!status)
+        *scene = grown;
+    return status;
 }

@@ -5,7 +5,22 @@
 
 /* Members of "top" stand in the document itself. */
 #define SECTION_NAME(s) (offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
-#define AT(s, n) .section = SECTION_NAME(s), .name = #n, .offset = offsetof(struct kd_scene, s.n)
+
+/* Where the rows of each section begin in the scene, what they are in, and how far the next element of it is. */
+#define PLACE(name, ROWS, help)                                                                              \
+    struct rows_of_##name {                                                                                  \
+        KD_M_ROWS(ROWS)                                                                                      \
+    };                                                                                                       \
+    enum { BASE_##name = offsetof(struct kd_scene, name), STRIDE_##name = 0 };
+#define LIST_PLACE(name, element, ROWS, most, help)                                                          \
+    struct rows_of_##name {                                                                                  \
+        KD_M_ROWS(ROWS)                                                                                      \
+    };                                                                                                       \
+    enum { BASE_##name = offsetof(struct kd_scene, name.at), STRIDE_##name = sizeof(struct kd_##element) };
+KD_SCENE_SECTIONS(PLACE, LIST_PLACE)
+
+#define AT(s, n)                                                                                             \
+    .section = SECTION_NAME(s), .name = #n, .offset = BASE_##s + offsetof(struct rows_of_##s, n), .stride = STRIDE_##s
 #define RANGE(lo, hi, u) .minimum = lo, .maximum = hi, .unit = u
 
 #define REAL(s, n, d, lo, hi, u, h)                                                                          \
@@ -18,28 +33,24 @@
 #define ENUM(s, n, d, h, w)                                                                                  \
     { AT(s, n), .kind = KD_FIELD_ENUM, .initial = d, RANGE(0, 0, ""), .help = h, .words = w },
 
-#define ROWS(name, LIST, help) LIST(REAL, WORD, INT, BOOL, ENUM)
-const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(ROWS) };
+#define FIELDS(name, ROWS, help) ROWS(REAL, WORD, INT, BOOL, ENUM)
+#define LIST_FIELDS(name, element, ROWS, most, help) FIELDS(name, ROWS, help)
+const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
 
 /* Each section's row before the first: an enumerator that counts on from the section above. */
-#define EXTENT(name, LIST, help)                                                                             \
-    FIRST_##name, LAST_##name = FIRST_##name - 1 + (KD_COUNT_ROWS(name, LIST, help)),
-enum { KD_SCENE_SECTIONS(EXTENT) };
-#define SECTION(name, LIST, help) { SECTION_NAME(name), help, FIRST_##name, LAST_##name - FIRST_##name + 1 },
-const struct kd_section kd_sections[KD_SECTION_COUNT] = { KD_SCENE_SECTIONS(SECTION) };
+#define EXTENT(name, ROWS, help)                                                                             \
+    FIRST_##name, LAST_##name = FIRST_##name - 1 + (KD_COUNT_ROWS(name, ROWS, help)),
+#define LIST_EXTENT(name, element, ROWS, most, help) EXTENT(name, ROWS, help)
+enum { KD_SCENE_SECTIONS(EXTENT, LIST_EXTENT) };
+#define SECTION(n, ROWS, h)                                                                                  \
+    { .name = SECTION_NAME(n), .help = h, .first = FIRST_##n, .count = LAST_##n - FIRST_##n + 1 },
+#define LIST(n, element, ROWS, limit, h)                                                                     \
+    { .name = #n, .help = h, .first = FIRST_##n, .count = LAST_##n - FIRST_##n + 1, .most = limit,           \
+      .size_at = offsetof(struct kd_scene, n.count) },
+const struct kd_section kd_sections[KD_SECTION_COUNT] = { KD_SCENE_SECTIONS(SECTION, LIST) };
 
-/* A section that scene.h holds and KD_SCENE_SECTIONS does not, or the reverse, stops the build here. */
-#define MIRROR(name, LIST, help)                                                                             \
-    struct {                                                                                                 \
-        KD_M(LIST)                                                                                           \
-    } name;
-struct mirror {
-    KD_SCENE_SECTIONS(MIRROR)
-};
-#define SAME_PLACE(name, LIST, help)                                                                         \
-    _Static_assert(offsetof(struct mirror, name) == offsetof(struct kd_scene, name), "sections of scene.h");
-KD_SCENE_SECTIONS(SAME_PLACE)
-_Static_assert(sizeof(struct mirror) == sizeof(struct kd_scene), "sections of scene.h");
+#define OLD(n, list, i) { .name = #n, .section = #list, .index = i },
+const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT] = { KD_SCENE_OLD_NAMES(OLD) };
 
 const struct kd_section *kd_section_find(const char *section)
 {
@@ -57,9 +68,57 @@ const struct kd_field *kd_field_find(const char *section, const char *name)
     return NULL;
 }
 
-double kd_field_get(const struct kd_scene *scene, const struct kd_field *field)
+const struct kd_old_name *kd_old_name_find(const char *name)
 {
-    const void *at = (const char *)scene + field->offset;
+    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)
+        if (!strcmp(kd_old_names[i].name, name))
+            return &kd_old_names[i];
+    return NULL;
+}
+
+static size_t *size_of(struct kd_scene *scene, const struct kd_section *section)
+{
+    return (size_t *)(void *)((char *)scene + section->size_at);
+}
+
+size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section)
+{
+    return section->most ? *(const size_t *)(const void *)((const char *)scene + section->size_at) : 1;
+}
+
+void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index)
+{
+    for (size_t i = 0; i < section->count; i++)
+        kd_field_put(scene, &kd_fields[section->first + i], index, kd_fields[section->first + i].initial);
+}
+
+void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size)
+{
+    size_t old = *size_of(scene, section);
+    for (size_t i = old < size ? old : size; i < section->most; i++)
+        kd_section_reset(scene, section, i);
+    *size_of(scene, section) = size;
+}
+
+static bool is_initial(const struct kd_scene *scene, const struct kd_section *section, size_t index)
+{
+    for (size_t i = 0; i < section->count; i++)
+        if (kd_field_get(scene, &kd_fields[section->first + i], index) != kd_fields[section->first + i].initial)
+            return false;
+    return true;
+}
+
+void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least)
+{
+    size_t size = kd_section_size(scene, list);
+    while (size > least && is_initial(scene, list, size - 1))
+        size--;
+    kd_section_resize(scene, list, size);
+}
+
+double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index)
+{
+    const void *at = (const char *)scene + field->offset + index * field->stride;
     switch (field->kind) {
     case KD_FIELD_REAL:
     case KD_FIELD_WORD: return *(const double *)at;
@@ -70,9 +129,9 @@ double kd_field_get(const struct kd_scene *scene, const struct kd_field *field)
     return NAN;
 }
 
-void kd_field_put(struct kd_scene *scene, const struct kd_field *field, double value)
+void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value)
 {
-    void *at = (char *)scene + field->offset;
+    void *at = (char *)scene + field->offset + index * field->stride;
     switch (field->kind) {
     case KD_FIELD_REAL:
     case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0: equal scenes, equal text */
@@ -121,20 +180,32 @@ int kd_field_word_index(const struct kd_field *field, const char *text)
     return -1;
 }
 
-void kd_field_path(const struct kd_field *field, char out[KD_PATH_SIZE])
+/* Its section, the index in a list and its name, each but the first behind a mark. */
+static void spell(const struct kd_field *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
 {
-    snprintf(out, KD_PATH_SIZE, "%s%s%s", field->section, *field->section ? "." : "", field->name);
+    char element[24] = "";
+    if (field->stride)
+        snprintf(element, sizeof element, "%s%zu", mark, index);
+    snprintf(out, KD_PATH_SIZE, "%s%s%s%s", field->section, element, *field->section ? mark : "", field->name);
 }
 
-void kd_field_pointer(const struct kd_field *field, char out[KD_PATH_SIZE])
+void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE])
 {
-    snprintf(out, KD_PATH_SIZE, "%s%s/%s", *field->section ? "/" : "", field->section, field->name);
+    spell(field, index, ".", out);
+}
+
+void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE])
+{
+    char path[KD_PATH_SIZE];
+    spell(field, index, "/", path);
+    snprintf(out, KD_PATH_SIZE, "/%.*s", KD_PATH_SIZE - 2, path);
 }
 
 void kd_scene_defaults(struct kd_scene *scene)
 {
     /* Padding too, so that equal scenes are equal bytes. */
     memset(scene, 0, sizeof *scene);
-    for (size_t i = 0; i < KD_FIELD_COUNT; i++)
-        kd_field_put(scene, &kd_fields[i], kd_fields[i].initial);
+    for (size_t s = 0; s < KD_SECTION_COUNT; s++)
+        for (size_t i = 0; i < (kd_sections[s].most ? kd_sections[s].most : 1); i++)
+            kd_section_reset(scene, &kd_sections[s], i);
 }

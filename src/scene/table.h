@@ -11,7 +11,8 @@ struct kd_field {
     const char *section; /* "" for a member of the document itself */
     const char *name;
     enum kd_field_kind kind;
-    size_t offset; /* in struct kd_scene: double, int32_t (INT, ENUM) or bool */
+    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM) or bool */
+    size_t stride; /* from element to element of a list; 0 in a section that is none */
     double initial, minimum, maximum;
     const char *unit; /* "1": a pure number; "" for BOOL and ENUM */
     const char *help;
@@ -22,25 +23,56 @@ struct kd_section {
     const char *name; /* "" for the document itself: always the last */
     const char *help;
     size_t first, count; /* rows in kd_fields */
+    size_t most;         /* elements of a list; 0: this is none */
+    size_t size_at;      /* of a list: where struct kd_scene has the number of its elements, a size_t */
+};
+
+/* What an element of a list was called before. */
+struct kd_old_name {
+    const char *name, *section;
+    size_t index;
 };
 
 #define KD_ONE(...) +1
-#define KD_COUNT_ROWS(name, LIST, help) LIST(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
+#define KD_COUNT_ROWS(name, ROWS, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
+#define KD_COUNT_LIST_ROWS(name, element, ROWS, most, help) KD_COUNT_ROWS(name, ROWS, help)
 enum {
-    KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS),
-    KD_SECTION_COUNT = 0 KD_SCENE_SECTIONS(KD_ONE),
+    KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
+    KD_SECTION_COUNT = 0 KD_SCENE_SECTIONS(KD_ONE, KD_ONE),
+    KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
 };
 
+/* Elements of the longest list. */
+#define KD_NO_ROOM(name, ROWS, help)
+#define KD_ROOM(name, element, ROWS, most, help) char name[most];
+union kd_list_room {
+    char none[1];
+    KD_SCENE_SECTIONS(KD_NO_ROOM, KD_ROOM)
+};
+enum { KD_LIST_MOST = sizeof(union kd_list_room) };
+
+/* A list has its rows once. Whatever takes a field takes the index of the element beside it: 0 in a section that is no list. */
 extern const struct kd_field kd_fields[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
+extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
 /* NULL when there is none; "" is the document itself. Names are case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
 const struct kd_field *kd_field_find(const char *section, const char *name);
+const struct kd_old_name *kd_old_name_find(const char *name);
+
+/* Elements: those of a list, 1 of a section that is none. To resize takes what a list loses, and what it gains, to the defaults. */
+size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
+void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
+/* All fields of one element at their defaults. */
+void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index);
+/* Takes elements whose fields are all at their defaults from the end of a list, down to `least`. An old name of an element says no more of
+ * whether there is one. */
+void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
 /* Any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. */
-double kd_field_get(const struct kd_scene *scene, const struct kd_field *field);
-void kd_field_put(struct kd_scene *scene, const struct kd_field *field, double value);
+double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
+void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
 
 /* True if value may be stored in field: in range, whole where that is asked for, INFINITY for WORD alone. */
 bool kd_field_holds(const struct kd_field *field, double value);
@@ -54,9 +86,9 @@ int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
 int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: none of them */
 
-/* "camera.r" and "/camera/r"; "time" and "/time". */
+/* "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r". */
 enum { KD_PATH_SIZE = 80 };
-void kd_field_path(const struct kd_field *field, char out[KD_PATH_SIZE]);
-void kd_field_pointer(const struct kd_field *field, char out[KD_PATH_SIZE]);
+void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
+void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 
 #endif

@@ -101,17 +101,17 @@ static bool wants_number(const struct kd_field *field, const struct kd_value *va
     return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_INT;
 }
 
-enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field,
+enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field, size_t index,
                               const struct kd_value *value, struct kd_error *error)
 {
     double number = convert(field, value);
     if (kd_field_holds(field, number)) {
-        kd_field_put(scene, field, number);
+        kd_field_put(scene, field, index, number);
         return KD_OK;
     }
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
-    kd_field_path(field, path);
-    kd_field_pointer(field, pointer);
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
     kd_value_describe(value, given);
     kd_value_allowed(field, allowed);
     return kd_error_field(error, pointer, "%s is %s%s, allowed are %s", path, given,

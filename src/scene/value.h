@@ -21,7 +21,7 @@ struct kd_value {
 
 /* Store it, or KD_EINVAL with the pointer of the field, the value and what is allowed; *scene is then
  * unchanged. */
-enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field,
+enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
 
 /* The member "version": 1 and nothing else. */

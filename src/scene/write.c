@@ -50,14 +50,27 @@ void kd_write_value(struct kd_writer *writer, const struct kd_field *field, doub
     }
 }
 
-static void write_fields(struct kd_writer *writer, const struct kd_section *section,
-                         const struct kd_scene *scene)
+static void write_fields(struct kd_writer *writer, const struct kd_section *section, size_t index, const struct kd_scene *scene)
 {
     for (size_t i = 0; i < section->count; i++) {
         const struct kd_field *field = &kd_fields[section->first + i];
         kd_write(writer, "%s\"%s\":", i ? "," : "", field->name);
-        kd_write_value(writer, field, kd_field_get(scene, field));
+        kd_write_value(writer, field, kd_field_get(scene, field, index));
     }
+}
+
+static void write_section(struct kd_writer *writer, const struct kd_section *section, const struct kd_scene *scene)
+{
+    size_t size = kd_section_size(scene, section);
+    if (section->most && size > section->most)
+        writer->status = writer->status ? writer->status : KD_EINVAL;
+    kd_write(writer, ",\"%s\":%s", section->name, section->most ? "[" : "");
+    for (size_t i = 0; i < size && !writer->status; i++) {
+        kd_write(writer, "%s{", i ? "," : "");
+        write_fields(writer, section, i, scene);
+        kd_write(writer, "}");
+    }
+    kd_write(writer, "%s", section->most ? "]" : "");
 }
 
 enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out)
@@ -66,13 +79,12 @@ enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *
     kd_write(&writer, "{\"version\":%d", KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         const struct kd_section *section = &kd_sections[i];
-        if (*section->name)
-            kd_write(&writer, ",\"%s\":{", section->name);
-        else
-            kd_write(&writer, ",");
-        write_fields(&writer, section, scene);
-        if (*section->name)
-            kd_write(&writer, "}");
+        if (*section->name) {
+            write_section(&writer, section, scene);
+            continue;
+        }
+        kd_write(&writer, ",");
+        write_fields(&writer, section, 0, scene);
     }
     kd_write(&writer, "}");
     return writer.status;

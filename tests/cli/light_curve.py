@@ -53,7 +53,8 @@ class LightCurve(Case):
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr.decode())
         self.bad(2, "areas of the ring projection are not to scale", "light-curve", "--preset", "photon-rings", "--end", "1")
-        self.bad(2, "spot2.r is 2 M, allowed is at least", "light-curve", "--set", "spot2.brightness=1", "--set", "spot2.r=2")
+        self.bad(2, "spots.1.r is 2 M, allowed is at least", "light-curve", "--set", "spot2.brightness=1", "--set", "spot2.r=2")
+        self.bad(2, "there is no spots.1: the list has 0 elements, and the next free index is 0", "light-curve", "--set", "spots.1.r=9")
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ static void against_many_rays(void **state)
         { "before a sky", 3, FAST "," NEAR ",\"sky\":{\"model\":\"grid\",\"brightness\":1}" },
         { "particles", -1, NEAR ",\"disk\":{\"model\":\"particles\",\"plunging\":0.3}" },
         { "a spot and slow light", -1.5, "\"camera\":{\"inclination_deg\":60,\"field_m\":30},\"disk\":{\"slow_light\":true},"
-                                   "\"spot1\":{\"brightness\":2,\"r\":8,\"size\":2}" },
+                                   "\"spots\":[{\"brightness\":2,\"r\":8,\"size\":2}]" },
         { "double precision", -1, NEAR ",\"accuracy\":{\"precision\":\"f64\",\"engine\":\"closed\"}" },
     };
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {

@@ -38,7 +38,8 @@ static struct kd_scene scene_of(int k)
     if (k == 2) {
         scene.disk.model = KD_DISK_PARTICLES;
         scene.disk.particles = 20000;
-        scene.spot1.brightness = 3;
+        scene.spots.count = 1;
+        scene.spots.at[0].brightness = 3;
     }
     return scene;
 }

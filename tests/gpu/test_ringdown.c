@@ -147,7 +147,8 @@ static void test_lumps(void **state)
         struct kd_scene scene = scene_of(0.95);
         scene.disk.model = k < 2 ? KD_DISK_PARTICLES : KD_DISK_NONE;
         scene.style.exposure = -5;
-        scene.spot1.brightness = k < 2 ? 0 : 10;
+        scene.spots.count = 1;
+        scene.spots.at[0].brightness = k < 2 ? 0 : 10;
         scene.disk.slow_light = slow;
         scene.image.width = slow ? 48 : 96;
         scene.image.height = slow ? 32 : 64;

@@ -17,7 +17,8 @@ static struct kd_scene spot_scene(double spin, double inclination)
     scene.camera.inclination_deg = inclination;
     scene.camera.field_m = 40;
     scene.disk.model = KD_DISK_NONE;
-    scene.spot1.brightness = 1;
+    scene.spots.count = 1;
+    scene.spots.at[0].brightness = 1;
     scene.style.exposure = 0;
     return scene;
 }
@@ -134,7 +135,7 @@ static void oracle_finish(struct oracle *o)
 static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k,
                              double isco)
 {
-    const struct kd_spot *spot = &scene->spot1;
+    const struct kd_spot *spot = &scene->spots.at[0];
     double a = scene->spacetime.spin, r = path->r[k], phi = path->phi[k] + scene->camera.azimuth_deg * M_PI / 180;
     if (r < isco)
         return 0;
@@ -195,10 +196,10 @@ static void test_oracle(void **state)
         scene.accuracy.orders = ORDERS;
         scene.accuracy.profile = KD_PROFILE_HIGH;
         scene.camera.azimuth_deg = 77;
-        scene.spot1.r = 8;
-        scene.spot1.size = 1.7;
-        scene.spot1.index = 0.6;
-        scene.spot1.phase_deg = -50;
+        scene.spots.at[0].r = 8;
+        scene.spots.at[0].size = 1.7;
+        scene.spots.at[0].index = 0.6;
+        scene.spots.at[0].phase_deg = -50;
         struct oracle o = trace(&scene);
         for (int k = 0; k < 10; k++) {
             scene.top.time = 1000 + 31.7 * k;
@@ -227,11 +228,11 @@ static void test_far_out(void **state)
         double r = radii[k];
         for (int quarter = 0; quarter < 4; quarter++) {
             struct kd_scene scene = spot_scene(0, 0);
-            scene.spot1.r = r;
-            scene.spot1.size = 2;
-            scene.spot1.index = 2;
-            scene.spot1.brightness = 3;
-            scene.spot1.phase_deg = 90 * quarter;
+            scene.spots.at[0].r = r;
+            scene.spots.at[0].size = 2;
+            scene.spots.at[0].index = 2;
+            scene.spots.at[0].brightness = 3;
+            scene.spots.at[0].phase_deg = 90 * quarter;
             scene.camera.azimuth_deg = 10;
             double phi = (90 * quarter - 10) * M_PI / 180;
             scene.camera.centre_alpha = round((r + 1) * sin(phi)); /* phi = 0 is nearest to the observer: beta < 0 */
@@ -269,7 +270,7 @@ static void test_period(void **state)
         struct kd_scene scene = spot_scene(spins[k], 25);
         scene.image.width = 120;
         scene.image.height = 90;
-        scene.spot1.r = 9;
+        scene.spots.at[0].r = 9;
         scene.accuracy.orders = 1;
         double expected = 2 * M_PI * (27 + spins[k]), step = expected / 80;
         double first = upward(&scene, 0.1, step), second = upward(&scene, first + 0.6 * expected, step);
@@ -292,9 +293,9 @@ static void test_slow_light(void **state)
         scene.image.width = 400;
         scene.image.height = 300;
         scene.camera.field_m = 30;
-        scene.spot1.r = 10;
-        scene.spot1.size = 0.25;
-        scene.spot1.phase_deg = 45 * k;
+        scene.spots.at[0].r = 10;
+        scene.spots.at[0].size = 0.25;
+        scene.spots.at[0].phase_deg = 45 * k;
         scene.accuracy.orders = 1;
         struct kd_light_report fast = light(&scene);
         struct ks_path path = ks_trace(ks_from_infinity(0.5, cos(70 * M_PI / 180), fast.spots.x, fast.spots.y), 1);
@@ -325,17 +326,18 @@ static void test_parts(void **state)
         scene.disk.model = gas == 3 ? KD_DISK_PARTICLES : gas ? KD_DISK_NOVIKOV_THORNE : KD_DISK_NONE;
         scene.disk.opacity = gas == 2 ? 1 : 0.5;
         scene.disk.particles = 20000;
-        struct kd_spot one = scene.spot1, two = one, three = one;
+        struct kd_spot one = scene.spots.at[0], two = one, three = one;
         two.r = 6, two.phase_deg = 130, two.index = -1, two.brightness = 0.2, two.temperature_k = 3000;
         three.r = 14, three.phase_deg = 250, three.size = 3, three.brightness = 0.5;
-        scene.spot2 = two, scene.spot3 = three;
+        scene.spots.count = 3;
+        scene.spots.at[1] = two, scene.spots.at[2] = three;
         struct kd_light_report all = light(&scene), parts[3];
         for (int k = 0; k < 3; k++) {
-            scene.spot1 = k == 0 ? one : k == 1 ? two : three;
-            scene.spot2.brightness = scene.spot3.brightness = 0;
+            scene.spots.at[0] = k == 0 ? one : k == 1 ? two : three;
+            scene.spots.at[1].brightness = scene.spots.at[2].brightness = 0;
             parts[k] = light(&scene);
         }
-        scene.spot1.brightness = 1e-30; /* measured, and not seen */
+        scene.spots.at[0].brightness = 1e-30; /* measured, and not seen */
         double disk = light(&scene).all.flux, sum = parts[0].spots.flux + parts[1].spots.flux + parts[2].spots.flux;
         off(all.spots.flux, sum, sum, 1e-6, "three spots");
         off(all.all.flux, disk + sum, disk + sum, 2e-6, "spots and disk");
@@ -347,20 +349,47 @@ static void test_parts(void **state)
     }
 }
 
+/* As many as a scene may have, whatever their places in the list: their light is the sum of theirs, and dark ones between them are not there
+ * at all. */
+static void test_many(void **state)
+{
+    (void)state;
+    struct kd_scene scene = spot_scene(0.6, 65), single = scene;
+    double sum = 0, x = 0;
+    scene.spots.count = KD_SPOTS;
+    for (int k = 0; k < KD_SPOTS; k++) {
+        struct kd_spot spot = { .brightness = 0.2 + 0.1 * k, .r = 5 + 0.7 * k, .phase_deg = 133 * k % 360, .size = 0.5 + 0.1 * (k % 4),
+                                .index = k % 3 - 1, .temperature_k = 4000 + 500 * k };
+        if (k == 0 || k == 7)
+            spot.brightness = 0;
+        scene.spots.at[k] = single.spots.at[0] = spot;
+        if (spot.brightness == 0)
+            continue;
+        struct kd_light_report alone = light(&single);
+        sum += alone.spots.flux;
+        x += alone.spots.flux * alone.spots.x;
+    }
+    struct kd_plan plan = plan_of(&scene, 0);
+    assert_int_equal(plan.spots, KD_SPOTS - 2);
+    struct kd_light_report all = light(&scene);
+    off(all.spots.flux, sum, sum, 1e-6, "fourteen spots");
+    off(all.spots.x, x / sum, 10, 1e-6, "their centroid");
+}
+
 /* Only the difference of azimuths counts, on either side of each seam; the picture's aim does not. */
 static void test_seams(void **state)
 {
     (void)state;
     struct kd_scene scene = spot_scene(0.9, 40);
-    scene.spot1.size = 2;
+    scene.spots.at[0].size = 2;
     struct kd_light_report first = light(&scene);
     static const double turns[] = { 90, 180, -180, 359.9, 360, -360, -0.001 };
     for (size_t k = 0; k < sizeof turns / sizeof *turns; k++) {
-        scene.spot1.phase_deg = scene.camera.azimuth_deg = turns[k];
+        scene.spots.at[0].phase_deg = scene.camera.azimuth_deg = turns[k];
         struct kd_light_report other = light(&scene);
         same_light(&other.spots, &first.spots, 3e-6, "turned as one");
     }
-    scene.camera.azimuth_deg = scene.spot1.phase_deg = 0;
+    scene.camera.azimuth_deg = scene.spots.at[0].phase_deg = 0;
     scene.image.width = scene.image.height = 240;
     scene.camera.roll_deg = 33;
     scene.camera.centre_alpha = 3;
@@ -419,9 +448,10 @@ static void test_plans(void **state)
     assert_false(reused);
     struct kd_scene others[5] = { scene, scene, scene, scene, scene };
     others[0].top.time = 1e5;
-    others[1].spot1.phase_deg = 40;
+    others[1].spots.at[0].phase_deg = 40;
     others[2].camera.azimuth_deg = -100;
-    others[3].spot2 = scene.spot1, others[3].spot2.r = 20;
+    others[3].spots.count = 2;
+    others[3].spots.at[1] = scene.spots.at[0], others[3].spots.at[1].r = 20;
     others[4].disk.model = KD_DISK_NOVIKOV_THORNE;
     for (int k = 0; k < 5; k++) {
         plan = plan_of(&others[k], 0);
@@ -431,13 +461,13 @@ static void test_plans(void **state)
     scene.disk.model = KD_DISK_NOVIKOV_THORNE;
     plan = plan_of(&scene, 0);
     assert_true(plan.phi && plan.light && plan.spots == 1);
-    scene.spot1.brightness = 0;
+    scene.spots.at[0].brightness = 0;
     plan = plan_of(&scene, 0);
     assert_true(!plan.phi && !plan.light && !plan.spots && !plan.delay && plan.planes == plan.orders);
     scene.disk.slow_light = true; /* of what? */
     plan = plan_of(&scene, 0);
     assert_false(plan.delay);
-    scene.spot1.brightness = 1;
+    scene.spots.at[0].brightness = 1;
     plan = plan_of(&scene, 0);
     assert_true(plan.delay);
 }
@@ -446,7 +476,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_oracle),     cmocka_unit_test(test_far_out), cmocka_unit_test(test_period),
-        cmocka_unit_test(test_slow_light), cmocka_unit_test(test_parts),   cmocka_unit_test(test_seams),
+        cmocka_unit_test(test_slow_light), cmocka_unit_test(test_parts),   cmocka_unit_test(test_many),    cmocka_unit_test(test_seams),
         cmocka_unit_test(test_resolution), cmocka_unit_test(test_plans),
     };
     int code = open_renderer();

@@ -25,6 +25,9 @@ class Scenes(daemon.Case):
                 ('{"image":{"width":1.5}}', '/image/width'), ('{"image":{"width":"64"}}', '/image/width'),
                 ('{"camera":{"nothing":1}}', '/camera/nothing'), ('{"nothing":1}', '/nothing'),
                 ('{"camera":3}', '/camera'), ('{"time":1,"time":2}', '/time'), ('{"version":2}', '/version'),
+                ('{"spots":[{},{},{},{"r":0}]}', '/spots/3/r'), ('{"spots":' + json.dumps([{}] * 17) + '}', '/spots/16'),
+                ('{"spots":[{"brightness":1},{"brightness":1,"r":1}]}', '/spots/1/r'), ('{"spots":{"1":{}}}', '/spots/1'),
+                ('{"spots":[],"spot1":{}}', '/spot1'),
                 ('{"disk":{"model":"cardboard"}}', '/disk/model'), (json.dumps(far), None),
                 (json.dumps(ergosphere), None), ('{"image":{"bit_depth":12}}', '/image/bit_depth')):
             with self.subTest(body):
@@ -41,6 +44,8 @@ class Scenes(daemon.Case):
                                ('camera.r=10&camera.r=11', '/camera/r'), ('preset=a&preset=b', '/preset'),
                                ('preset=nobody', '/preset'), ('camera.r', '/camera/r'), ('camera.r=', '/camera/r'),
                                ('camera.r=1x', '/camera/r'), ('camera.r=nan', '/camera/r'), ('=1', '/'),
+                               ('spots.0.r=9&spots.2.r=9', '/spots/2'), ('spots.0=9', '/spots/0'), ('spots.r=9', '/spots/r'),
+                               ('spots.0.r=9&spot1.r=9', '/spot1/r'), ('spot2.r=9&spots.1.r=9', '/spots/1/r'),
                                ('spacetime.spin=1.0000001', '/spacetime/spin'), ('camera=1', '/camera'),
                                ('a/b~c.d=1', '/a~1b~0c/d'), ('%C3%A9=1', '/\u00e9')):
             with self.subTest(query):
@@ -63,6 +68,8 @@ class Scenes(daemon.Case):
         fields = [p for p in self.daemon.get('/openapi.json').json()['paths']['/v1/render']['get']['parameters']
                   if p['schema'].get('type') == 'number' and 'default' in p['schema']]
         self.assertGreater(len(fields), 40)
+        self.assertIn('spots.15.r', [p['name'] for p in fields])
+        self.assertNotIn('spot1.r', [p['name'] for p in fields], 'old names are read, and not offered')
         query = '&'.join(f'{p["name"]}={p["schema"]["default"]}' for p in fields) + '&' + daemon.SMALL
         self.assertEqual(self.daemon.get(f'{RENDER}?{query}').status, 200)
         answer = self.daemon.get(f'{RENDER}?' + '&'.join(f'x{i}=1' for i in range(256)))

@@ -118,6 +118,17 @@ class Jobs(Case):
         self.assertEqual([s['sky']['model'] for s in scenes], ['none'] * 4 + ['grid'] * 5)
         self.assertEqual([s['style']['exposure'] for s in scenes], ['auto'] * 4 + [1] * 5)  # a word steps, too
 
+    def test_keyframes_of_a_list(self):
+        """An element that one of two keyframes lacks is at its defaults there; all of this by its index, whole, or by an old name."""
+        for second, third in (({'spots': {'0': {'r': 16}, '1': {'brightness': 2, 'r': 12}}}, {'spots': []}),
+                              ({'spots': [{'brightness': 4, 'r': 16}, {'brightness': 2, 'r': 12}]}, {'spots': None}),
+                              ({'spot1': {'r': 16}, 'spot2': {'brightness': 2, 'r': 12}}, {'spots': []})):
+            job = self.make({'scene': {'image': IMAGE, 'spots': [{'brightness': 4, 'r': 8}]},
+                             'keyframes': [{'frame': 4, 'scene': second}, {'frame': 6, 'scene': third}]})
+            lists = [[(s['brightness'], s['r']) for s in scene_of(png)['spots']] for png in self.frames(job).values()]
+            self.assertEqual(lists, [[(4, 8)], [(4, 10), (0.5, 9.75)], [(4, 12), (1, 10.5)], [(4, 14), (1.5, 11.25)], [(4, 16), (2, 12)],
+                                     [(2, 12.5), (1, 10.5)], []])
+
     def test_preset(self):
         face_on = self.daemon.get('/v1/presets/face-on').json()['camera']['inclination_deg']
         job = self.make({'scenes': [{'image': IMAGE}, {'image': IMAGE, 'camera': {'inclination_deg': 33}}]}, query='?preset=face-on')
@@ -358,6 +369,7 @@ class Jobs(Case):
                 ({'scene': {}, 'keyframes': [{**key, 'frame': 10000}]}, 422, '/keyframes/0/frame'),
                 ({'scene': {}, 'keyframes': [{**key, 'y': 1}]}, 422, '/keyframes/0/y'),
                 ({'scene': {}, 'keyframes': [{'frame': 2, 'scene': {'camera': {'x': 1}}}]}, 422, '/keyframes/0/scene/camera/x'),
+                ({'scene': {}, 'keyframes': [{'frame': 2, 'scene': {'spots': [{}, {'r': 0}]}}]}, 422, '/keyframes/0/scene/spots/1/r'),
                 ({'scene': {}, 'keyframes': [key], 'frames': 3}, 422, '/frames'), ({'scene': {}, 'keyframes': [key], 'frames': 10001}, 422, '/frames'),
                 ({'scene': {}, 'keyframes': [key], 'interpolation': 'cubic'}, 422, '/interpolation'),
                 ({'scene': {}, 'output': 'curve'}, 422, '/output'), ({'scenes': [{}], 'output': 1}, 422, '/output'),

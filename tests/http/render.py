@@ -51,6 +51,23 @@ class Render(daemon.Case):
         self.assertEqual(by_query.header('ETag'), by_body.header('ETag'))
         self.assertEqual(by_query.body, by_body.body)
 
+    def test_lists(self):
+        """A list by its elements in a query, as an array and as an object in a body, and by the names that its elements once had."""
+        image = {'image': {'width': 64, 'height': 36}}
+        answers = [self.daemon.get(RENDER + '&spots.0.r=12&spots.1.brightness=2&spots.0.brightness=3'),
+                   self.daemon.get(RENDER + '&spot2.brightness=2&spot1.brightness=3&spot1.r=12'),
+                   self.daemon.post('/v1/render', {**image, 'spots': [{'r': 12, 'brightness': 3}, {'brightness': 2}]}),
+                   self.daemon.post('/v1/render', {**image, 'spots': {'1': {'brightness': 2}, '0': {'r': 12, 'brightness': 3}}}),
+                   self.daemon.post('/v1/render', {**image, 'spot2': {'brightness': 2}, 'spot1': {'r': 12, 'brightness': 3}, 'spot3': {}})]
+        self.assertEqual([a.status for a in answers], [200] * 5)
+        self.assertEqual(len({a.header('Kerrd-Scene-Hash') for a in answers}), 1)
+        one = self.daemon.post('/v1/render', {**image, 'spots': [{'r': 12, 'brightness': 3}]})
+        self.assertNotEqual(one.header('Kerrd-Scene-Hash'), answers[0].header('Kerrd-Scene-Hash'))
+        spots = lambda scene: self.daemon.post('/v1/sessions?preset=hot-spot', {**image, **scene}).json()['scene']['spots']
+        preset = spots({})[0]
+        self.assertEqual(spots({'spots': {'0': {'r': 11}}}), [{**preset, 'r': 11}], 'an object changes what the preset says')
+        self.assertEqual(spots({'spots': [{'r': 11}]}), [{**preset, 'r': 11, 'brightness': 0, 'size': 1}], 'an array takes its place')
+
     def test_the_lens_map_is_reused(self):
         first = self.daemon.get(RENDER + '&spacetime.spin=0.123')
         again = self.daemon.get(RENDER + '&spacetime.spin=0.123')

@@ -74,6 +74,25 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)['revision'], 3)
         self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
 
+    def test_patch_of_a_list(self):
+        """RFC 7396 puts an array in the place of the whole one; an object changes elements by their index."""
+        session = self.open({**SCENE, 'spots': [{'r': 10}, {'r': 11, 'size': 2}]})
+
+        def after(patch):
+            return [(s['r'], s['size']) for s in self.patch(session, patch).json()['scene']['spots']]
+        self.assertEqual(after({'time': 6}), [(10, 1), (11, 2)])
+        self.assertEqual(after({'spots': {'1': {'r': 12}}}), [(10, 1), (12, 2)])
+        self.assertEqual(after({'spots': {'0': {'r': None}, '2': {'size': 3}}}), [(9, 1), (12, 2), (9, 3)])
+        self.assertEqual(after({'spots': {'1': None}}), [(9, 1), (9, 1), (9, 3)])
+        self.assertEqual(after({'spot3': {'r': 14}, 'spot1': {'r': 13}}), [(13, 1), (9, 1), (14, 3)])
+        self.assertEqual(after({'spots': [{'size': 4}]}), [(9, 4)])
+        self.assertEqual(after({'spots': None}), [])
+        for patch, pointer in (({'spots': {'1': {}}}, '/spots/1'), ({'spots': [{'r': None}]}, '/spots/0/r'), ({'spots': [{}, None]}, '/spots/1'),
+                               ({'spots': {'x': None}}, '/spots/x')):
+            problem = self.assertProblem(self.patch(session, patch), 422)
+            self.assertEqual(problem['pointer'], pointer)
+        self.assertEqual(self.status(session)['scene']['spots'], [])
+
     def strike(self, session, body=None, **headers):
         headers = {**self.owner(session), **headers, **({'Content-Type': 'application/json'} if body is not None else {})}
         return self.daemon.request('POST', self.at(session, '/ringdown'), body, headers)

@@ -119,6 +119,28 @@ static const struct bad fields[] = {
     { "{\"style\":{\"ringdown\":1.5}}", "/style/ringdown", "style.ringdown is 1.5, allowed are 0 to 1" },
     { "{\"style\":{\"ringdown\":true}}", "/style/ringdown", "style.ringdown is true" },
     { "{\"style\":{\"ringdown_time\":1e13}}", "/style/ringdown_time", "allowed are -1000000000000 to 1000000000000 M" },
+    { "{\"spots\":5}", "/spots", "spots is 5, allowed is an array of up to 16 objects with fields" },
+    { "{\"spots\":null}", "/spots", "spots is null, allowed is an array" },
+    { "{\"spots\":[5]}", "/spots/0", "spots.0 is 5, allowed is an object with fields" },
+    { "{\"spots\":[{},null]}", "/spots/1", "spots.1 is null, allowed is an object with fields" },
+    { "{\"spots\":[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]}", "/spots/16", "spots has 17 elements, allowed are at most 16" },
+    { "{\"spots\":[{},{},{},{\"r\":0.5}]}", "/spots/3/r", "spots.3.r is 0.5, allowed are 1 to 1000000 M" },
+    { "{\"spots\":[{},{\"r\":2,\"r\":2}]}", "/spots/1/r", "spots.1.r is given twice" },
+    { "{\"spots\":[{},{\"q\":2}]}", "/spots/1/q", "unknown field spots.1.q" },
+    { "{\"spots\":[{},{\"brightnes\":2}]}", "/spots/1/brightnes", "did you mean spots.1.brightness?" },
+    { "{\"spots\":[],\"spots\":[]}", "/spots", "spots is given twice" },
+    { "{\"spots\":{\"r\":9}}", "/spots/r", "there is no spots.r: spots is a list, whose elements are spots.0 to spots.15" },
+    { "{\"spots\":{\"0\":{},\"0\":{}}}", "/spots/0", "spots.0 is given twice" },
+    { "{\"spots\":{\"0\":{},\"3\":{},\"1\":{}}}", "/spots/3", "there is no spots.3: the list has 2 elements, and the next free index is 2" },
+    { "{\"spots\":{\"16\":{}}}", "/spots/16", "there is no spots.16" },
+    { "{\"spots\":{\"01\":{}}}", "/spots/01", "there is no spots.01" },
+    { "{\"spots\":{\"0\":null}}", "/spots/0", "spots.0 is null, allowed is an object with fields" },
+    { "{\"spot1\":null}", "/spots/0", "spots.0 is null" },
+    { "{\"spot2\":{\"r\":0}}", "/spots/1/r", "spots.1.r is 0, allowed are 1 to 1000000 M" },
+    { "{\"spot2\":{},\"spot2\":{}}", "/spot2", "spot2 is given twice" },
+    { "{\"spots\":[],\"spot2\":{}}", "/spot2", "spot2 is an old name of spots.1, and spots is given too; allowed is one of them" },
+    { "{\"spot2\":{},\"spots\":{\"0\":{}}}", "/spot2", "spot2 is an old name of spots.1" },
+    { "{\"spot4\":{}}", "/spot4", "did you mean spots?" },
     { "{\"style\":{\"dither\":1}}", "/style/dither", "style.dither is 1, allowed are true and false" },
 };
 
@@ -226,6 +248,10 @@ static size_t mutate(char *text, size_t length, size_t capacity, uint64_t *seed)
                                           "\xff",
                                           "\"camera\":{",
                                           "\"r\":1",
+                                          "\"spots\":[",
+                                          "\"spots\":{\"0\":{",
+                                          "\"spot2\":{",
+                                          "},{",
                                           "0.5",
                                           "true",
                                           "\"infinity\"",
@@ -274,8 +300,13 @@ static void random_damage_is_harmless(void **state)
             assert_memory_equal(&target, &before, sizeof before);
         } else {
             accepted++; /* a changed digit, say: then it is a scene like any other */
-            for (size_t f = 0; f < KD_FIELD_COUNT; f++)
-                assert_true(kd_field_holds(&kd_fields[f], kd_field_get(&target, &kd_fields[f])));
+            for (size_t s = 0; s < KD_SECTION_COUNT; s++) {
+                const struct kd_section *section = &kd_sections[s];
+                assert_true(!section->most || kd_section_size(&target, section) <= section->most);
+                for (size_t index = 0; index < (section->most ? section->most : 1); index++)
+                    for (size_t f = section->first; f < section->first + section->count; f++)
+                        assert_true(kd_field_holds(&kd_fields[f], kd_field_get(&target, &kd_fields[f], index)));
+            }
         }
         free(text);
         free(good);

@@ -16,8 +16,8 @@ static void expect(const struct kd_field *field, const char *json, const char *t
     kd_scene_defaults(&a);
     b = before = a;
     support_document(document, field, json);
-    kd_field_path(field, path);
-    kd_field_pointer(field, pointer);
+    kd_field_path(field, 0, path);
+    kd_field_pointer(field, 0, pointer);
     for (int way = 0; way < 2; way++) {
         struct kd_scene *scene = way ? &b : &a;
         memset(&error, 0, sizeof error);
@@ -26,7 +26,7 @@ static void expect(const struct kd_field *field, const char *json, const char *t
         if ((status == KD_OK) != accepted)
             fail_msg("%s = %s by way %d: status %d, %s", path, json, way, status, error.message);
         if (accepted) {
-            assert_true(kd_field_get(scene, field) == stored);
+            assert_true(kd_field_get(scene, field, 0) == stored);
         } else {
             assert_int_equal(status, KD_EINVAL);
             assert_string_equal(error.pointer, pointer);
@@ -169,6 +169,23 @@ static void set_names_unknown_paths(void **state)
         { "camera.r.x", "/camera/r.x", "unknown field camera.r.x" },
         { "zzzzzzzz", "/zzzzzzzz", "known are spacetime, camera" },
         { "a/b.c~d", "/a~1b/c~0d", "unknown field" },
+        { "spots", "/spots", "spots is a list; name a field of one of its elements, as in spots.0.brightness" },
+        { "spots.0", "/spots/0", "spots.0 is an element; name one of its fields, as in spots.0.brightness" },
+        { "spots.15", "/spots/15", "as in spots.15.brightness" },
+        { "spot2", "/spots/1", "as in spots.1.brightness" },
+        { "spots.", "/spots/", "whose elements are spots.0 to spots.15" },
+        { "spots.r", "/spots/r", "there is no spots.r: spots is a list, whose elements are spots.0 to spots.15" },
+        { "spots.16.r", "/spots/16", "whose elements are spots.0 to spots.15" },
+        { "spots.-1.r", "/spots/-1", "there is no spots.-1" },
+        { "spots.00.r", "/spots/00", "there is no spots.00" },
+        { "spots.4294967296.r", "/spots/4294967296", "there is no spots.4294967296" },
+        { "spots.18446744073709551616.r", "/spots/18446744073709551616", "there is no" },
+        { "spots.1.r", "/spots/1", "there is no spots.1: the list has 0 elements, and the next free index is 0" },
+        { "spots.0.q", "/spots/0/q", "unknown field spots.0.q" },
+        { "spots.0.brightnes", "/spots/0/brightnes", "did you mean spots.0.brightness?" },
+        { "spot3.brightnes", "/spots/2/brightnes", "did you mean spots.2.brightness?" },
+        { "spots.0.r.x", "/spots/0/r.x", "unknown field spots.0.r.x" },
+        { "spot4.r", "/spot4/r", "did you mean spots.0.r?" },
         { "camera.\x1b[31m\xff", "/camera/\x1b[31m\xff", "camera.?[31m?" },
     };
     struct kd_scene scene, before;
@@ -207,12 +224,17 @@ static void schema_names_each_field(void **state)
     assert_non_null(schema);
     const cJSON *root = cJSON_GetObjectItemCaseSensitive(schema, "properties");
     assert_int_equal(cJSON_GetArraySize(root),
-                     1 + KD_SECTION_COUNT - 1 + kd_sections[KD_SECTION_COUNT - 1].count);
+                     1 + KD_SECTION_COUNT - 1 + kd_sections[KD_SECTION_COUNT - 1].count + KD_OLD_NAME_COUNT);
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
         const cJSON *home = root;
         if (*field->section) {
             const cJSON *section = cJSON_GetObjectItemCaseSensitive(root, field->section);
+            if (field->stride) {
+                assert_string_equal(cJSON_GetObjectItemCaseSensitive(section, "type")->valuestring, "array");
+                assert_int_equal(cJSON_GetObjectItemCaseSensitive(section, "maxItems")->valuedouble, kd_section_find(field->section)->most);
+                section = cJSON_GetObjectItemCaseSensitive(section, "items");
+            }
             assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(section, "additionalProperties")));
             home = cJSON_GetObjectItemCaseSensitive(section, "properties");
         }
@@ -222,6 +244,13 @@ static void schema_names_each_field(void **state)
         assert_non_null(cJSON_GetObjectItemCaseSensitive(row, "default"));
         if (field->kind == KD_FIELD_REAL)
             assert_true(cJSON_GetObjectItemCaseSensitive(row, "maximum")->valuedouble == field->maximum);
+    }
+    for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++) {
+        const cJSON *old = cJSON_GetObjectItemCaseSensitive(root, kd_old_names[i].name);
+        const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, kd_old_names[i].section);
+        assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(old, "deprecated")));
+        assert_true(cJSON_Compare(cJSON_GetObjectItemCaseSensitive(old, "properties"),
+                                  cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(list, "items"), "properties"), true));
     }
     cJSON_Delete(schema);
     kd_buffer_finish(&text);

@@ -14,10 +14,15 @@ static void assert_round_trip(const struct kd_scene *scene)
     if (support_parse(&back, text, &error))
         fail_msg("%s: %s in %s", error.pointer, error.message, text);
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        double a = kd_field_get(scene, &kd_fields[i]), b = kd_field_get(&back, &kd_fields[i]);
-        if (memcmp(&a, &b, sizeof a))
-            fail_msg("%s.%s: %a became %a", kd_fields[i].section, kd_fields[i].name, a, b);
+        const struct kd_section *section = kd_section_find(kd_fields[i].section);
+        assert_int_equal(kd_section_size(scene, section), kd_section_size(&back, section));
+        for (size_t index = 0; index < kd_section_size(scene, section); index++) {
+            double a = kd_field_get(scene, &kd_fields[i], index), b = kd_field_get(&back, &kd_fields[i], index);
+            if (memcmp(&a, &b, sizeof a))
+                fail_msg("%s.%zu.%s: %a became %a", kd_fields[i].section, index, kd_fields[i].name, a, b);
+        }
     }
+    assert_memory_equal(scene, &back, sizeof back);
     char *again = support_canonical(&back);
     assert_string_equal(text, again);
     free(text);
@@ -89,6 +94,136 @@ static void patches(void **state)
     assert_int_equal(support_parse(&scene, "{\"time\":null}", NULL), KD_EINVAL); /* a document has no null */
 }
 
+static struct kd_scene of(const char *text)
+{
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    kd_scene_defaults(&scene);
+    if (support_parse(&scene, text, &error))
+        fail_msg("%s: %s %s", text, error.pointer, error.message);
+    return scene;
+}
+
+static void patched(struct kd_scene *scene, const char *text)
+{
+    struct kd_error error = { 0 };
+    if (kd_scene_patch(scene, text, strlen(text), &error))
+        fail_msg("%s: %s %s", text, error.pointer, error.message);
+}
+
+static void expect_spots(const struct kd_scene *scene, size_t count, const double *radii)
+{
+    assert_int_equal(scene->spots.count, count);
+    for (size_t i = 0; i < count; i++)
+        assert_true(scene->spots.at[i].r == radii[i]);
+    for (size_t i = count; i < KD_SPOTS; i++) /* beyond the list nothing is left of what was there */
+        assert_true(scene->spots.at[i].r == 9 && scene->spots.at[i].brightness == 0);
+}
+
+/* An array is the whole list, and what its objects do not name is at its default; an object names elements by their index. */
+static void lists_merge(void **state)
+{
+    (void)state;
+    struct kd_scene scene = of("{\"spots\":[{\"r\":10,\"brightness\":1},{\"r\":11},{}]}");
+    expect_spots(&scene, 3, (double[]) { 10, 11, 9 });
+    assert_int_equal(support_parse(&scene, "{\"spots\":{\"3\":{\"r\":13},\"1\":{\"size\":2},\"4\":{\"r\":14}}}", NULL), KD_OK);
+    expect_spots(&scene, 5, (double[]) { 10, 11, 9, 13, 14 });
+    assert_true(scene.spots.at[0].brightness == 1 && scene.spots.at[1].size == 2);
+    assert_int_equal(support_parse(&scene, "{\"spots\":{}}", NULL), KD_OK);
+    assert_int_equal(scene.spots.count, 5);
+    assert_int_equal(support_parse(&scene, "{\"spots\":[{\"size\":3},{\"r\":20}]}", NULL), KD_OK);
+    expect_spots(&scene, 2, (double[]) { 9, 20 });
+    assert_true(scene.spots.at[0].brightness == 0 && scene.spots.at[0].size == 3 && scene.spots.at[1].size == 1);
+    patched(&scene, "{\"spots\":{\"0\":{\"size\":null,\"r\":12},\"1\":null,\"2\":null}}");
+    expect_spots(&scene, 2, (double[]) { 12, 9 });
+    assert_true(scene.spots.at[0].size == 1);
+    patched(&scene, "{\"spots\":[{\"r\":30}]}");
+    expect_spots(&scene, 1, (double[]) { 30 });
+    patched(&scene, "{\"spots\":null}");
+    expect_spots(&scene, 0, NULL);
+    struct kd_scene full = of("{\"spots\":[{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{\"r\":40}]}");
+    assert_true(full.spots.count == 16 && full.spots.at[15].r == 40);
+}
+
+/* The preset hot-spot as pictures of it held it inside when spots had names. */
+static const char hot_spot[] =
+    "{\"version\":1,\"spacetime\":{\"spin\":0.5,\"mass_msun\":4300000},\"camera\":{\"r\":\"infinity\",\"inclination_deg\":155,"
+    "\"azimuth_deg\":0,\"observer\":\"static\",\"projection\":\"auto\",\"field_m\":50,\"fov_deg\":50,\"centre_alpha\":0,"
+    "\"centre_beta\":0,\"yaw_deg\":0,\"pitch_deg\":0,\"roll_deg\":0,\"ring_decades_max\":0,\"ring_decades_min\":-10},"
+    "\"disk\":{\"model\":\"novikov-thorne\",\"inner\":\"isco\",\"outer\":16,\"taper\":0.7,\"opacity\":0.3,\"colour\":\"peak\","
+    "\"peak_temperature_k\":4500,\"mdot_edd\":0.1,\"hardening\":1,\"band\":\"bolometric\",\"doppler\":true,\"redshift\":true,"
+    "\"particles\":300000,\"seed\":1,\"density_index\":2,\"plunging\":0.02,\"plunging_temperature\":0.7,\"epicycles\":0.02,"
+    "\"slow_light\":false},\"spot1\":{\"brightness\":4,\"r\":9,\"phase_deg\":0,\"size\":1.2,\"index\":1,\"temperature_k\":9000},"
+    "\"spot2\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"spot3\":{\"brightness\":0,"
+    "\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"sky\":{\"model\":\"none\",\"brightness\":0.2,"
+    "\"grid_deg\":15},\"image\":{\"width\":1280,\"height\":720,\"samples\":1,\"critical_factor\":4,\"bit_depth\":8},"
+    "\"style\":{\"exposure\":-0.5,\"tone_map\":\"aces\",\"dither\":true,\"ringdown\":0,\"ringdown_time\":0},"
+    "\"motion\":{\"azimuth_rate_deg\":0,\"time_rate\":10},\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\","
+    "\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0}";
+
+/* Documents from before there were lists: pictures with such a document inside, links, scripts. */
+static void old_names_are_read(void **state)
+{
+    (void)state;
+    static const struct { const char *old, *now; } same[] = {
+        { "{\"spot1\":{\"brightness\":1}}", "{\"spots\":[{\"brightness\":1}]}" },
+        { "{\"spot2\":{\"brightness\":1,\"r\":12},\"spot1\":{\"size\":2}}", "{\"spots\":[{\"size\":2},{\"brightness\":1,\"r\":12}]}" },
+        { "{\"spot3\":{\"index\":2}}", "{\"spots\":[{},{},{\"index\":2}]}" },
+        /* as they were written in full: without spots, and with the second alone */
+        { "{\"spot1\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"spot2\":{},\"spot3\":{}}", "{}" },
+        { "{\"spot1\":{\"brightness\":0},\"spot2\":{\"r\":7},\"spot3\":{\"size\":1}}", "{\"spots\":[{},{\"r\":7}]}" },
+    };
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        struct kd_scene old = of(same[i].old), now = of(same[i].now);
+        char hashes[2][65];
+        assert_int_equal(kd_scene_hash(&old, hashes[0]), KD_OK);
+        assert_int_equal(kd_scene_hash(&now, hashes[1]), KD_OK);
+        assert_string_equal(hashes[0], hashes[1]);
+        assert_memory_equal(&old, &now, sizeof old);
+    }
+    struct kd_scene preset, picture = of(hot_spot);
+    assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
+    assert_memory_equal(&picture, &preset, sizeof picture);
+    struct kd_scene scene = of("{\"spots\":[{\"r\":10},{\"r\":11},{\"r\":12},{\"r\":13}]}");
+    patched(&scene, "{\"spot2\":{\"r\":20},\"spot3\":null,\"spot1\":{\"size\":2}}");
+    expect_spots(&scene, 4, (double[]) { 10, 20, 9, 13 });
+    patched(&scene, "{\"spots\":null}");
+    patched(&scene, "{\"spot1\":null,\"spot2\":{\"brightness\":null}}");
+    expect_spots(&scene, 0, NULL);
+}
+
+/* The same on a command line or in a link. */
+static void elements_are_set(void **state)
+{
+    (void)state;
+    struct kd_scene scene, before;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_scene_set(&scene, "spots.0.r", "10", &error), KD_OK);
+    assert_int_equal(kd_scene_set(&scene, "spots.1.size", "2", &error), KD_OK);
+    assert_int_equal(kd_scene_set(&scene, "spots.0.brightness", "3", &error), KD_OK);
+    expect_spots(&scene, 2, (double[]) { 10, 9 });
+    before = scene;
+    assert_int_equal(kd_scene_set(&scene, "spots.5.r", "9", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/spots/5");
+    assert_string_equal(error.message, "there is no spots.5: the list has 2 elements, and the next free index is 2");
+    assert_int_equal(kd_scene_set(&scene, "spots.2.r", "0.5", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/spots/2/r");
+    assert_memory_equal(&scene, &before, sizeof scene);
+    assert_int_equal(kd_scene_set(&scene, "spots.2.brightness", "0", &error), KD_OK); /* said is made */
+    assert_int_equal(scene.spots.count, 3);
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_scene_set(&scene, "spot3.r", "12", &error), KD_OK);
+    expect_spots(&scene, 3, (double[]) { 9, 9, 12 });
+    assert_int_equal(kd_scene_set(&scene, "spot1.r", "8", &error), KD_OK);
+    expect_spots(&scene, 3, (double[]) { 8, 9, 12 });
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* what it was anyway */
+    assert_int_equal(scene.spots.count, 0);
+    assert_true(kd_scene_same_path("spot2.r", "spots.1.r") && kd_scene_same_path("spots.0.r", "spot1.r") && kd_scene_same_path("time", "time"));
+    assert_false(kd_scene_same_path("spot2.r", "spots.0.r") || kd_scene_same_path("spot2.r", "spots.1.size") || kd_scene_same_path("spot2", "spots.1"));
+}
+
 /* A file from an earlier version must go on meaning the same. */
 static void canonical_form_is_stable(void **state)
 {
@@ -100,10 +235,18 @@ static void canonical_form_is_stable(void **state)
     char *text = support_canonical(&scene);
     const char *start = "{\"version\":1,\"spacetime\":{\"spin\":0.7,\"mass_msun\":100000000},"
                         "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":82,\"azimuth_deg\":-1e-7,";
+    const char *middle = ",\"spots\":[{\"brightness\":0,\"r\":10,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
+                         "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"sky\":{";
     const char *end = "\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\",\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0.30000000000000004}";
     assert_memory_equal(text, start, strlen(start));
     assert_true(strlen(text) > strlen(end));
     assert_string_equal(text + strlen(text) - strlen(end), end);
+    assert_non_null(strstr(text, ",\"spots\":[],\"sky\":{"));
+    free(text);
+    scene.spots.count = 2;
+    scene.spots.at[0].r = 10;
+    text = support_canonical(&scene);
+    assert_non_null(strstr(text, middle));
     free(text);
 }
 
@@ -146,6 +289,9 @@ static void invalid_scenes_have_no_text(void **state)
     assert_int_equal(kd_scene_hash(&scene, hash), KD_EINVAL);
     assert_string_equal(hash, "");
     kd_scene_defaults(&scene);
+    scene.spots.count = KD_SPOTS + 1;
+    assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL);
+    scene.spots.count = 0;
     scene.disk.model = 99;
     assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL);
     kd_buffer_finish(&text);
@@ -157,18 +303,24 @@ static void hash_feels_each_field(void **state)
     struct kd_scene defaults;
     char original[65], hash[65], seen[KD_FIELD_COUNT][65];
     kd_scene_defaults(&defaults);
+    assert_int_equal(kd_scene_hash(&defaults, hash), KD_OK);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++) /* an element has fields to change, and is itself told in the hash */
+        if (kd_sections[i].most)
+            kd_section_resize(&defaults, &kd_sections[i], kd_sections[i].most);
     assert_int_equal(kd_scene_hash(&defaults, original), KD_OK);
+    assert_string_not_equal(hash, original);
     assert_int_equal(strspn(original, "0123456789abcdef"), 64);
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *field = &kd_fields[i];
         struct kd_scene scene = defaults;
-        double value = kd_field_get(&scene, field);
+        size_t last = kd_section_size(&scene, kd_section_find(field->section)) - 1;
+        double value = kd_field_get(&scene, field, last);
         switch (field->kind) {
         case KD_FIELD_WORD: value = field->minimum; break;
         case KD_FIELD_REAL: value = nextafter(value, value < field->maximum ? INFINITY : -INFINITY); break;
         default: value = kd_field_holds(field, value + 1) ? value + 1 : value - 1;
         }
-        kd_field_put(&scene, field, value);
+        kd_field_put(&scene, field, last, value);
         assert_int_equal(kd_scene_hash(&scene, seen[i]), KD_OK);
         assert_string_not_equal(seen[i], original);
         for (size_t j = 0; j < i; j++)
@@ -235,7 +387,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_scenes_round_trip), cmocka_unit_test(empty_document_is_the_default),
-        cmocka_unit_test(documents_merge), cmocka_unit_test(patches),          cmocka_unit_test(canonical_form_is_stable),
+        cmocka_unit_test(documents_merge), cmocka_unit_test(patches),
+        cmocka_unit_test(lists_merge), cmocka_unit_test(old_names_are_read), cmocka_unit_test(elements_are_set), cmocka_unit_test(canonical_form_is_stable),
         cmocka_unit_test(numbers_are_short),        cmocka_unit_test(invalid_scenes_have_no_text),
         cmocka_unit_test(hash_feels_each_field),    cmocka_unit_test(hash_is_sha256),
         cmocka_unit_test(locale_does_not_matter),

@@ -69,11 +69,12 @@ static const struct rule rules[] = {
       "disk.outer is 15 M, allowed is more than the inner edge, 15 M" },
     { "{\"disk\":{\"inner\":15,\"outer\":14,\"model\":\"none\"}}", NULL, NULL },
     { "{\"disk\":{\"inner\":15,\"outer\":15.5}}", NULL, NULL },
-    { "{\"spacetime\":{\"spin\":0},\"spot2\":{\"brightness\":1,\"r\":5.999}}", "/spot2/r",
-      "spot2.r is 5.999 M, allowed is at least 6 M, the ISCO of spacetime.spin 0" },
-    { "{\"spacetime\":{\"spin\":-0.9},\"spot3\":{\"brightness\":1,\"r\":8}}", "/spot3/r", "8.71" },
+    { "{\"spacetime\":{\"spin\":0},\"spot2\":{\"brightness\":1,\"r\":5.999}}", "/spots/1/r",
+      "spots.1.r is 5.999 M, allowed is at least 6 M, the ISCO of spacetime.spin 0" },
+    { "{\"spacetime\":{\"spin\":-0.9},\"spot3\":{\"brightness\":1,\"r\":8}}", "/spots/2/r", "8.71" },
     { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":1,\"r\":6}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"spot1\":{\"brightness\":0,\"r\":2}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0},\"spots\":[{\"r\":2},{\"brightness\":1,\"r\":5}]}", "/spots/1/r", "spots.1.r is 5 M" },
 };
 
 static void fields_fit_each_other(void **state)
@@ -122,11 +123,33 @@ static void ranges_are_checked_again(void **state)
         if (field->kind == KD_FIELD_BOOL)
             continue;
         kd_scene_defaults(&scene);
-        kd_field_put(&scene, field, field->kind >= KD_FIELD_INT ? -7 : -INFINITY);
-        kd_field_pointer(field, pointer);
+        const struct kd_section *section = kd_section_find(field->section);
+        size_t last = section->most ? section->most - 1 : 0;
+        kd_field_put(&scene, field, last, field->kind >= KD_FIELD_INT ? -7 : -INFINITY);
+        kd_field_pointer(field, last, pointer);
+        if (section->most) { /* what lies beyond a list is not looked at */
+            assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
+            kd_section_resize(&scene, section, last);
+            kd_section_resize(&scene, section, last + 1);
+            kd_field_put(&scene, field, last, field->kind >= KD_FIELD_INT ? -7 : -INFINITY);
+        }
         assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
         assert_string_equal(error.pointer, pointer);
     }
+}
+
+static void lists_have_an_end(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    scene.spots.count = KD_SPOTS;
+    assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
+    scene.spots.count = KD_SPOTS + 1;
+    assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/spots/16");
+    assert_string_equal(error.message, "spots has 17 elements, allowed are at most 16");
 }
 
 /* A session draws a new frame when something that can be seen has moved. */
@@ -215,7 +238,7 @@ int main(void)
         cmocka_unit_test(fields_fit_each_other),      cmocka_unit_test(inner_edge_may_touch_the_isco),
         cmocka_unit_test(ranges_are_checked_again),   cmocka_unit_test(presets_are_valid),
         cmocka_unit_test(presets_show_what_they_say), cmocka_unit_test(unknown_preset_names_the_known),
-        cmocka_unit_test(what_moves),
+        cmocka_unit_test(what_moves),                 cmocka_unit_test(lists_have_an_end),
     };
     return cmocka_run_group_tests_name("scene rules", tests, NULL, NULL);
 }

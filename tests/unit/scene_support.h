@@ -28,11 +28,12 @@ static inline double support_uniform(uint64_t *state)
     return (double)(support_random(state) >> 11) * 0x1p-53;
 }
 
-/* {"section":{"name":value}} or {"name":value} */
+/* {"section":{"name":value}}, {"list":[{"name":value}]} or {"name":value} */
 static inline void support_document(char out[256], const struct kd_field *field, const char *value)
 {
+    bool list = field->stride;
     if (*field->section)
-        snprintf(out, 256, "{\"%s\":{\"%s\":%s}}", field->section, field->name, value);
+        snprintf(out, 256, "{\"%s\":%s{\"%s\":%s}%s}", field->section, list ? "[" : "", field->name, value, list ? "]" : "");
     else
         snprintf(out, 256, "{\"%s\":%s}", field->name, value);
 }
@@ -50,26 +51,34 @@ static inline char *support_canonical(const struct kd_scene *scene)
     return (char *)text.data;
 }
 
-/* Every field at a random value: often an end of its range, sometimes tiny, sometimes its word. */
+static inline double support_value(const struct kd_field *field, uint64_t *state)
+{
+    bool words = field->kind == KD_FIELD_ENUM;
+    double low = field->minimum, high = words ? kd_field_word_count(field) - 1 : field->maximum;
+    double value = low + (high - low) * support_uniform(state);
+    uint64_t pick = support_random(state) % 8;
+    if (pick == 0)
+        value = support_random(state) % 2 ? low : high;
+    else if (pick == 1 && low < 0)
+        value = 1e-300 * (support_uniform(state) - 0.5);
+    else if (pick == 2 && field->kind == KD_FIELD_WORD)
+        value = INFINITY;
+    if (field->kind >= KD_FIELD_INT)
+        value = floor(value + 0.5);
+    return value < low ? low : value > high && isfinite(value) ? high : value;
+}
+
+/* Every field at a random value: often an end of its range, sometimes tiny, sometimes its word. Lists of any length. */
 static inline void support_scene(struct kd_scene *scene, uint64_t *state)
 {
     kd_scene_defaults(scene);
-    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
-        const struct kd_field *field = &kd_fields[i];
-        bool words = field->kind == KD_FIELD_ENUM;
-        double low = field->minimum, high = words ? kd_field_word_count(field) - 1 : field->maximum;
-        double value = low + (high - low) * support_uniform(state);
-        uint64_t pick = support_random(state) % 8;
-        if (pick == 0)
-            value = support_random(state) % 2 ? low : high;
-        else if (pick == 1 && low < 0)
-            value = 1e-300 * (support_uniform(state) - 0.5);
-        else if (pick == 2 && field->kind == KD_FIELD_WORD)
-            value = INFINITY;
-        if (field->kind >= KD_FIELD_INT)
-            value = floor(value + 0.5);
-        value = value < low ? low : value > high && isfinite(value) ? high : value;
-        kd_field_put(scene, field, value);
+    for (size_t s = 0; s < KD_SECTION_COUNT; s++) {
+        const struct kd_section *section = &kd_sections[s];
+        if (section->most)
+            kd_section_resize(scene, section, support_random(state) % (section->most + 1));
+        for (size_t index = 0; index < kd_section_size(scene, section); index++)
+            for (size_t i = section->first; i < section->first + section->count; i++)
+                kd_field_put(scene, &kd_fields[i], index, support_value(&kd_fields[i], state));
     }
 }
 

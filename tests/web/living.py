@@ -2,6 +2,7 @@
 import json
 import re
 import pathlib
+import urllib.request
 
 from browser import FINE, Browser, main, value
 import daemon
@@ -61,8 +62,8 @@ class Living(Browser):
         page.wait_for_selector(FINE)
         self.assertNotEqual(self.pixels(page), other)
         self.open_groups(page)
-        self.assertTrue(page.is_visible('[data-path="spot1.r"]'))
-        self.assertFalse(page.is_visible('[data-path="spot2.r"]'))
+        self.assertTrue(page.is_visible('[data-path="spots.0.r"]'))
+        self.assertFalse(page.is_visible('[data-path="spots.1.r"]'))
         self.assertIn('spots: ', page.inner_text('#approximations'))
         page.click('#spot')
         page.wait_for_selector(FINE)
@@ -70,6 +71,48 @@ class Living(Browser):
         page.click('#as-particles')
         page.wait_for_selector(FINE)
         self.assertEqual((page.get_attribute('#as-particles', 'aria-pressed'), page.is_visible('#new-seed')), ('false', False))
+
+    def test_a_list_grows(self):
+        """A group of controls for each spot and for the next one; what is saved and sent knows their order, whichever is lit first."""
+        page = self.open('lang=en&spots.2.brightness=4&spots.2.r=14', FINE)
+        self.open_groups(page)
+        groups = lambda: [g for g in page.locator('#fields summary').all_inner_texts() if g.startswith('Spot ')]
+        visible = lambda: [g for g in page.locator('#fields summary:visible').all_inner_texts() if g.startswith('Spot ')]
+        self.assertEqual(groups(), ['Spot 1', 'Spot 2', 'Spot 3', 'Spot 4'])
+        scene = json.loads(page.input_value('#scene-text'))
+        self.assertEqual(scene['spots'], [{}, {}, {'brightness': 4, 'r': 14}])
+        self.assertIn('Hot spots going round at 14 M.', page.get_attribute('#picture', 'alt'))
+        with urllib.request.urlopen(self.base + page.get_attribute('#save', 'href')) as answer:
+            self.assertEqual(answer.status, 200)
+        page.fill('[data-path="spots.3.brightness"] input[type=number]', '2')
+        page.keyboard.press('Enter')
+        page.wait_for_selector(FINE)
+        self.assertEqual(visible(), ['Spot 1', 'Spot 2', 'Spot 3', 'Spot 4', 'Spot 5'])
+        self.open_groups(page)
+        page.fill('[data-path="spots.3.r"] input[type=number]', '2')
+        self.expected = '422'
+        page.keyboard.press('Enter')
+        page.wait_for_selector('[data-path="spots.3.r"] .fault >> text=spots.3.r is 2 M')
+        page.fill('[data-path="spots.3.r"] input[type=number]', '20')
+        page.keyboard.press('Enter')
+        page.wait_for_selector(FINE)
+        two = self.pixels(page)
+        self.assertTrue(daemon.eventually(lambda: 'spots.3.r=20' in page.url))
+        again = self.open(page.url.split('#')[1], FINE)
+        self.assertEqual(self.pixels(again), two)
+        page.fill('[data-path="spots.2.brightness"] input[type=number]', '0')
+        page.keyboard.press('Enter')
+        page.wait_for_selector(FINE)
+        self.assertNotEqual(self.pixels(page), two)
+        page.click('#reset')
+        page.wait_for_selector(FINE)
+        self.assertEqual(visible(), ['Spot 1'])
+
+    def test_a_link_from_before(self):
+        page = self.open('lang=en&spot1.brightness=4&spot3.r=12&spot3.brightness=2', FINE)
+        self.assertEqual(json.loads(page.input_value('#scene-text'))['spots'], [{'brightness': 4}, {}, {'brightness': 2, 'r': 12}])
+        self.assertTrue(daemon.eventually(lambda: 'spots.2.r=12' in page.url and 'spot1' not in page.url))
+        self.assertEqual(page.inner_text('#link-fault'), '')
 
     def test_the_light_of_a_spot(self):
         page = self.open('lang=en&preset=hot-spot', '#light canvas')

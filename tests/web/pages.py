@@ -23,7 +23,7 @@ class Pages(Browser):
     def test_refusals_are_told_in_italian(self):
         page = self.open('lang=it')
         wrong = ('disk.inner=1', 'camera.r=1.5', 'spacetime.spin=2', 'spacetime.spin=abc', 'disk.outer=3', 'disk.model=foo', 'camera.projection=pinhole',
-                 'camera.projection=ring&camera.r=50', 'camera.r=40&camera.projection=plane', 'spot1.brightness=1&spot1.r=2', 'disk.particles=1e10',
+                 'camera.projection=ring&camera.r=50', 'camera.r=40&camera.projection=plane', 'spots.0.brightness=1&spots.0.r=2', 'spots.1.r=9', 'spots.0.r=9&spots.2.r=9', 'disk.particles=1e10',
                  'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'accuracy.steps=7',
                  'disk.mdot_edd=1e9&disk.colour=accretion', 'camera.inclination_deg=200', 'spacetime.mass_msun=0')
         answers = []

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 256 /* several times the fields of a scene */
+#define KD_TARGET_PAIRS 256 /* more than the fields of a scene, those of all elements of its lists included */
 
 struct kd_target {
     char *text; /* owns what the pointers below point into */

@@ -224,26 +224,26 @@ void kd_job_spec_finish(struct kd_job_spec *spec)
 
 static bool continuous(const struct kd_field *field) { return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD; }
 
-static double value_at(const struct kd_job_spec *spec, size_t key, const struct kd_field *field)
+static double value_at(const struct kd_job_spec *spec, size_t key, const struct kd_field *field, size_t index)
 {
-    return kd_field_get(&spec->keys[key].scene, field);
+    return kd_field_get(&spec->keys[key].scene, field, index);
 }
 
 /* Of the straight line from a key to the next; NAN where there is none: a word, or no next. */
-static double secant(const struct kd_job_spec *spec, size_t key, const struct kd_field *field)
+static double secant(const struct kd_job_spec *spec, size_t key, const struct kd_field *field, size_t index)
 {
     if (key + 1 >= spec->n_keys)
         return NAN;
-    double rise = value_at(spec, key + 1, field) - value_at(spec, key, field); /* inf - inf is NAN too */
+    double rise = value_at(spec, key + 1, field, index) - value_at(spec, key, field, index); /* inf - inf is NAN too */
     return isfinite(rise) ? rise / (spec->keys[key + 1].frame - spec->keys[key].frame) : NAN;
 }
 
 /* The slope at a key that keeps the curve between its neighbours: the weighted harmonic mean of the secants, 0 at a turning point
  * (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie that SLATEC's PCHIM takes). At rest at both
  * ends. */
-static double slope(const struct kd_job_spec *spec, size_t key, const struct kd_field *field)
+static double slope(const struct kd_job_spec *spec, size_t key, const struct kd_field *field, size_t index)
 {
-    double before = key ? secant(spec, key - 1, field) : NAN, after = secant(spec, key, field);
+    double before = key ? secant(spec, key - 1, field, index) : NAN, after = secant(spec, key, field, index);
     if (!(before * after > 0))
         return 0;
     double h0 = spec->keys[key].frame - spec->keys[key - 1].frame, h1 = spec->keys[key + 1].frame - spec->keys[key].frame;
@@ -251,16 +251,28 @@ static double slope(const struct kd_job_spec *spec, size_t key, const struct kd_
     return (w0 + w1) / (w0 / before + w1 / after);
 }
 
-static double between(const struct kd_job_spec *spec, size_t key, double t, const struct kd_field *field)
+static double between(const struct kd_job_spec *spec, size_t key, double t, const struct kd_field *field, size_t index)
 {
-    double from = value_at(spec, key, field), to = value_at(spec, key + 1, field);
+    double from = value_at(spec, key, field, index), to = value_at(spec, key + 1, field, index);
     if (!isfinite(from) || !isfinite(to) || from == to)
         return from;
     if (!spec->smooth)
         return from + t * (to - from);
-    double h = spec->keys[key + 1].frame - spec->keys[key].frame, m0 = h * slope(spec, key, field), m1 = h * slope(spec, key + 1, field);
+    double h = spec->keys[key + 1].frame - spec->keys[key].frame, m0 = h * slope(spec, key, field, index), m1 = h * slope(spec, key + 1, field, index);
     double value = from + t * (m0 + t * (3 * (to - from) - 2 * m0 - m1 + t * (m0 + m1 - 2 * (to - from)))); /* cubic Hermite */
     return fmax(fmin(from, to), fmin(fmax(from, to), value)); /* it is between them; its rounding need not be */
+}
+
+/* An element that only one of two keyframes has is at its defaults in the other. */
+static void section_between(const struct kd_job_spec *spec, size_t key, double t, const struct kd_section *section, struct kd_scene *out)
+{
+    size_t size = kd_section_size(&spec->keys[key].scene, section), next = kd_section_size(&spec->keys[key + 1].scene, section);
+    if (next > size)
+        kd_section_resize(out, section, size = next);
+    for (size_t index = 0; index < size; index++)
+        for (size_t i = section->first; i < section->first + section->count; i++)
+            if (continuous(&kd_fields[i]))
+                kd_field_put(out, &kd_fields[i], index, between(spec, key, t, &kd_fields[i], index));
 }
 
 enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error)
@@ -272,9 +284,8 @@ enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame,
     if (spec->keys[key].frame == frame || key + 1 == spec->n_keys)
         return KD_OK;
     double t = (double)(frame - spec->keys[key].frame) / (spec->keys[key + 1].frame - spec->keys[key].frame);
-    for (size_t i = 0; i < KD_FIELD_COUNT; i++)
-        if (continuous(&kd_fields[i]))
-            kd_field_put(out, &kd_fields[i], between(spec, key, t, &kd_fields[i]));
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+        section_between(spec, key, t, &kd_sections[i], out);
     struct kd_error inner = { 0 };
     if (!kd_scene_validate(out, &inner))
         return KD_OK;

@@ -124,7 +124,20 @@ static void add_query(struct kd_json *json, const struct kd_route *route)
     }
 }
 
-/* Every scalar of the schema by its dotted path. */
+static void add_fields(struct kd_json *json, const cJSON *schema, const char *prefix);
+
+/* The elements of a list by their index. */
+static void add_elements(struct kd_json *json, const cJSON *list, const char *prefix)
+{
+    const cJSON *most = cJSON_GetObjectItemCaseSensitive(list, "maxItems");
+    for (int i = 0; i < (int)cJSON_GetNumberValue(most); i++) {
+        char name[160];
+        snprintf(name, sizeof name, "%s.%d", prefix, i);
+        add_fields(json, cJSON_GetObjectItemCaseSensitive(list, "items"), name);
+    }
+}
+
+/* Every scalar of the schema by its dotted path, but for old names. */
 static void add_fields(struct kd_json *json, const cJSON *schema, const char *prefix)
 {
     const cJSON *property;
@@ -132,6 +145,12 @@ static void add_fields(struct kd_json *json, const cJSON *schema, const char *pr
     {
         char name[128];
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", property->string);
+        if (cJSON_GetObjectItemCaseSensitive(property, "deprecated"))
+            continue;
+        if (cJSON_GetObjectItemCaseSensitive(property, "items")) {
+            add_elements(json, property, name);
+            continue;
+        }
         if (cJSON_GetObjectItemCaseSensitive(property, "properties")) {
             add_fields(json, property, name);
             continue;

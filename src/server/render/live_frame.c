@@ -120,16 +120,16 @@ static void add_simulation(struct kd_json *json, const struct kd_scene *scene)
 /* Where the centre of each spot that is on stands at the frame's time. */
 static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
 {
-    const struct kd_spot *spots[KD_SPOTS] = { &scene->spot1, &scene->spot2, &scene->spot3 };
     kd_json_array(json, "orbits");
-    for (int i = 0; i < KD_SPOTS; i++) {
-        if (!(spots[i]->brightness > 0))
+    for (size_t i = 0; i < scene->spots.count; i++) {
+        const struct kd_spot *spot = &scene->spots.at[i];
+        if (!(spot->brightness > 0))
             continue;
-        double turned = remainder(kd_kerr_omega(scene->spacetime.spin, spots[i]->r) * scene->top.time, 2 * M_PI);
+        double turned = remainder(kd_kerr_omega(scene->spacetime.spin, spot->r) * scene->top.time, 2 * M_PI);
         kd_json_object(json, NULL);
-        kd_json_number(json, "spot", i + 1);
-        kd_json_number(json, "phi_deg", remainder(spots[i]->phase_deg + turned * (180 / M_PI), 360));
-        add_orbit(json, scene->spacetime.spin, spots[i]->r);
+        kd_json_number(json, "spot", (double)i + 1);
+        kd_json_number(json, "phi_deg", remainder(spot->phase_deg + turned * (180 / M_PI), 360));
+        add_orbit(json, scene->spacetime.spin, spot->r);
         kd_json_end(json);
     }
     kd_json_end(json);

@@ -28,7 +28,7 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
         const char *name = target->pairs[i].name;
         pointer_of(name, pointer, sizeof pointer);
         for (size_t k = 0; k < i; k++)
-            if (!strcmp(target->pairs[k].name, name))
+            if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query gives %.100s twice", name);
         if (!fields && strcmp(name, "preset"))
             return kd_error_field(error, pointer, "the query of a POST may hold preset, not %.100s", name);
