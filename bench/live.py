@@ -2,18 +2,22 @@
 """Live sessions as a viewer has them: frames a second, from input to picture, what limits it, what watching costs.
 
     bench/live.py            about two minutes, on a machine that does nothing else
+    bench/live.py --before OTHER/build/src/kerrd      one session dragged, and eight, on both programs in turn; about three minutes
 
 A server of its own, on all cores; this script is its client and takes some of the machine too. Writes
-bench/results/DATE-DEVICE-live.{json,md}.
+bench/results/DATE-DEVICE-{live,sharing}.{json,md}.
 """
 import concurrent.futures
 import http.client
 import json
+import multiprocessing
 import os
+import pathlib
 import re
 import socket
 import statistics
 import subprocess
+import sys
 import time
 
 import measure
@@ -38,8 +42,8 @@ class Server:
 
 
 class Session:
-    def __init__(self, server, scene):
-        self.connection = http.client.HTTPConnection('127.0.0.1', server.port, timeout=60)
+    def __init__(self, port, scene):
+        self.connection = http.client.HTTPConnection('127.0.0.1', port, timeout=60)
         self.begun = time.monotonic()
         made = json.loads(self.ask('POST', '/v1/sessions', scene)[1])
         self.at, self.token, self.frame = '/v1/sessions/' + made['id'], made['token'], 0
@@ -101,6 +105,40 @@ def steer(session, patches):
     return summary(answers, time.monotonic() - begun, waits)
 
 
+def drag(port, k, begin, seconds, settle):
+    """One of several that are dragged at once, from `begin` on: what it had after the first `settle` seconds."""
+    session = Session(port, {'image': SIZE, 'sky': {'model': 'grid'}, 'camera': {'azimuth_deg': 40 * k}})  # and inclinations of its own, that nobody finds another's lens map
+    time.sleep(max(0, begin - time.monotonic()))
+    answers, waits, n = [], [], 0
+    while time.monotonic() < begin + seconds:
+        sent, n = time.monotonic(), n + 1
+        revision = session.patch({'camera': {'inclination_deg': 62 + 0.01 * n + 0.0013 * k}})
+        while True:
+            answer, _ = session.next()
+            if sent >= begin + settle:
+                answers.append(answer)
+            if int(answer.headers['Kerrd-Revision']) >= revision:
+                break
+        if sent >= begin + settle:
+            waits.append(1e3 * (time.monotonic() - sent))
+    row = summary(answers, time.monotonic() - begin - settle, waits)
+    row['device'] = sum(timings(a)['total'] for a in answers) * 1e-3 / (seconds - settle)
+    session.end()
+    return row
+
+
+def dragged_together(server, n, seconds=9, settle=3):
+    """A process each, so that they wait for the server and not for one another."""
+    begin = time.monotonic() + 1 + n / 4
+    with concurrent.futures.ProcessPoolExecutor(n, mp_context=multiprocessing.get_context('fork')) as pool:
+        each = [f.result() for f in [pool.submit(drag, server.port, k, begin, seconds, settle) for k in range(n)]]
+    fps, sizes = sorted(row['fps'] for row in each), sorted((row['last'] for row in each), key=lambda size: int(size.split('x')[0]))
+    return {'sessions': n, 'fps_least': fps[0], 'fps_median': statistics.median(fps), 'fps_most': fps[-1],
+            'latency_ms': statistics.median(row['latency_ms'] for row in each), 'latency_p95_ms': max(row['latency_p95_ms'] for row in each),
+            'smallest': sizes[0], 'largest': sizes[-1], 'device_busy': round(sum(row['device'] for row in each), 2),
+            'passes_ms': each[0]['passes_ms']}
+
+
 def watch(session, seconds):
     answers, waits, begun = [], [], time.monotonic()
     while time.monotonic() - begun < seconds:
@@ -133,7 +171,7 @@ def idle(server, n, seconds):
     before = server.cpu()
     time.sleep(seconds)
     alone = (server.cpu() - before) / seconds
-    session = Session(server, {'image': SIZE})
+    session = Session(server.port, {'image': SIZE})
     sockets = []
     for i in range(n):
         s = socket.create_connection(('127.0.0.1', server.port))
@@ -153,7 +191,7 @@ def idle(server, n, seconds):
 
 
 def flat(server, frames):
-    session = Session(server, {'image': {'width': 160, 'height': 90}, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 20}})
+    session = Session(server.port, {'image': {'width': 160, 'height': 90}, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 20}})
     for _ in range(500):
         session.next()
     before = server.memory()
@@ -166,34 +204,84 @@ def flat(server, frames):
     return out
 
 
+def device_of(server):
+    about = http.client.HTTPConnection('127.0.0.1', server.port)
+    about.request('GET', '/v1/device')
+    device = json.loads(about.getresponse().read())
+    return f"{device['name']}, {device['driver']} {device['driver_info']}"
+
+
+def make_kernels(server):
+    for scene in ({}, {'sky': {'model': 'grid'}}):
+        Session(server.port, {'image': SIZE, **scene}).end()
+
+
+def compare(programs, rounds=3):
+    """One session and eight on each program, in turn. By program and number: the rounds."""
+    out, device = {name: {'1': [], '8': []} for name in programs}, None
+    for _ in range(rounds):
+        for n in (1, 8):
+            for name, path in programs.items():
+                server = Server(path)
+                try:
+                    device = device or device_of(server)
+                    make_kernels(server)
+                    out[name][str(n)].append(dragged_together(server, n))
+                finally:
+                    server.process.terminate()
+                    server.process.wait()
+                print(name, n, out[name][str(n)][-1], file=sys.stderr)
+    return device, out
+
+
+TOGETHER = ['frames/s each: least, median, most', 'input to picture, ms: median / worst 95 %', 'size at last: smallest, largest', 'device busy']
+
+
+def together_row(row):
+    return [f"{row['fps_least']:g}, {row['fps_median']:g}, {row['fps_most']:g}", f"{row['latency_ms']:g} / {row['latency_p95_ms']:g}",
+            f"{row['smallest']}, {row['largest']}", f"{100 * row['device_busy']:.0f} %"]
+
+
+def write_compared(arguments, device, load, out):
+    h = measure.head(device, load)
+    rows = [[f'{n} at once', name, *together_row(row)] for n in ('1', '8') for i in range(len(out['before'][n])) for name in out
+            for row in [out[name][n][i]]]
+    text = measure.head_markdown('Sessions dragged at once before a sky, %d × %d, before and after in turn' % tuple(SIZE.values()), h)
+    measure.save(arguments.out, 'sharing', h, out, text + measure.table(['sessions', 'program', *TOGETHER], rows))
+
+
 def main():
-    arguments, load = measure.parser(__doc__.splitlines()[0]).parse_args(), os.getloadavg()[0]
-    server = Server(measure.binary(arguments.build, 'src/kerrd'))
+    parser = measure.parser(__doc__.splitlines()[0])
+    parser.add_argument('--before', type=pathlib.Path, help='another kerrd, to compare with')
+    arguments, load = parser.parse_args(), os.getloadavg()[0]
+    program = measure.binary(arguments.build, 'src/kerrd')
+    if arguments.before:
+        device, compared = compare({'before': str(arguments.before), 'after': program})
+        write_compared(arguments, device, load, compared)
+        return
+    server = Server(program)
     try:
-        about = http.client.HTTPConnection('127.0.0.1', server.port)
-        about.request('GET', '/v1/device')
-        device = json.loads(about.getresponse().read())
-        device = f"{device['name']}, {device['driver']} {device['driver_info']}"
-        Session(server, {'image': SIZE}).end()  # kernels are made
-        Session(server, {'image': SIZE, 'sky': {'model': 'grid'}}).end()
+        device = device_of(server)
+        make_kernels(server)
         rows = {}
-        session = Session(server, {'image': SIZE, 'camera': {'inclination_deg': 61.37}})
+        session = Session(server.port, {'image': SIZE, 'camera': {'inclination_deg': 61.37}})
         first = session.first_ms
         rows['inclination dragged'] = steer(session, [{'camera': {'inclination_deg': 62 + 0.1 * k}} for k in range(150)])
         rows['exposure changed'] = steer(session, [{'style': {'exposure': 0.01 * k}} for k in range(150)])
         session.end()
-        session = Session(server, {'image': SIZE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 20}})
+        session = Session(server.port, {'image': SIZE, 'sky': {'model': 'grid'}, 'motion': {'azimuth_rate_deg': 20}})
         rows['azimuth turning, with a sky'] = watch(session, 6)
         viewers = many_viewers(server, session, 50)
         rows['inclination dragged, with a sky'] = steer(session, [{'camera': {'inclination_deg': 62 + 0.1 * k}} for k in range(150)])
         session.end()
-        session = Session(server, {'image': SIZE})
+        session = Session(server.port, {'image': SIZE})
         session.patch({'disk': {'model': 'particles'}, 'motion': {'time_rate': 8}, 'camera': {'inclination_deg': 76}})
         rows['changed to moving particles'] = watch(session, 6)
         rows['inclination dragged, with particles'] = steer(session, [{'camera': {'inclination_deg': 62 + 0.1 * k}} for k in range(150)])
         rows['particles after the drag'] = watch(session, 6)
         session.end()
-        result = {'first_picture_ms': round(first, 1), 'size': SIZE, 'rows': rows, 'viewers': viewers,
+        together = dragged_together(server, 8)
+        result = {'first_picture_ms': round(first, 1), 'size': SIZE, 'rows': rows, 'together': together, 'viewers': viewers,
                   'idle': idle(server, 500, 10), 'memory': flat(server, 10000)}
     finally:
         server.process.terminate()
@@ -209,6 +297,7 @@ def write(arguments, device, load, result):
     text = measure.head_markdown('Live sessions, %d × %d' % tuple(SIZE.values()), h)
     text += measure.table(['what changes', 'frames/s', 'input to picture, ms: median / 95 %', 'at full size', 'last',
                            'passes, ms (median; of frames that trace, where many do)'], rows)
+    text += '\n' + measure.table(['dragged at once, with a sky', *TOGETHER], [['eight sessions', *together_row(result['together'])]])
     text += f"""
 - First picture of a session on a warm server: {result['first_picture_ms']} ms.
 - {v['viewers']} viewers of one session took {v['frames_taken']} frames, of which {v['frames_drawn']} were drawn.
