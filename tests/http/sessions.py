@@ -276,6 +276,39 @@ class Sessions(daemon.Owned):
         self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # it stops where it is
         self.assertEqual(self.status(session)['scene']['camera']['azimuth_deg'], three)
 
+    def test_those_that_move_share_the_device(self):
+        """Frames of 30 ms, which one that is alone renders in full, are too long for each of two; not beside one that rests."""
+        moving = {**MOVING, 'image': {'width': 220, 'height': 40}, 'time': 30}
+        resting = self.open({**moving, 'motion': {}})
+        self.frame(resting)
+        one = self.open(moving)
+        number, widths = 0, set()
+
+        def width(session, after):
+            answer = self.frame(session, after)
+            return int(answer.header('Kerrd-Frame')), int(re.match(r'width=(\d+)', answer.header('Kerrd-Quality'))[1])
+        for _ in range(40):
+            number, w = width(one, number)
+            widths.add(w)
+        self.assertEqual(widths, {220})
+        other, last, others = self.open(moving), [220], threading.Event()
+
+        def watch(after=0):
+            while not others.is_set():
+                after, last[0] = width(other, after)
+        thread = threading.Thread(target=watch)
+        thread.start()
+        try:
+            for _ in range(400):
+                number, w = width(one, number)
+                if w < 220 and last[0] < 220:
+                    break
+            self.assertLess(w, 220)
+            self.assertLess(last[0], 220)
+        finally:
+            others.set()
+            thread.join()
+
     def test_time_goes_on_where_it_is_seen(self):
         still = {'image': {'width': 64, 'height': 36}, 'style': {'exposure': 0}, 'motion': {'time_rate': 20}}
         session, smooth = self.open({**still, 'disk': {'model': 'particles'}}), self.open(still)

@@ -59,7 +59,7 @@ static double ray_weight(const struct kd_scene *scene)
     return profile[scene->accuracy.profile] * (5 + scene->accuracy.orders);
 }
 
-static struct kd_frame_cost truthful(const struct simulation *s, const struct kd_scene *scene, bool reused)
+static inline struct kd_frame_cost truthful(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     const struct truth *t = &s->truth;
     double rays = rays_of(scene) / rays_of(&s->asked), pixels = rays * s->asked.image.samples * s->asked.image.samples /
@@ -88,7 +88,7 @@ static bool lens_kept(struct simulation *s, const struct kd_scene *scene)
     return false;
 }
 
-static void begin(struct simulation *s, const struct kd_governor_params *params, int width, int height, struct truth truth)
+static inline void begin(struct simulation *s, const struct kd_governor_params *params, int width, int height, struct truth truth)
 {
     *s = (struct simulation) { .truth = truth, .cost = truthful, .load = 1, .least_pause = INFINITY };
     kd_scene_defaults(&s->asked);
@@ -97,14 +97,14 @@ static void begin(struct simulation *s, const struct kd_governor_params *params,
     kd_governor_init(&s->governor, params);
 }
 
-static void change(struct simulation *s, bool lens)
+static inline void change(struct simulation *s, bool lens)
 {
     s->lens += lens;
     kd_governor_changed(&s->governor, s->now, &s->asked, lens);
 }
 
 /* Render what the governor wants, if anything: whether it wanted. */
-static bool frame(struct simulation *s)
+static inline bool frame(struct simulation *s)
 {
     struct kd_turn turn = kd_governor_turn(&s->governor, s->now);
     if (turn.wait_ms > 0)
@@ -147,12 +147,12 @@ static bool moves_lens(const struct simulation *s, enum pattern pattern)
     }
 }
 
-static uint32_t rung_of(const struct simulation *s, enum pattern pattern)
+static inline uint32_t rung_of(const struct simulation *s, enum pattern pattern)
 {
     return s->governor.paces[pattern != PLAY].rung;
 }
 
-static void run(struct simulation *s, enum pattern pattern, double ms)
+static inline void run(struct simulation *s, enum pattern pattern, double ms)
 {
     for (double end = s->now + ms; s->now < end;) {
         double start = s->now;
@@ -162,7 +162,7 @@ static void run(struct simulation *s, enum pattern pattern, double ms)
     }
 }
 
-static double mean_over(struct simulation *s, enum pattern pattern, double ms)
+static inline double mean_over(struct simulation *s, enum pattern pattern, double ms)
 {
     s->sum = 0;
     s->summed = 0;
@@ -171,7 +171,7 @@ static double mean_over(struct simulation *s, enum pattern pattern, double ms)
 }
 
 /* Without noise: what a rung truly costs. */
-static double true_cost(const struct simulation *s, uint32_t rung, bool reused)
+static inline double true_cost(const struct simulation *s, uint32_t rung, bool reused)
 {
     struct simulation quiet = *s;
     struct kd_scene scene;
@@ -180,7 +180,7 @@ static double true_cost(const struct simulation *s, uint32_t rung, bool reused)
     return truthful(&quiet, &scene, reused).total_ms;
 }
 
-static struct truth some_truth(void)
+static inline struct truth some_truth(void)
 {
     double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as asked */
     double fixed = uniform() < 0.5 ? 0 : exp(7 * uniform()), hidden = uniform() < 0.5 ? 0 : 30 * uniform() * uniform();
@@ -190,7 +190,7 @@ static struct truth some_truth(void)
 }
 
 /* What frames may take where some of it is fixed: no more than the target if that leaves half of it to the picture. */
-static double may_take(double target, double fixed)
+static inline double may_take(double target, double fixed)
 {
     double picture = fmax(target / 2, fixed / 4);
     return fixed + picture > target ? fixed + picture : target;

@@ -5,6 +5,7 @@
 
 /* Chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as long. */
 static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
+static const double MORE = 1.1; /* a target so much larger or smaller is another: parts of a device that is shared waver a little */
 static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
 static const double COOLDOWN_MS = 1000;                /* before a climb */
 static const double RETRY_MS = 3000;                   /* before one to what was too slow; doubled */
@@ -24,7 +25,7 @@ static void begin_anew(struct kd_pace *pace)
 
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params)
 {
-    *governor = (struct kd_governor) { .params = *params, .hold_ms = HOLD_MS, .blind_ms = BLIND_MS };
+    *governor = (struct kd_governor) { .params = *params, .share = 1, .hold_ms = HOLD_MS, .blind_ms = BLIND_MS };
     governor->changed_at = governor->lens_at = governor->blind_until = -INFINITY;
     for (int i = 0; i < 2; i++)
         begin_anew(&governor->paces[i]);
@@ -84,10 +85,16 @@ static double varying(const struct kd_frame_cost *cost)
     return cost->total_ms - cost->fixed_ms;
 }
 
+/* What a frame may take of the device: its share of the time from one to the next. */
+static double target(const struct kd_governor *g)
+{
+    return g->share * fmax(g->params.target_ms, fmin(g->params.target_ms / sqrt(g->share), g->params.sparse_ms));
+}
+
 static double room(const struct kd_governor *g, const struct kd_frame_cost *cost)
 {
-    double target = g->params.target_ms;
-    return fmax(target - cost->fixed_ms, fmax(LEAST_ROOM * target, LEAST_SHARE * cost->fixed_ms));
+    double all = target(g);
+    return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
 /* What varies, on another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays. */
@@ -118,17 +125,34 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 
 /* Up and down */
 
-static void move(struct kd_pace *pace, uint32_t rung, bool up, double now)
+/* The pace leaves its rung for a lower one: it is remembered if that is because others began. */
+static void hold(struct kd_pace *pace, bool narrower)
 {
-    if (pace->climbed && !up)
+    if (!narrower && pace->rung <= pace->held) {
+        pace->held_target = 0; /* not in time any more */
+    } else if (narrower && (pace->widest > pace->held_target || pace->rung < pace->held)) {
+        pace->held = pace->rung;
+        pace->held_target = pace->widest;
+    }
+}
+
+static void move(const struct kd_governor *g, struct kd_pace *pace, uint32_t rung, bool up, double now)
+{
+    const bool narrower = MORE * target(g) < pace->widest; /* the rung was in time before others began */
+    if (pace->climbed && !up && !narrower)
         pace->retry_ms *= 2;
-    pace->ceiling = up ? at_most(pace->ceiling, rung) : pace->rung + 1;
     if (!up)
+        hold(pace, narrower);
+    pace->ceiling = up ? at_most(pace->ceiling, rung) : pace->rung + 1;
+    if (!up) {
         pace->failed_at = now;
+        pace->failed_target = target(g);
+    }
     pace->climbed = up;
     pace->rung = rung;
     pace->count = 0;
     pace->changed_at = now;
+    pace->widest = target(g);
 }
 
 static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
@@ -150,30 +174,45 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
 {
     const struct kd_rung *rungs = g->ladder.rungs;
     return predict(cost, &rungs[pace->rung], &rungs[to], rest_stays) <= CLIMB_BELOW * room(g, cost) &&
-           traceable(g, pace, &rungs[to], CLIMB_BELOW * g->params.stall_ms);
+           traceable(g, pace, &rungs[to], CLIMB_BELOW * g->share * g->params.stall_ms);
+}
+
+/* A rung that is known to be in time with so much of the device, or the present one. */
+static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
+{
+    bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
+    return enough && pace->held < pace->rung && traceable(g, pace, &g->ladder.rungs[pace->held], g->share * g->params.stall_ms)
+               ? pace->held
+               : pace->rung;
+}
+
+/* What may not be climbed to, having been too slow with no less of the device. */
+static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pace, double now)
+{
+    return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
 /* As far as is safe; else one rung on the better assumption, for if that is wrong the rung is left again, and not climbed to soon.
  * */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
-    uint32_t ceiling = now - pace->failed_at < pace->retry_ms ? pace->ceiling : 0, to = pace->rung;
+    uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
     while (to > ceiling && may_climb(g, pace, cost, to - 1, false))
         to--;
     if (to == pace->rung && to > ceiling && may_climb(g, pace, cost, to - 1, true))
         to--;
     if (to < pace->rung)
-        move(pace, to, true, now);
+        move(g, pace, to, true, now);
 }
 
 static void spare_a_stall(struct kd_governor *g, double now)
 {
     struct kd_pace *pace = &g->paces[0];
     uint32_t last = last_rung(g, pace), to = pace->rung;
-    while (to < last && !traceable(g, pace, &g->ladder.rungs[to], g->params.stall_ms))
+    while (to < last && !traceable(g, pace, &g->ladder.rungs[to], g->share * g->params.stall_ms))
         to++;
     if (to > pace->rung)
-        move(pace, to, false, now);
+        move(g, pace, to, false, now);
 }
 
 static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
@@ -190,7 +229,7 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
     }
     if (far || varying(&cost) > OVER * room(g, &cost)) {
         if (pace->rung < last_rung(g, pace))
-            move(pace, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
+            move(g, pace, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
         return;
     }
     if (now - pace->changed_at >= COOLDOWN_MS)
@@ -198,6 +237,13 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
 }
 
 /* Changes */
+
+void kd_governor_share(struct kd_governor *g, double share)
+{
+    g->share = share;
+    for (int i = 0; i < 2; i++)
+        g->paces[i].widest = fmax(g->paces[i].widest, target(g));
+}
 
 static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
 {
@@ -226,6 +272,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
         pace->rung = pace->count ? first_that_fits(g, pace, &cost, &old.rungs[pace->rung], 0)
                                  : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
         pace->ceiling = pace->count = 0;
+        pace->held_target = 0;
         pace->climbed = false;
     }
     g->ladders++;
@@ -307,7 +354,7 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     turn.rays = g->ladder.rungs[turn.rung].rays;
     if (g->shown_revision != g->revision)
         return turn;
-    double left = g->params.rest_ms - (now - g->changed_at);
+    double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at, left = g->params.rest_ms - (now - since);
     if (!g->shown.final && left < 1e-3) /* rounded sums of waits end a little early */
         return next_step(g, turn);
     turn.quality = g->shown;
@@ -337,6 +384,7 @@ void kd_governor_frame(struct kd_governor *g, double now, const struct kd_turn *
         g->shown = turn->quality;
         g->shown_revision = turn->revision;
         g->shown_rays = turn->rays;
+        g->shown_at = turn->refining ? g->shown_at : now;
     }
     struct kd_pace *pace = &g->paces[turn->traced];
     if (turn->ladder != g->ladders || !is_sane(cost))

@@ -38,11 +38,19 @@
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
  *   on.
  *
+ * Where other sessions move too, kd_governor_share says which part of the device's time this one may count on. Its target then is that
+ * part of the time from one frame to the next, which grows by the root of what the part shrinks, to sparse_ms at most: pace and picture
+ * give way alike, and from there on the picture alone does. One that is alone has 33 ms; of two each has 23 every 47, and of eight
+ * each has 7.5 every 60. The costs that are compared with it leave out the time that frames wait for others. A ceiling that was met
+ * with less of the device than there is now does not hold, and a rung that was left because others began is taken again as soon as
+ * they stop.
+ *
  * Where a hole rings and nothing else goes on, nothing moves: frames keep the size that is asked, however long they take, and give
  * up rays of a pixel alone. A change of motion alone changes no picture: what is shown is rendered once more, as at rest.
  *
  * When nothing changed for rest_ms: the steps of the ladder, one frame each, those that are less than what is shown left out. Then
- * nothing, until the next change. A scene that is stepped in time at each frame does not rest. */
+ * nothing, until the next change. Where the device is shared a frame may wait for rest_ms itself, so that the rest counts from when it
+ * was shown. A scene that is stepped in time at each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
@@ -54,10 +62,11 @@
 struct kd_governor_params {
     double target_ms; /* of a frame while the scene changes; over 0 */
     double rest_ms;   /* without a change before the picture is refined */
-    double stall_ms;  /* once, for the lens map that frames are to reuse */
+    double stall_ms;  /* once, for the lens map that frames are to reuse; a session that shares has its share of it */
+    double sparse_ms; /* from frame to frame, at most, where the device is shared; no matter if below the target */
     struct kd_ladder_bounds bounds;
 };
-#define KD_GOVERNOR_DEFAULTS .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .bounds = KD_LADDER_BOUNDS_DEFAULT,
+#define KD_GOVERNOR_DEFAULTS .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .sparse_ms = 60, .bounds = KD_LADDER_BOUNDS_DEFAULT,
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
 /* Where a frame's time went. total_ms is compared with the target: if stages overlap, the longest; if not, the sum. What the parts
@@ -87,12 +96,16 @@ struct kd_pace {
     uint32_t count;         /* frames since the last change of rung */
     struct kd_frame_cost costs[KD_PACE_FRAMES];
     double changed_at, failed_at, retry_ms; /* changed_at: -INFINITY until the first change of a kind of scene */
-    bool climbed; /* the last change was upwards */
+    double widest, failed_target; /* the target: at most, since the last change; when it failed */
+    bool climbed;                 /* the last change was upwards */
+    uint32_t held;                /* the rung that was left because others began to share; */
+    double held_target;           /* at which it was in time; 0: none */
 };
 
 /* All of it private. */
 struct kd_governor {
     struct kd_governor_params params;
+    double share;
     struct kd_scene asked;
     struct kd_ladder ladder;
     uint32_t ladders, revision;
@@ -105,10 +118,15 @@ struct kd_governor {
     bool rings;                          /* nothing moves, light alone changes */
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
+    double shown_at;         /* the newest frame that was no step of refinement */
     double shown_rays;
 };
 
 void kd_governor_init(struct kd_governor *governor, const struct kd_governor_params *params);
+
+/* The part of the device's time that this session may count on, over 0 and at most 1, which is what it begins with. Others that stop
+ * or begin change it: tell it before what is expected and before each frame that is reported. */
+void kd_governor_share(struct kd_governor *governor, double share);
 
 /* The scene is now *asked, valid. lens: its lens map is another, as it is when the plans of both, as asked, differ in lens_key;
  * the first of a session is. A change of image.* or accuracy.* makes a new ladder and starts on the rung that old averages

@@ -5,6 +5,7 @@
 #include "image/png_live.h"
 #include "render/live/governor.h"
 #include "server/http/secret.h"
+#include "server/session/budget.h"
 #include "server/session/sessions.h"
 
 #include <pthread.h>
@@ -15,11 +16,11 @@ struct kd_session {
     struct kd_sessions *all;
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
-    char client[KD_CLIENT];
     struct kd_scene scene; /* as at since_ms */
     double since_ms, used_ms;
     char lens_key[65]; /* of the scene as asked */
     struct kd_governor governor;
+    struct kd_budget_entry demand; /* entered while it is listed */
     unsigned revision; /* of the scene */
     uint64_t begun; /* frames */
     bool moved;     /* the scene of the latest one went on by itself */
@@ -40,6 +41,7 @@ struct kd_sessions {
     struct kd_sessions_params params;
     pthread_mutex_t lock;
     struct kd_session *first;
+    struct kd_budget budget; /* of the device's time, among those that move */
     unsigned count;
     uint64_t frames, bytes; /* published */
     bool closed;

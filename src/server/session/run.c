@@ -58,7 +58,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .socket = -1,
         .encode = encode, .rendered = rendered, .done = done,
     };
-    memcpy(live->job.claim.client, s->client, sizeof s->client);
+    memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
@@ -94,6 +94,8 @@ void kd_session_pump(struct kd_session *s)
     live->revision = s->revision;
     s->rendering = live;
     s->references++;
+    if (!turn.refining)
+        kd_budget_ask(&s->demand, now);
     kd_render_queue_push(s->all->params.renders, &live->job);
 }
 
@@ -139,8 +141,14 @@ static struct kd_frame_cost cost_of(const struct kd_render_job *job)
     return cost;
 }
 
+static void share_device(struct kd_session *s, double now)
+{
+    kd_governor_share(&s->governor, kd_budget_share(&s->all->budget, &s->demand, now));
+}
+
 void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
 {
+    share_device(s, kd_clock_ms());
     struct kd_frame_cost traced = { .total_ms = plan->estimate_ms }, reused = { .total_ms = plan->estimate_ms, .lens_reused = true };
     for (size_t i = 0; i < plan->n_passes; i++) {
         const struct kd_plan_pass *pass = &plan->passes[i];
@@ -168,7 +176,11 @@ static void rendered(struct kd_render_job *job)
     s->exposure = job->frame.exposure;
     s->exposed_revision = live->revision;
     const struct kd_frame_cost cost = cost_of(job);
-    kd_governor_frame(&s->governor, kd_clock_ms(), &live->turn, &cost);
+    const double now = kd_clock_ms();
+    if (!live->turn.refining)
+        kd_budget_end(&s->demand, now, cost.total_ms);
+    share_device(s, now);
+    kd_governor_frame(&s->governor, now, &live->turn, &cost);
     kd_session_pump(s);
     pthread_mutex_unlock(&all->lock);
 }
@@ -201,10 +213,13 @@ static void done(struct kd_render_job *job)
     struct kd_session *s = live->session;
     struct kd_sessions *all = s->all;
     pthread_mutex_lock(&all->lock);
-    if (live->rendered)
+    if (live->rendered) {
         s->encoding--;
-    else
+    } else {
         s->rendering = NULL;
+        if (!live->turn.refining)
+            kd_budget_end(&s->demand, kd_clock_ms(), 0);
+    }
     job->error.status = job->status;
     if (!job->status)
         publish(s, live);

@@ -45,6 +45,7 @@ void kd_session_unlist(struct kd_session *s)
     *link = s->next;
     s->listed = false;
     s->all->count--;
+    kd_budget_leave(&s->all->budget, &s->demand);
     kd_session_drop(s);
     kd_session_wake(s);
     kd_session_let_go(s);
@@ -86,18 +87,17 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     }
     s->all = all;
     s->references = 2; /* the list's and the caller's */
-    snprintf(s->client, sizeof s->client, "%s", client);
+    snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;
     s->revision = 1;
     s->since_ms = s->used_ms = kd_clock_ms();
     memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
     kd_governor_init(&s->governor, kd_governor_params(.target_ms = TARGET_MS));
     kd_governor_changed(&s->governor, s->since_ms, scene, true);
-    kd_session_expect(s, plan);
     pthread_mutex_lock(&all->lock);
     unsigned own = 0;
     for (const struct kd_session *other = all->first; other; other = other->next)
-        own += !strcmp(other->client, client);
+        own += !strcmp(other->demand.client, client);
     bool full = all->closed || all->count >= all->params.limit;
     if (!full && own >= all->params.client_limit) {
         pthread_mutex_unlock(&all->lock);
@@ -115,6 +115,8 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     s->next = all->first;
     all->first = s;
     all->count++;
+    kd_budget_enter(&all->budget, &s->demand);
+    kd_session_expect(s, plan);
     kd_session_pump(s);
     pthread_mutex_unlock(&all->lock);
     *out = s;
