@@ -157,6 +157,39 @@ static void sizes(void **state)
     assert_in_range(judge(&scene, "the edge"), HEIGHT * 4, HEIGHT * 6);
 }
 
+/* Bytes that have been asked for; the linker leads those who call malloc and calloc here. */
+static size_t asked;
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t n, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_malloc(size_t size)
+{
+    asked += size;
+    return __real_malloc(size);
+}
+void *__wrap_calloc(size_t n, size_t size)
+{
+    asked += n * size;
+    return __real_calloc(n, size);
+}
+
+/* Whoever plans the largest picture waits for the length of the curve, and not for its 2^30 pixels: a bit for each is 128 MiB. */
+static void the_largest_picture(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, INFINITY, 60);
+    struct kd_critical_pixels list;
+    struct kd_error error;
+    scene.image.width = scene.image.height = 32768;
+    scene.camera.field_m = 14;
+    asked = 0;
+    assert_int_equal(kd_critical_pixels_of(&scene, &list, &error), KD_OK);
+    assert_true(list.n > 100000);
+    assert_in_range(asked, list.n * sizeof *list.pixels, 16 << 20);
+    kd_critical_pixels_finish(&list);
+}
+
 /* The rays of a pixel: one in each column and row, and opposite to each another; how far apart they are, next to the closest packing
  * of points there is, sqrt(2/sqrt 3) over the root of their number. */
 static void places(void **state)
@@ -193,6 +226,7 @@ int main(void)
         cmocka_unit_test(from_infinity),
         cmocka_unit_test(from_nearby),
         cmocka_unit_test(sizes),
+        cmocka_unit_test(the_largest_picture),
         cmocka_unit_test(places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,14 +6,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { DEEPEST = 14, PIECES = 16 };
+enum { DEEPEST = 14, PIECES = 16, TILE = 64 };
 static const double straight = 0.05; /* pixels that a chord may be off the curve in its middle */
 
+struct tile { uint64_t rows[TILE]; }; /* a bit a pixel, the least at the left */
+
+/* Tiles are made where the curve passes: the work and the memory are those of its length, and not of the picture. */
 struct work {
     struct kd_critical curve;
     struct kd_camera_exact camera;
-    uint32_t width, height;
-    uint64_t *marks; /* a bit a pixel */
+    uint32_t width, height, across, down; /* in pixels; in tiles */
+    struct tile **tiles;                  /* row by row; NULL: nothing is marked there */
+    size_t n;                             /* pixels that are marked */
+    bool no_memory;
 };
 
 /* A point of the curve in the picture, in pixels. */
@@ -48,6 +53,18 @@ static struct spot project(const struct work *w, double along, double half)
 
 static double clamp(double x, double least, double most) { return fmin(fmax(x, least), most); }
 
+static void mark_pixel(struct work *w, uint32_t x, uint32_t y)
+{
+    struct tile **tile = &w->tiles[(size_t)(y / TILE) * w->across + x / TILE];
+    const uint64_t bit = 1ull << (x % TILE);
+    if (!*tile && !(*tile = calloc(1, sizeof **tile))) {
+        w->no_memory = true;
+        return;
+    }
+    w->n += !((*tile)->rows[y % TILE] & bit);
+    (*tile)->rows[y % TILE] |= bit;
+}
+
 /* Mark what is near the straight line from a to b. */
 static void mark(struct work *w, struct spot a, struct spot b)
 {
@@ -59,9 +76,8 @@ static void mark(struct work *w, struct spot a, struct spot b)
         for (double x = left; x <= right; x++) {
             double t = length2 > 0 ? clamp(((x - a.x) * dx + (y - a.y) * dy) / length2, 0, 1) : 0;
             double off_x = x - a.x - t * dx, off_y = y - a.y - t * dy;
-            size_t at = (size_t)y * w->width + (size_t)x;
             if (off_x * off_x + off_y * off_y <= near * near)
-                w->marks[at / 64] |= 1ull << (at % 64);
+                mark_pixel(w, (uint32_t)x, (uint32_t)y);
         }
 }
 
@@ -91,22 +107,53 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     }
 }
 
-static enum kd_status list(const struct work *w, struct kd_critical_pixels *out, struct kd_error *error)
+static void list_row(const struct work *w, const uint32_t *columns, uint32_t n, uint32_t y, struct kd_critical_pixels *out)
 {
-    size_t words = ((size_t)w->width * w->height + 63) / 64, n = 0;
-    for (size_t i = 0; i < words; i++)
-        n += (size_t)__builtin_popcountll(w->marks[i]);
-    if (!n)
-        return KD_OK;
-    out->pixels = malloc(n * sizeof *out->pixels);
-    if (!out->pixels)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the %zu pixels at the critical curve", n);
-    for (size_t i = 0; i < words; i++)
-        for (uint64_t left = w->marks[i]; left; left &= left - 1) {
-            size_t at = 64 * i + (size_t)__builtin_ctzll(left);
-            out->pixels[out->n++] = (struct kd_pixel) { (uint32_t)(at % w->width), (uint32_t)(at / w->width) };
+    for (uint32_t i = 0; i < n; i++) {
+        const struct tile *tile = w->tiles[(size_t)(y / TILE) * w->across + columns[i]];
+        for (uint64_t left = tile->rows[y % TILE]; left; left &= left - 1)
+            out->pixels[out->n++] = (struct kd_pixel) { TILE * columns[i] + (uint32_t)__builtin_ctzll(left), y };
+    }
+}
+
+/* columns: of a row of tiles those that there are; room for all. */
+static void list(const struct work *w, uint32_t *columns, struct kd_critical_pixels *out)
+{
+    for (uint32_t row = 0; row < w->down; row++) {
+        uint32_t n = 0;
+        for (uint32_t column = 0; column < w->across; column++)
+            if (w->tiles[(size_t)row * w->across + column])
+                columns[n++] = column;
+        for (uint32_t y = TILE * row; n && y < TILE * (row + 1); y++)
+            list_row(w, columns, n, y, out);
+    }
+}
+
+static void mark_all(struct work *w)
+{
+    for (int half = -1; half <= 1; half += 2)
+        for (int i = 0; i < PIECES; i++) {
+            double from = (double)i / PIECES, to = (i + 1.0) / PIECES;
+            draw(w, half, from, project(w, from, half), to, project(w, to, half), 0);
         }
-    return KD_OK;
+}
+
+static enum kd_status mark_and_list(struct work *w, struct kd_critical_pixels *out, struct kd_error *error)
+{
+    uint32_t *columns = malloc(w->across * sizeof *columns);
+    w->tiles = calloc((size_t)w->across * w->down, sizeof *w->tiles);
+    if (w->tiles && columns)
+        mark_all(w);
+    if (w->n && !w->no_memory)
+        out->pixels = malloc(w->n * sizeof *out->pixels);
+    bool good = w->tiles && columns && !w->no_memory && (out->pixels || !w->n);
+    if (good)
+        list(w, columns, out);
+    for (size_t i = 0; w->tiles && i < (size_t)w->across * w->down; i++)
+        free(w->tiles[i]);
+    free(w->tiles);
+    free(columns);
+    return good ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the pixels at the critical curve of %u x %u", w->width, w->height);
 }
 
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
@@ -123,17 +170,9 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     w.curve = kd_critical_of(&observer);
     if (w.curve.status) /* not of a valid scene */
         return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.spin, observer.radius);
-    w.marks = calloc(((size_t)w.width * w.height + 63) / 64, sizeof *w.marks);
-    if (!w.marks)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for marks of %u x %u pixels", w.width, w.height);
-    for (int half = -1; half <= 1; half += 2)
-        for (int i = 0; i < PIECES; i++) {
-            double from = (double)i / PIECES, to = (i + 1.0) / PIECES;
-            draw(&w, half, from, project(&w, from, half), to, project(&w, to, half), 0);
-        }
-    enum kd_status status = list(&w, out, error);
-    free(w.marks);
-    return status;
+    w.across = (w.width + TILE - 1) / TILE;
+    w.down = (w.height + TILE - 1) / TILE;
+    return mark_and_list(&w, out, error);
 }
 
 void kd_critical_pixels_finish(struct kd_critical_pixels *pixels)
