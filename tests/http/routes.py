@@ -202,11 +202,11 @@ class Routes(daemon.Case):
 
 class Held(daemon.Case):
     """The thread that answers everything else is at a standstill, and the connections are used up."""
-    options = ('--device', 'slow', '--connections', 8, '--header-ms', 30000)
+    options = ('--device', 'held', '--connections', 8, '--header-ms', 30000)
 
     def test_health_is_answered_nevertheless(self):
         with self.daemon.connect() as held:
-            held.sendall(b'GET /v1/accuracy HTTP/1.1\r\nHost: localhost\r\n\r\n')
+            held.sendall(b'HEAD /v1/render HTTP/1.1\r\nHost: localhost\r\n\r\n')
             self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_requests'] == 2))
             time.sleep(0.1)
             crowd = [self.daemon.connect() for _ in range(30)]
@@ -226,6 +226,21 @@ class Held(daemon.Case):
                 self.assertTrue(s.recv(100).startswith(b'HTTP/1.1 200 '))
             for s in crowd:
                 s.close()
+
+
+class SlowDisk(daemon.Case):
+    options = ('--device', 'slow')
+
+    def test_the_accuracy_table_holds_nobody(self):
+        with self.daemon.connect() as waiting:
+            waiting.sendall(b'GET /v1/accuracy HTTP/1.1\r\nHost: localhost\r\n\r\n')
+            self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_turns_unfinished'] == 1))
+            self.assertEqual(self.daemon.get('/v1/device').status, 200)
+            self.assertEqual(self.daemon.get('/v1/render?' + daemon.SMALL).status, 200)
+            waiting.setblocking(False)
+            self.assertRaises(BlockingIOError, waiting.recv, 1)  # it takes 5 s
+            waiting.setblocking(True)
+            self.assertProblem(daemon.read_answer(waiting), 404, 'not-found')
 
 
 class Measured(daemon.Case):

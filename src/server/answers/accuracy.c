@@ -1,15 +1,57 @@
-/* GET /v1/accuracy: the table that `kerrd bench accuracy` keeps for this device, as it is now on disk. */
+/* GET /v1/accuracy: the table that `kerrd bench accuracy` keeps for this device, as it is now on disk: read by the workers, as a
+ * disk may take its time. */
 #include "server/http/reply.h"
-#include "server/http/request.h"
 #include "server/render/queue.h"
+#include "server/render/task.h"
+
+#include <stdlib.h>
+
+struct reading {
+    struct kd_task task; /* first */
+    struct kd_buffer json;
+};
+
+static void destroy(struct kd_task *task)
+{
+    struct reading *reading = (struct reading *)task;
+    kd_buffer_finish(&reading->json);
+    free(reading);
+}
+
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
+{
+    struct reading *reading = (struct reading *)task;
+    struct kd_error error = { 0 };
+    (void)until_ms;
+    kd_task_fail(task, kd_render_queue_accuracy_json(task->request->server->renders, &reading->json, &error), &error);
+    return KD_TURN_LAST;
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    struct reading *reading = (struct reading *)request->task;
+    enum kd_status status = reading->task.status;
+    if (status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (status == KD_EIO || status == KD_EINVAL)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = reading->task.error.message });
+    return kd_reply_json(request, status, &reading->json, request->route->answer);
+}
 
 enum MHD_Result kd_handle_accuracy(struct kd_request *request)
 {
-    struct kd_buffer json = { 0 };
-    struct kd_error error = { 0 };
-    enum kd_status status = kd_render_queue_accuracy_json(request->server->renders, &json, &error);
-    if (status != KD_EIO && status != KD_EINVAL)
-        return kd_reply_json(request, status, &json, request->route->answer);
-    kd_buffer_finish(&json);
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
+    struct kd_turns *workers = request->server->turns;
+    enum MHD_Result refused;
+    if (request->task)
+        return deliver(request);
+    if (!kd_task_admit(request, workers, "readings of the accuracy table", &refused))
+        return refused;
+    struct reading *reading = calloc(1, sizeof *reading);
+    if (!reading)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    kd_task_init(&reading->task, request, workers);
+    reading->task.work = work;
+    reading->task.free = destroy;
+    request->task = &reading->task;
+    return kd_task_submit(&reading->task);
 }

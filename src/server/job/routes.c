@@ -92,7 +92,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
 struct draft {
     struct kd_task task; /* first */
     struct kd_job_draft draft;
-    bool read, quota;
+    bool read;
     struct kd_job *job; /* a reference */
 };
 
@@ -119,7 +119,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     if (!status && d->draft.checked < d->draft.spec.frames)
         return KD_TURN_MORE;
     if (!status)
-        status = kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &d->quota, &d->job, &error);
+        status = kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &task->quota, &d->job, &error);
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
 }
@@ -130,7 +130,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (d->task.status == KD_ECANCELLED)
         return MHD_NO; /* nobody listens */
     if (d->task.status)
-        return refuse(request, &d->task.error, d->quota);
+        return refuse(request, &d->task.error, d->task.quota);
     enum MHD_Result result = answer(request, d->job, true);
     if (request->status != MHD_HTTP_ACCEPTED) /* nobody has been told of it */
         kd_job_delete(d->job);
