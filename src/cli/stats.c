@@ -9,7 +9,7 @@ static void add_field(struct kd_json *json, const struct kd_field *field, const 
 {
     struct kd_buffer text = { 0 };
     struct kd_writer writer = { .out = &text };
-    kd_write_value(&writer, field, kd_field_get(scene, field, 0));
+    kd_write_field(&writer, scene, field, 0);
     if (writer.status)
         json->status = writer.status;
     else

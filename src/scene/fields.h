@@ -8,19 +8,20 @@
  *   INT (section, name, default, minimum, maximum, unit, help)
  *   BOOL(section, name, default, help)
  *   ENUM(section, name, default, help, words)                          words "a|b|c": the value is the index
+ *   ASSET(section, name, help)                                         bytes by their SHA-256, or none (scene/asset.h)
  *
  * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" is a pure number.
  * Order here is the order of the canonical form and of the reference. */
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
 
-#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                      \
+#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                      \
     REAL(spacetime, spin, 0.7, -0.999999999999, 0.999999999999, "M",                                          \
          "spin parameter a; a < 0 is a disk retrograde to its hole")                                          \
     REAL(spacetime, mass_msun, 1e8, 1e-3, 1e12, "solar masses",                                               \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"")
 
-#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                         \
+#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                         \
     WORD(camera, r, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")            \
     REAL(camera, inclination_deg, 82.0, 0.0, 180.0, "degrees",                                                \
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")              \
@@ -46,7 +47,7 @@
     REAL(camera, ring_decades_min, -10.0, -13.0, -1.0, "decades",                                             \
          "the same at the middle line, above which rays pass outside the curve and below which inside (ring)")
 
-#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                           \
+#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                           \
     ENUM(disk, model, KD_DISK_NOVIKOV_THORNE,                                                                 \
          "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; "    \
          "particles: the exact one, made of orbiting particles",                                              \
@@ -84,7 +85,7 @@
     BOOL(disk, slow_light, false, "each ray shows particles and spots where they were when its light left them, instead of all at " \
          "one coordinate time")
 
-#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \
+#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
     REAL(spots, brightness, 0.0, 0.0, 1e6, "1",                                                                \
          "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot")  \
     REAL(spots, r, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO")  \
@@ -94,13 +95,13 @@
     REAL(spots, temperature_k, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
-#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
+#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
     ENUM(sky, model, KD_SKY_NONE,                                                                             \
          "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")           \
     REAL(sky, brightness, 0.2, 0.0, 100.0, "1", "brightness of the sky in units of the disk's brightest surface brightness at g = 1")  \
     REAL(sky, grid_deg, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
 
-#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \
+#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
     INT(image, width, 1280, 1, 32768, "pixels", "width of the picture")                                       \
     INT(image, height, 720, 1, 32768, "pixels", "height of the picture")                                      \
     INT(image, samples, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")        \
@@ -109,7 +110,7 @@
         "than they are; at most 16 in all")                                                                        \
     INT(image, bit_depth, 8, 8, 16, "bits", "bits a channel: 8 or 16")
 
-#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                          \
+#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
     WORD(style, exposure, INFINITY, -40.0, 40.0, "stops",                                                     \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")        \
     ENUM(style, tone_map, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")                \
@@ -119,11 +120,11 @@
          "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none")                                           \
     REAL(style, ringdown_time, 0.0, -1e12, 1e12, "M", "time at which it was struck; before that nothing rings")
 
-#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                         \
+#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                         \
     REAL(motion, azimuth_rate_deg, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
     REAL(motion, time_rate, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")
 
-#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                       \
+#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                       \
     ENUM(accuracy, profile, KD_PROFILE_BALANCED,                                                              \
          "how closely rays are followed, coarse to fine; reference is double precision",                      \
          "draft|interactive|balanced|high|reference")                                                         \
@@ -139,7 +140,7 @@
         "steps of the integrator a half turn, a multiple of 4; 0: what the profile means")                    \
     INT(accuracy, orders, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
 
-#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM)                                                            \
+#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
     REAL(top, time, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
 /* The sections, in order: SECTION(name, rows, help), and LIST(name, element, rows, most, help) for up to `most` elements that have these

@@ -3,7 +3,6 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/qnm.h"
-#include "scene/element.h"
 #include "scene/number.h"
 #include "scene/value.h"
 
@@ -193,36 +192,3 @@ const struct kd_rule kd_rules[] = {
     { "`accuracy.steps` is a multiple of 4.", steps },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;
-
-/* A scene that was filled in by hand has passed no parser. */
-static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
-{
-    double value = kd_field_get(scene, field, index);
-    if (kd_field_holds(field, value))
-        return KD_OK;
-    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
-    kd_field_path(field, index, path);
-    kd_field_pointer(field, index, pointer);
-    kd_value_allowed(field, allowed);
-    return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, show(value).text, allowed);
-}
-
-static enum kd_status ranges(const struct kd_scene *scene, const struct kd_section *section, struct kd_error *error)
-{
-    size_t size = kd_section_size(scene, section);
-    enum kd_status status = section->most ? kd_element_count(section, size, error) : KD_OK;
-    for (size_t i = 0; i < size && !status; i++)
-        for (size_t f = 0; f < section->count && !status; f++)
-            status = range(scene, &kd_fields[section->first + f], i, error);
-    return status;
-}
-
-enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error)
-{
-    enum kd_status status = KD_OK;
-    for (size_t i = 0; i < KD_SECTION_COUNT && !status; i++)
-        status = ranges(scene, &kd_sections[i], error);
-    for (size_t i = 0; i < kd_rule_count && !status; i++)
-        status = kd_rules[i].check(scene, error);
-    return status;
-}

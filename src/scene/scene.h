@@ -13,12 +13,14 @@
 #include <stdint.h>
 
 #define KD_SCENE_VERSION 1
+#define KD_ASSET_NAME 65 /* room for the SHA-256 of an asset in hexadecimal digits, or for a name of one; "": there is none */
 
 #define KD_M_REAL(s, name, ...) double name;
 #define KD_M_INT(s, name, ...) int32_t name;
 #define KD_M_BOOL(s, name, ...) bool name;
 #define KD_M_ENUM(s, name, ...) int32_t name;
-#define KD_M_ROWS(ROWS) ROWS(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM)
+#define KD_M_ASSET(s, name, ...) char name[KD_ASSET_NAME];
+#define KD_M_ROWS(ROWS) ROWS(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM, KD_M_ASSET)
 #define KD_M_SECTION(name, ROWS, help)                                                                       \
     struct kd_##name {                                                                                       \
         KD_M_ROWS(ROWS)                                                                                      \

@@ -36,6 +36,9 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
         write_range(w, "number", field);
         kd_write(w, "}]");
         return;
+    case KD_FIELD_ASSET:
+        kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^([A-Za-z][A-Za-z0-9._-]{0,62}|[0-9a-f]{64})$\"}]");
+        return;
     }
 }
 

@@ -33,7 +33,9 @@ KD_SCENE_SECTIONS(PLACE, LIST_PLACE)
 #define ENUM(s, n, d, h, w)                                                                                  \
     { AT(s, n), .kind = KD_FIELD_ENUM, .initial = d, RANGE(0, 0, ""), .help = h, .words = w },
 
-#define FIELDS(name, ROWS, help) ROWS(REAL, WORD, INT, BOOL, ENUM)
+#define ASSET(s, n, h) { AT(s, n), .kind = KD_FIELD_ASSET, RANGE(0, 1, ""), .help = h },
+
+#define FIELDS(name, ROWS, help) ROWS(REAL, WORD, INT, BOOL, ENUM, ASSET)
 #define LIST_FIELDS(name, element, ROWS, most, help) FIELDS(name, ROWS, help)
 const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
 
@@ -125,6 +127,7 @@ double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, 
     case KD_FIELD_INT:
     case KD_FIELD_ENUM: return *(const int32_t *)at;
     case KD_FIELD_BOOL: return *(const bool *)at;
+    case KD_FIELD_ASSET: return *(const char *)at != 0;
     }
     return NAN;
 }
@@ -138,7 +141,25 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
     case KD_FIELD_INT:
     case KD_FIELD_ENUM: *(int32_t *)at = (int32_t)value; break;
     case KD_FIELD_BOOL: *(bool *)at = value != 0; break;
+    case KD_FIELD_ASSET:
+        if (value == 0)
+            memset(at, 0, KD_ASSET_NAME);
+        break;
     }
+}
+
+const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index)
+{
+    return (const char *)scene + field->offset + index * field->stride;
+}
+
+/* All of its bytes, so that equal scenes are equal bytes. */
+void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text)
+{
+    char *at = (char *)scene + field->offset + index * field->stride;
+    size_t length = strnlen(text, KD_ASSET_NAME - 1);
+    memset(at, 0, KD_ASSET_NAME);
+    memcpy(at, text, length);
 }
 
 bool kd_field_holds(const struct kd_field *field, double value)
@@ -148,7 +169,8 @@ bool kd_field_holds(const struct kd_field *field, double value)
     case KD_FIELD_REAL: return in_range;
     case KD_FIELD_WORD: return in_range || value == INFINITY;
     case KD_FIELD_INT:
-    case KD_FIELD_BOOL: return in_range && value == floor(value);
+    case KD_FIELD_BOOL:
+    case KD_FIELD_ASSET: return in_range && value == floor(value);
     case KD_FIELD_ENUM: return value >= 0 && value < kd_field_word_count(field) && value == floor(value);
     }
     return false;

@@ -5,16 +5,16 @@
 
 #include "scene/scene.h"
 
-enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM };
+enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM, KD_FIELD_ASSET };
 
 struct kd_field {
     const char *section; /* "" for a member of the document itself */
     const char *name;
     enum kd_field_kind kind;
-    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM) or bool */
+    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, or a text (ASSET) */
     size_t stride; /* from element to element of a list; 0 in a section that is none */
     double initial, minimum, maximum;
-    const char *unit; /* "1": a pure number; "" for BOOL and ENUM */
+    const char *unit; /* "1": a pure number; "" for BOOL, ENUM and ASSET */
     const char *help;
     const char *words; /* WORD: the word for INFINITY; ENUM: "a|b|c"; NULL otherwise */
 };
@@ -34,7 +34,7 @@ struct kd_old_name {
 };
 
 #define KD_ONE(...) +1
-#define KD_COUNT_ROWS(name, ROWS, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
+#define KD_COUNT_ROWS(name, ROWS, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
 #define KD_COUNT_LIST_ROWS(name, element, ROWS, most, help) KD_COUNT_ROWS(name, ROWS, help)
 enum {
     KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
@@ -70,9 +70,13 @@ void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, 
  * whether there is one. */
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
-/* Any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. */
+/* Any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an ASSET whether there is one; 0 puts it away. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
+
+/* The text of an ASSET, "" for none; to be put it is shorter than KD_ASSET_NAME. */
+const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
+void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
 
 /* True if value may be stored in field: in range, whole where that is asked for, INFINITY for WORD alone. */
 bool kd_field_holds(const struct kd_field *field, double value);

@@ -1,5 +1,6 @@
 #include "scene/value.h"
 
+#include "scene/asset.h"
 #include "scene/number.h"
 #include "scene/text.h"
 
@@ -73,6 +74,9 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
         return;
     case KD_FIELD_BOOL: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
     case KD_FIELD_ENUM: list_words(field, out); return;
+    case KD_FIELD_ASSET:
+        snprintf(out, KD_ALLOWED_SIZE, "null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter, then letters, digits, . _ and -");
+        return;
     }
 }
 
@@ -89,6 +93,10 @@ static double convert(const struct kd_field *field, const struct kd_value *value
     case KD_FIELD_INT: return number && isfinite(value->number) ? value->number : NAN;
     case KD_FIELD_BOOL: return value->kind == KD_VALUE_BOOL ? value->number : NAN;
     case KD_FIELD_ENUM: return string ? kd_field_word_index(field, value->text) : NAN;
+    case KD_FIELD_ASSET:
+        if (value->kind == KD_VALUE_NULL || (string && !*value->text))
+            return 0;
+        return string && (kd_asset_is_hash(value->text) || kd_asset_is_name(value->text)) ? 1 : NAN;
     }
     return NAN;
 }
@@ -106,7 +114,10 @@ enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *fie
 {
     double number = convert(field, value);
     if (kd_field_holds(field, number)) {
-        kd_field_put(scene, field, index, number);
+        if (field->kind == KD_FIELD_ASSET && number != 0)
+            kd_field_put_asset(scene, field, index, value->text);
+        else
+            kd_field_put(scene, field, index, number);
         return KD_OK;
     }
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];

@@ -1,8 +1,9 @@
 /* Scene documents: canonical JSON out, and its hash. */
+#include "scene/asset.h"
 #include "scene/number.h"
+#include "scene/sha256.h"
 #include "scene/writer.h"
 
-#include <nettle/sha2.h>
 #include <stdio.h>
 
 void kd_write_string(struct kd_writer *writer, const char *text)
@@ -47,7 +48,20 @@ void kd_write_value(struct kd_writer *writer, const struct kd_field *field, doub
         word = kd_field_word(field, (int)value);
         kd_write(writer, "\"%.*s\"", word.length, word.text);
         return;
+    case KD_FIELD_ASSET: kd_write(writer, "null"); return; /* one that is there has more than a number */
     }
+}
+
+void kd_write_field(struct kd_writer *writer, const struct kd_scene *scene, const struct kd_field *field, size_t index)
+{
+    const char *asset = field->kind == KD_FIELD_ASSET ? kd_field_asset(scene, field, index) : "";
+    if (!*asset) {
+        kd_write_value(writer, field, kd_field_get(scene, field, index));
+        return;
+    }
+    if (!kd_asset_is_hash(asset)) /* a name means what its reader knows by it: it is no identity */
+        writer->status = writer->status ? writer->status : KD_EINVAL;
+    kd_write_string(writer, asset);
 }
 
 static void write_fields(struct kd_writer *writer, const struct kd_section *section, size_t index, const struct kd_scene *scene)
@@ -55,7 +69,7 @@ static void write_fields(struct kd_writer *writer, const struct kd_section *sect
     for (size_t i = 0; i < section->count; i++) {
         const struct kd_field *field = &kd_fields[section->first + i];
         kd_write(writer, "%s\"%s\":", i ? "," : "", field->name);
-        kd_write_value(writer, field, kd_field_get(scene, field, index));
+        kd_write_field(writer, scene, field, index);
     }
 }
 
@@ -95,15 +109,8 @@ enum kd_status kd_scene_hash(const struct kd_scene *scene, char hash[65])
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_scene_to_json(scene, &text);
     hash[0] = 0;
-    if (!status) {
-        uint8_t digest[SHA256_DIGEST_SIZE];
-        struct sha256_ctx context;
-        sha256_init(&context);
-        sha256_update(&context, text.size, text.data);
-        sha256_digest(&context, sizeof digest, digest);
-        for (size_t i = 0; i < sizeof digest; i++)
-            snprintf(hash + 2 * i, 3, "%02x", digest[i]);
-    }
+    if (!status)
+        kd_sha256(text.data, text.size, hash);
     kd_buffer_finish(&text);
     return status;
 }

@@ -16,5 +16,7 @@ void kd_write_string(struct kd_writer *writer, const char *text);
 void kd_write_number(struct kd_writer *writer, double value);
 /* A field's value as a document holds it; KD_EINVAL in status when the field cannot hold it. */
 void kd_write_value(struct kd_writer *writer, const struct kd_field *field, double value);
+/* The same of a scene; KD_EINVAL for the name of an asset that nobody has resolved, too. */
+void kd_write_field(struct kd_writer *writer, const struct kd_scene *scene, const struct kd_field *field, size_t index);
 
 #endif

@@ -1,0 +1,50 @@
+#include "scene/asset.h"
+
+#include "scene/table.h"
+#include "scene/text.h"
+
+#include <string.h>
+
+#define DIGITS "0123456789"
+#define LETTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+
+bool kd_asset_is_hash(const char *text)
+{
+    return strlen(text) == KD_ASSET_NAME - 1 && strspn(text, DIGITS "abcdef") == KD_ASSET_NAME - 1;
+}
+
+bool kd_asset_is_name(const char *text)
+{
+    size_t length = strlen(text);
+    return length && length < KD_ASSET_NAME - 1 && strchr(LETTERS, *text) && strspn(text, LETTERS DIGITS "._-") == length;
+}
+
+static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *field, size_t index, kd_asset_find_fn find, void *user,
+                              struct kd_error *error)
+{
+    char hash[KD_ASSET_NAME] = "", path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+    const char *name = kd_field_asset(scene, field, index);
+    if (!*name)
+        return KD_OK;
+    if (find(user, name, hash) && kd_asset_is_hash(hash)) {
+        kd_field_put_asset(scene, field, index, hash);
+        return KD_OK;
+    }
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
+    return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here", path, name);
+}
+
+enum kd_status kd_scene_resolve(struct kd_scene *scene, kd_asset_find_fn find, void *user, struct kd_error *error)
+{
+    struct kd_scene resolved = *scene;
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < KD_FIELD_COUNT && !status; i++) {
+        const struct kd_section *section = kd_section_find(kd_fields[i].section);
+        for (size_t k = 0; kd_fields[i].kind == KD_FIELD_ASSET && k < kd_section_size(scene, section) && !status; k++)
+            status = resolve(&resolved, &kd_fields[i], k, find, user, error);
+    }
+    if (!status)
+        *scene = resolved;
+    return status;
+}

@@ -1,0 +1,16 @@
+#include "scene/sha256.h"
+
+#include <nettle/sha2.h>
+#include <stdint.h>
+#include <stdio.h>
+
+void kd_sha256(const void *data, size_t size, char out[65])
+{
+    uint8_t digest[SHA256_DIGEST_SIZE];
+    struct sha256_ctx context;
+    sha256_init(&context);
+    sha256_update(&context, size, data);
+    sha256_digest(&context, sizeof digest, digest);
+    for (size_t i = 0; i < sizeof digest; i++)
+        snprintf(out + 2 * i, 3, "%02x", digest[i]);
+}

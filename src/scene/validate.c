@@ -1,0 +1,56 @@
+/* Every field in its range, and what ties fields together. */
+#include "scene/asset.h"
+#include "scene/element.h"
+#include "scene/number.h"
+#include "scene/rules.h"
+#include "scene/value.h"
+
+#include <string.h>
+
+/* A name that nobody has resolved is that of nothing. */
+static enum kd_status asset(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
+{
+    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+    const char *name = kd_field_asset(scene, field, index);
+    if (!*name || kd_asset_is_hash(name))
+        return KD_OK;
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
+    return kd_error_field(error, pointer, "%s is \"%.64s\", which is no SHA-256, and no name of an asset that is known here", path, name);
+}
+
+/* A scene that was filled in by hand has passed no parser. */
+static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
+{
+    double value = kd_field_get(scene, field, index);
+    if (field->kind == KD_FIELD_ASSET)
+        return asset(scene, field, index, error);
+    if (kd_field_holds(field, value))
+        return KD_OK;
+    char number[KD_NUMBER_SIZE], path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
+    kd_value_allowed(field, allowed);
+    kd_number_format(number, value);
+    return kd_error_field(error, pointer, "%s is %s, allowed are %s", path, number, allowed);
+}
+
+static enum kd_status ranges(const struct kd_scene *scene, const struct kd_section *section, struct kd_error *error)
+{
+    size_t size = kd_section_size(scene, section);
+    enum kd_status status = section->most ? kd_element_count(section, size, error) : KD_OK;
+    for (size_t i = 0; i < size && !status; i++)
+        for (size_t f = 0; f < section->count && !status; f++)
+            status = range(scene, &kd_fields[section->first + f], i, error);
+    return status;
+}
+
+enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < KD_SECTION_COUNT && !status; i++)
+        status = ranges(scene, &kd_sections[i], error);
+    for (size_t i = 0; i < kd_rule_count && !status; i++)
+        status = kd_rules[i].check(scene, error);
+    return status;
+}

@@ -1,0 +1,208 @@
+/* The scene's machinery over another table of fields (table/scene/fields.h): what it does for spots it does for any list, and assets are
+ * names until they are resolved. */
+#include "scene/asset.h"
+#include "scene/presets.h"
+#include "scene/rules.h"
+#include "scene/sha256.h"
+
+#include "scene_support.h"
+
+#include <cjson/cJSON.h>
+
+/* This scene has neither. */
+const struct kd_rule kd_rules[1];
+const size_t kd_rule_count = 0;
+const struct kd_preset kd_presets[1];
+const size_t kd_preset_count = 0;
+
+#define ABC "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad" /* FIPS 180-2, B.1 */
+
+static struct kd_scene of(const char *text)
+{
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    kd_scene_defaults(&scene);
+    if (support_parse(&scene, text, &error))
+        fail_msg("%s: %s %s", text, error.pointer, error.message);
+    return scene;
+}
+
+static void expect_text(const struct kd_scene *scene, const char *wanted)
+{
+    char *text = support_canonical(scene);
+    assert_string_equal(text, wanted);
+    free(text);
+}
+
+#define BODY "{\"dark\":true,\"shape\":\"disk\",\"texture\":null,\"moons\":3,\"r\":\"far\"}"
+#define REST "\"time\":0,\"film\":null}"
+
+static void canonical_form(void **state)
+{
+    (void)state;
+    struct kd_scene scene = of("{}");
+    expect_text(&scene, "{\"version\":1,\"bodies\":[],\"place\":{\"width\":2,\"map\":null},\"stops\":[]," REST);
+    scene = of("{\"bodies\":[{},{\"r\":4,\"shape\":\"ring\",\"moons\":0,\"dark\":false,\"texture\":\"" ABC "\"}],\"finish\":{\"time\":1},\"film\":null}");
+    expect_text(&scene, "{\"version\":1,\"bodies\":[" BODY ",{\"dark\":false,\"shape\":\"ring\",\"texture\":\"" ABC "\",\"moons\":0,\"r\":4}],"
+                        "\"place\":{\"width\":2,\"map\":null},\"stops\":[{\"time\":0.5,\"sound\":null},{\"time\":0.5,\"sound\":null},"
+                        "{\"time\":1,\"sound\":null}]," REST);
+    char *text = support_canonical(&scene);
+    struct kd_scene back = of(text);
+    assert_memory_equal(&back, &scene, sizeof scene);
+    free(text);
+}
+
+static void lists_of_any_kind(void **state)
+{
+    (void)state;
+    struct kd_scene scene = of("{\"bodies\":{\"1\":{\"moons\":5},\"0\":{\"dark\":false}},\"stops\":[{\"time\":-1},{}]}");
+    struct kd_error error;
+    assert_true(scene.bodies.count == 2 && scene.stops.count == 2 && scene.bodies.at[1].moons == 5 && !scene.bodies.at[0].dark);
+    assert_true(scene.bodies.at[1].dark && scene.bodies.at[1].shape == 1 && isinf(scene.bodies.at[1].r) && scene.stops.at[1].time == 0.5);
+    assert_int_equal(kd_scene_set(&scene, "bodies.2.shape", "ball", &error), KD_OK);
+    assert_int_equal(kd_scene_set(&scene, "stops.2.time", "0.25", &error), KD_OK);
+    assert_int_equal(kd_scene_set(&scene, "stops.3.time", "0.25", &error), KD_EINVAL);
+    assert_string_equal(error.message, "there is no stops.3: stops is a list, whose elements are stops.0 to stops.2");
+    assert_int_equal(kd_scene_set(&scene, "start.time", "0.75", &error), KD_OK);
+    assert_true(scene.bodies.count == 3 && scene.bodies.at[2].shape == 0 && scene.stops.at[2].time == 0.25 && scene.stops.at[0].time == 0.75);
+    assert_int_equal(support_parse(&scene, "{\"bodies\":{\"19\":{}}}", &error), KD_EINVAL);
+    assert_string_equal(error.message, "there is no bodies.19: the list has 3 elements, and the next free index is 3");
+    assert_int_equal(support_parse(&scene, "{\"stops\":[{},{},{},{}]}", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/stops/3");
+    assert_int_equal(support_parse(&scene, "{\"stops\":[],\"start\":{}}", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/start");
+    assert_int_equal(support_parse(&scene, "{\"bodies\":[{},{\"shape\":\"cube\"}]}", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/bodies/1/shape");
+    const char *patch = "{\"bodies\":null,\"stops\":{\"0\":null}}";
+    assert_int_equal(kd_scene_patch(&scene, patch, strlen(patch), &error), KD_OK);
+    assert_true(scene.bodies.count == 0 && scene.stops.count == 3 && scene.stops.at[0].time == 0.5);
+    uint64_t seed = 7;
+    for (int i = 0; i < 300; i++) {
+        support_scene(&scene, &seed);
+        for (size_t k = 0; k < scene.bodies.count; k++)
+            strcpy(scene.bodies.at[k].texture, k % 2 ? ABC : "");
+        *scene.place.map = *scene.top.film = 0;
+        char *text = support_canonical(&scene);
+        struct kd_scene back = of(text);
+        assert_memory_equal(&back, &scene, sizeof scene);
+        free(text);
+    }
+}
+
+/* Where names are known: "sky" is ABC, and no other. */
+static bool find(void *user, const char *name, char hash[KD_ASSET_NAME])
+{
+    (*(int *)user)++;
+    if (strcmp(name, "sky") && strcmp(name, ABC))
+        return false;
+    strcpy(hash, ABC);
+    return true;
+}
+
+static void assets_are_resolved(void **state)
+{
+    (void)state;
+    struct kd_scene scene = of("{\"place\":{\"map\":\"sky\"},\"bodies\":[{},{\"texture\":\"sky\"},{\"texture\":\"" ABC "\"}],\"film\":\"sky\"}");
+    struct kd_scene same = of("{\"place\":{\"map\":\"" ABC "\"},\"bodies\":[{},{\"texture\":\"" ABC "\"},{\"texture\":\"" ABC "\"}],\"film\":\"" ABC "\"}");
+    struct kd_buffer text = { 0 };
+    struct kd_error error;
+    char hashes[2][65];
+    int asked = 0;
+    assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL); /* a name is no identity */
+    kd_buffer_finish(&text);
+    assert_int_equal(kd_scene_hash(&scene, hashes[0]), KD_EINVAL);
+    assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/bodies/1/texture");
+    assert_string_equal(error.message, "bodies.1.texture is \"sky\", which is no SHA-256, and no name of an asset that is known here");
+    assert_int_equal(kd_scene_resolve(&scene, find, &asked, &error), KD_OK);
+    assert_int_equal(asked, 4);
+    assert_memory_equal(&scene, &same, sizeof scene);
+    assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
+    assert_int_equal(kd_scene_hash(&scene, hashes[0]), KD_OK);
+    assert_int_equal(kd_scene_hash(&same, hashes[1]), KD_OK);
+    assert_string_equal(hashes[0], hashes[1]);
+
+    assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "ground", &error), KD_OK);
+    same = scene;
+    assert_int_equal(kd_scene_resolve(&scene, find, &asked, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/bodies/0/texture");
+    assert_string_equal(error.message, "bodies.0.texture is \"ground\", and there is no such asset here");
+    assert_memory_equal(&scene, &same, sizeof scene);
+    assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "", &error), KD_OK); /* none */
+    assert_int_equal(kd_scene_resolve(&scene, find, &asked, &error), KD_OK);
+    const char *patch = "{\"film\":null,\"place\":null,\"bodies\":[]}";
+    assert_int_equal(kd_scene_patch(&scene, patch, strlen(patch), &error), KD_OK);
+    same = of("{}");
+    assert_memory_equal(&scene, &same, sizeof scene);
+}
+
+static void assets_have_names(void **state)
+{
+    (void)state;
+    static const struct { const char *json; bool good; } cases[] = {
+        { "null", true }, { "\"sky\"", true }, { "\"Sky.2-b_c\"", true }, { "\"" ABC "\"", true },
+        { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabc\"", true },   /* 63 */
+        { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcg\"", false }, /* 64, and no hash */
+        { "\"BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD\"", false }, { "\"" ABC "0\"", false }, { "\"2sky\"", false },
+        { "\".sky\"", false }, { "\"a/b\"", false }, { "\"a b\"", false }, { "\"\xc3\xa9\"", false }, { "1", false }, { "true", false }, { "{}", false },
+        { "[]", false }, { "\"http://a/b.png\"", false },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_scene scene;
+        struct kd_error error = { 0 };
+        char document[160];
+        kd_scene_defaults(&scene);
+        snprintf(document, sizeof document, "{\"stops\":[{\"sound\":%s}]}", cases[i].json);
+        if (support_parse(&scene, document, &error) != (cases[i].good ? KD_OK : KD_EINVAL))
+            fail_msg("%s: %s", cases[i].json, error.message);
+        if (cases[i].good)
+            continue;
+        assert_string_equal(error.pointer, "/stops/0/sound");
+        assert_non_null(strstr(error.message, "allowed are null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter"));
+    }
+}
+
+static void schema_and_reference(void **state)
+{
+    (void)state;
+    struct kd_buffer text = { 0 };
+    assert_int_equal(kd_scene_schema(&text), KD_OK);
+    cJSON *schema = cJSON_Parse((const char *)text.data);
+    const cJSON *all = cJSON_GetObjectItemCaseSensitive(schema, "properties");
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all, "bodies"), *stops = cJSON_GetObjectItemCaseSensitive(all, "stops");
+    assert_int_equal(cJSON_GetObjectItemCaseSensitive(bodies, "maxItems")->valuedouble, 20);
+    assert_int_equal(cJSON_GetObjectItemCaseSensitive(stops, "maxItems")->valuedouble, 3);
+    const cJSON *rows = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(stops, "items"), "properties");
+    const cJSON *sound = cJSON_GetObjectItemCaseSensitive(rows, "sound"), *kinds = cJSON_GetObjectItemCaseSensitive(sound, "anyOf");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(sound, "default")));
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(kinds, 0), "type")->valuestring, "null");
+    assert_non_null(strstr(cJSON_GetObjectItemCaseSensitive(cJSON_GetArrayItem(kinds, 1), "pattern")->valuestring, "[0-9a-f]{64}"));
+    assert_non_null(cJSON_GetObjectItemCaseSensitive(all, "finish"));
+    cJSON_Delete(schema);
+    text.size = 0;
+    assert_int_equal(kd_scene_reference(&text), KD_OK);
+    const char *page = (const char *)text.data;
+    assert_non_null(strstr(page, "A list of up to 20, `[]` unless something else is said; N counts from 0.\n"));
+    assert_non_null(strstr(page, "Old names are still read: `finish` is `stops.2`, `start` is `stops.0`.\n"));
+    assert_non_null(strstr(page, "| `stops.N.sound` | asset | `null` |"));
+    kd_buffer_finish(&text);
+}
+
+static void sha256(void **state)
+{
+    (void)state;
+    char hash[65];
+    kd_sha256("abc", 3, hash);
+    assert_string_equal(hash, ABC);
+    kd_sha256(NULL, 0, hash);
+    assert_string_equal(hash, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(canonical_form),    cmocka_unit_test(lists_of_any_kind),    cmocka_unit_test(assets_are_resolved),
+        cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference), cmocka_unit_test(sha256),
+    };
+    return cmocka_run_group_tests_name("scene table", tests, NULL, NULL);
+}
