@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
-"""Light curves and centroid tracks of a hot spot, for docs/physics.md, by `kerrd light-curve`.
+"""Light curves and centroid tracks of a hot spot, for docs/physics/hot-spots.md, by `kerrd light-curve`.
 
-    bench/light_curve.py [--kerrd build/src/kerrd] [-o docs/hot-spot.svg]
+    bench/light_curve.py [--kerrd build/src/kerrd] [-o docs/physics/hot-spots.svg]
 
 Needs matplotlib (pip install matplotlib).
 """
 import argparse
 import json
+import pathlib
 import subprocess
 
 import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
-from physics_plots import BLUE, GREEN, RED
+from physics_plots import BLUE, GREEN, RED, save
 
 SCENE = {"spacetime.spin": 0.5, "disk.model": "none", "spots.0.brightness": 1, "spots.0.r": 9, "spots.0.size": 1, "camera.field_m": 40,
          "image.width": 400, "image.height": 400, "image.samples": 2}
@@ -30,9 +31,9 @@ def curve(kerrd, frames=121, **changes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kerrd", default="build/src/kerrd")
-    parser.add_argument("-o", "--output", default="docs/hot-spot.svg")
+    parser.add_argument("-o", "--output", default="docs/physics/hot-spots.svg")
     options = parser.parse_args()
-    plt.rcParams.update({"svg.hashsalt": "kerrd", "font.size": 8, "axes.titlesize": 9, "legend.fontsize": 7, "legend.frameon": False})
+    plt.rcParams.update({"svg.hashsalt": "kerrd", "svg.fonttype": "none", "font.size": 8, "axes.titlesize": 9, "legend.fontsize": 7, "legend.frameon": False})
     figure, (light, track) = plt.subplots(1, 2, figsize=(8, 3.6), width_ratios=(1.2, 1), layout="constrained")
     for inclination, colour in ((155, BLUE), (120, GREEN), (100, RED)):
         for slow, style in ((True, "-"), (False, ":")):
@@ -50,7 +51,7 @@ def main():
     light.set(xlabel="t / M", ylabel="flux over its mean", title="Light curve of a spot at r = 9 M")
     light.legend()
     track.set(xlabel="α / M", ylabel="β / M", title="Its centroid, from ● on; dotted: order 0 alone", aspect="equal")
-    figure.savefig(options.output, metadata={"Date": None})
+    save(figure, pathlib.Path(options.output))
 
 
 if __name__ == "__main__":

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""The plots of docs/physics.md, from the numbers of `kerrd physics`.
+"""The figures of docs/physics, one a chapter, from what kerrd answers: curves by its numbers, pictures by its renders.
 
-    bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs]
+    bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs/physics] [CHAPTER ...]
 
-Needs matplotlib (pip install matplotlib). Writes physics-holes.svg, physics-light.svg and physics-waves.svg.
+Needs matplotlib (pip install matplotlib). bench/light_curve.py makes the figure of hot-spots.md.
 """
 import argparse
 import json
 import pathlib
+import re
 import subprocess
 
 import matplotlib
@@ -16,13 +17,29 @@ import matplotlib.pyplot as plt
 
 BLUE, SKY, GREEN, ORANGE, RED, PINK = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7" # Okabe and Ito
 KERRD = "build/src/kerrd"
+NAN = float("nan")
+HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5  # of a = 0.9 in the plane, where x^2 + y^2 = r^2 + a^2
+
+
+def run(*words, text=None):
+    """What a command of kerrd prints."""
+    return subprocess.run([KERRD, *map(str, words)], check=True, stdout=subprocess.PIPE, input=text, encoding="utf-8").stdout
+
+
+def save(figure, path):
+    """Write an SVG, the same each time, with paths to a tenth of a point: half the bytes."""
+    figure.savefig(path, metadata={"Date": None})
+    plt.close(figure)
+    tenth = lambda found: f"{float(found[0]):.1f}".removesuffix(".0")
+    text = re.sub(r' d="[^"]*"', lambda path: re.sub(r"\d+\.\d+", tenth, path[0]), path.read_text())
+    path.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n")
 
 
 def ask(name, **parameters):
     """(parameters, values) of an answer; a missing number is None, which leaves a gap in a line."""
     options = [f"--{key.replace('_', '-')}={value}" for key, value in parameters.items()]
-    answer = json.loads(subprocess.run([KERRD, "physics", name, *options], check=True, stdout=subprocess.PIPE).stdout)
-    return answer["parameters"], {key: [float("nan") if x is None else x for x in value] if isinstance(value, list) else value
+    answer = json.loads(run("physics", name, *options))
+    return answer["parameters"], {key: [NAN if x is None else x for x in value] if isinstance(value, list) else value
                                   for key, value in answer["values"].items()}
 
 
@@ -137,28 +154,128 @@ def fallback(axes):
     axes.set(xlabel="days since the disruption", ylabel="solar masses a year", xscale="log", yscale="log", title="What comes back of a torn sun, as $t^{-5/3}$")
 
 
+def light(axes):
+    """Rays in the equatorial plane from an eye far to the right, as the Kerr-Schild engine steps along them; these are mirrored rays."""
+    for b in (-12, -10, -8, -6, -4, -3.2, -2.9, -2.7, -2, 0, 2, 4, 6, 6.6, 6.9, 7.5, 9, 11):
+        text = run("rays", "--trace", f"--ray={b},0.001", "--spin=0.9", "--inclination-deg=90", "--engine=ks-rk4", "--precision=f64", "--steps=64",
+                   "--format=csv")
+        names, *rows = [line.split(",") for line in text.splitlines()]
+        at = [names.index(name) for name in ("r", "x", "y")]
+        places = [[float(row[k]) for k in at] for row in rows if all(row[k] for k in at)]
+        places = [place for place in places if place[0] < 50]
+        axes.plot([x for _, x, _ in places], [-y for _, _, y in places], color=RED if places[-1][0] < 3 else BLUE, linewidth=0.8)
+    axes.add_patch(plt.Circle((0, 0), HORIZON, color="black"))
+    axes.set(xlabel="x / M", ylabel="y / M", aspect="equal", xlim=(-15, 22), ylim=(-14, 14), title="Light in the equatorial plane, a = 0.9; red: falls in")
+
+
+def crossings(axis, value):
+    """Crossings of the equatorial plane along the middle of the picture, upwards: radius or azimuth by image order."""
+    beta = [-12 + 24 * k / 1200 + 1e-4 for k in range(1201)]
+    scene = {"spin": 0.9, "observer": {"inclination_deg": 60}, "orders": 3, "rays": [[0, y] for y in beta]}
+    rays = json.loads(run("rays", "-", text=json.dumps(scene)))["rays"]
+    for order, colour in enumerate((BLUE, ORANGE, RED)):
+        found = [next((c for c in ray["crossings"] if c["order"] == order), None) for ray in rays]
+        axis.plot(beta, [c[value] if c else NAN for c in found], color=colour, label=f"order {order}")
+    axis.set(xlabel="β / M at α = 0")
+
+
+def radii_seen(axes):
+    crossings(axes, "r")
+    axes.set(ylabel="r / M", ylim=(1, 20), title="Where a ray crosses the plane: radius (a = 0.9, i = 60°)")
+
+
+def azimuths_seen(axes):
+    crossings(axes, "phi")
+    axes.set(ylabel="φ, radians", title="... and azimuth")
+
+
+def distances(axes):
+    """How large the shadow is from near by, against the straight lines of a distant observer's."""
+    for name, colour in (("static", BLUE), ("zamo", RED)):
+        radius, angle = [], []
+        for k in range(41):
+            r = 2.2 * (100 / 2.2) ** (k / 40)
+            found = ask("shadow", spin=0.9, inclination_deg=60, observer_r=repr(r), observer=name, angle_deg=0)[1]
+            radius.append(r)
+            angle.append(57.29578 * found["width"])
+        axes.plot(radius, angle, color=colour, label=name)
+    far = ask("shadow", spin=0.9, inclination_deg=60, angle_deg=0)[1]["width"]
+    axes.plot(radius[10:], [57.29578 * far / r for r in radius[10:]], ":", color="0.4", label=f"{far:.2f} M / r")
+    axes.set(xlabel="r / M of the observer", ylabel="width of the shadow, degrees", xscale="log", title="The shadow from near by, a = 0.9, i = 60°")
+
+
+def tone(axes):
+    """The curve of S. Hill between its two matrices, for grey, against clipping."""
+    x = [10 ** (-3 + 4.5 * k / 200) for k in range(201)]
+    f = lambda c: (c * (c + 0.0245786) - 0.000090537) / (c * (0.983729 * c + 0.4329510) + 0.238081)
+    axes.plot(x, [max(f(c), 0) for c in x], color=BLUE, label="f(c)")
+    axes.plot(x, [min(c, 1) for c in x], ":", color="0.4", label="clipped")
+    axes.set(xlabel="c", ylabel="f", xscale="log", title="Tone curve (ACES, S. Hill's fit)")
+
+
+def chirp(axes):
+    p, v = ask("inspiral", mass1_msun=36, mass2_msun=29, distance_pc=4.1e8, period_s=100, eccentricity=0, before_s="0.003:1:400")
+    axes.plot([-t for t in p["before_s"]], v["chirp_hz"], color=BLUE)
+    axes.set(xlabel="seconds before the coalescence", ylabel="Hz", title="Chirp of 36 and 29 solar masses")
+
+
+def whirl(axes):
+    text = run("orbit", "--case=zoom-whirl", "--periods=5", "--samples=2400", "--format=csv")
+    names, *rows = [line.split(",") for line in text.splitlines()]
+    x, y = names.index("x"), names.index("y")
+    axes.plot([float(row[x]) for row in rows], [float(row[y]) for row in rows], color=BLUE, linewidth=0.5)
+    axes.add_patch(plt.Circle((0, 0), HORIZON, color="black"))
+    axes.set(xlabel="x / M", ylabel="y / M", aspect="equal", title="kerrd orbit --case zoom-whirl")
+
+
+# Panels of each chapter's figure, side by side.
+PANELS = {
+    "geodesics": (light,),
+    "lens-map": (radii_seen, azimuths_seen),
+    "observers": (shadows, distances),
+    "disk": (flux, redshift),
+    "colour": (colours, tone),
+    "hole": (radii, embedding),
+    "circular-orbits": (frequencies, potential),
+    "bending": (deflection,),
+    "ringdown": (quality, ringdown),
+    "inspiral-and-tides": (chirp, fallback),
+    "bodies": (whirl,),
+}
+# Options of `kerrd render` for a chapter whose figure is a picture.
+PICTURES = {
+    "particles": ("--preset=living-disk", "--set=disk.plunging=0.05", "--size=348x196"),
+    "photon-rings": ("--preset=photon-rings", "--size=400x240"),
+}
+
+
 def draw(panels, path):
-    figure, grid = plt.subplots(2, 2, figsize=(9.5, 7.5))
+    rows = (len(panels) + 1) // 2
+    figure, grid = plt.subplots(rows, min(len(panels), 2), figsize=(9.5 if len(panels) > 1 else 6, 3.8 * rows), squeeze=False)
     for panel, axes in zip(panels, grid.flat):
         panel(axes)
         axes.title.set_fontsize(9)
         axes.tick_params(labelsize=8)
-        axes.legend(fontsize=7)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(fontsize=7)
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
+    save(figure, path)
 
 
 def main():
     global KERRD
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kerrd", default=KERRD)
-    parser.add_argument("-o", "--output", default="docs", type=pathlib.Path)
+    parser.add_argument("-o", "--output", default="docs/physics", type=pathlib.Path)
+    parser.add_argument("chapters", nargs="*", metavar="CHAPTER", help="names among " + ", ".join((*PANELS, *PICTURES)))
     arguments = parser.parse_args()
     KERRD = arguments.kerrd
     plt.rcParams.update({"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}) # the same file each time
-    draw((radii, frequencies, potential, embedding), arguments.output / "physics-holes.svg")
-    draw((shadows, redshift, flux, colours), arguments.output / "physics-light.svg")
-    draw((deflection, quality, ringdown, fallback), arguments.output / "physics-waves.svg")
+    for name in arguments.chapters or (*PANELS, *PICTURES):
+        if name in PANELS:
+            draw(PANELS[name], arguments.output / f"{name}.svg")
+        else:
+            run("render", *PICTURES[name], "-o", arguments.output / f"{name}.png")
 
 
 if __name__ == "__main__":

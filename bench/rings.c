@@ -1,4 +1,4 @@
-/* Lensing bands and demagnification in numbers, as the Markdown of docs/physics.md. No device, no options, a millisecond. */
+/* Lensing bands and demagnification in numbers, as the Markdown of docs/physics/photon-rings.md. No device, no options, a millisecond. */
 #include "physics/kerr.h"
 #include "physics/lensing.h"
 

@@ -9,7 +9,7 @@
 /* Bardeen, Press & Teukolsky 1972: L/E at r = 4 cos^2(x), x = acos(-a)/3, comes to 6 cos x - a. */
 double kd_deflection_critical(double a) { return fabs(a) < 1 ? 6 * cos(acos(-a) / 3) - a : NAN; }
 
-/* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics.md, section 1 at Q = 0):
+/* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
  *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3,   phi' = b + chi',   chi' = a (2w - a b w^2)/(1 - 2w + a^2 w^2). */
 static double slow(double a, double w) { return 1 - w * (2 - a * a * w); }
 

@@ -8,7 +8,7 @@ static const char introduction[] =
     "`GET /v1/physics/NAME?parameter=value&...` and `kerrd physics NAME --parameter value ...` give the same answers, as JSON or\n"
     "as CSV (`Accept: text/csv` or `format=csv`; `--format csv` or `-o FILE.csv`). `GET /v1/physics` lists what is listed here.\n"
     "On the command line a parameter is written with `-` for `_`. This page is generated from `src/quantity`; do not edit it.\n"
-    "What the numbers mean is in [physics.md](physics.md). (`kerrd` on the PATH and a server: [README](../README.md).)\n"
+    "What the numbers mean is in [docs/physics](physics/README.md). (`kerrd` on the PATH and a server: [README](../README.md).)\n"
     "\n"
     "    kerrd physics kerr --spin 0:0.998:100 -o kerr.csv\n"
     "    curl 'http://127.0.0.1:8080/v1/physics/kerr?spin=0:0.998:100'\n"

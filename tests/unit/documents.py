@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""What the documents name exists: links, their headings, and the files and folders that stand in backquotes.
+
+    documents.py ROOT     exit 1 naming each document and what it names in vain
+
+A name in backquotes is one of a file if it begins with a folder of ROOT or ends as a source does; `job/run.c` may stand for
+src/server/job/run.c, and stars and braces are those of a shell. What
+a build or a benchmark makes, in build/ and with a DATE, need not be there.
+"""
+import os
+import pathlib
+import re
+import sys
+import tempfile
+
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+QUOTED = re.compile(r"`([^`\s]+)`")
+SOURCE = re.compile(r"\.(c|h|comp|glsl|py|md|svg)$")
+CODE = re.compile(r"^```.*?^```", re.M | re.S)
+
+
+def braces(name):
+    """a{b,c} as a shell has it: ab, ac."""
+    found = re.search(r"\{([^{}]*)\}", name)
+    if not found:
+        return [name]
+    return [each for part in found[1].split(",") for each in braces(name[: found.start()] + part + name[found.end() :])]
+
+
+def anchors(text):
+    """The names that headings of a document have in links to them."""
+    return {re.sub(r"[^\w\- ]", "", line.lstrip("#").strip().lower()).replace(" ", "-") for line in text.splitlines() if line.startswith("#")}
+
+
+def tree(root):
+    """Every file and folder of ROOT that people write, as text relative to it."""
+    for folder, folders, names in os.walk(root):
+        if "build.ninja" in names or "pyvenv.cfg" in names:
+            folders.clear()
+            continue
+        folders[:] = [name for name in folders if name == ".ci" or not name.startswith((".", "__"))]
+        yield from ((pathlib.Path(folder) / name).relative_to(root).as_posix() for name in (*folders, *names))
+
+
+def named(name, paths, tops):
+    """Whether a quoted name is one of a file or folder, and whether there is such."""
+    if not re.fullmatch(r"[\w.*{},/-]+", name) or name.startswith("build/") or "DATE" in name or name.startswith("."):
+        return True
+    for each in braces(name):
+        if not (each.split("/")[0] in tops and "/" in each or SOURCE.search(each)):
+            continue
+        pattern = re.compile("(^|/)" + re.escape(each.rstrip("/")).replace(r"\*", "[^/]*") + "$")
+        if not any(pattern.search(path) for path in paths):
+            return False
+    return True
+
+
+def wrong(root):
+    """Sentences, one for each name of nothing."""
+    paths = list(tree(root))
+    tops = {path for path in paths if "/" not in path}
+    for document in [path for path in paths if path.endswith(".md") and not path.startswith(("bench/results/", "clients/web/vendor/"))]:
+        text = CODE.sub("", (root / document).read_text(encoding="utf-8"))
+        for link in LINK.findall(text):
+            target, _, anchor = link.partition("#")
+            if ":" in target:
+                continue
+            place = (root / document).parent / target if target else root / document
+            if not place.exists():
+                yield f"{document}: there is no {link}"
+            elif anchor and anchor not in anchors(place.read_text(encoding="utf-8")):
+                yield f"{document}: there is no such heading: {link}"
+        for name in QUOTED.findall(text):
+            if not named(name, paths, tops):
+                yield f"{document}: there is no file {name}"
+
+
+def self_test():
+    """Each kind of vain name is found, a true one is not."""
+    files = {
+        "src/job/run.c": "",
+        "docs/right.md": "# A b\n[x](wrong.md#c-1) [y](#a-b) `src/job` `job/run.c` `run.{c,c}` `src/*/run.c` `a/b` `GET /v1` [z](https://a.b/c.md)\n```\n`no.c`\n```\n",
+        "docs/wrong.md": "# C: 1\n[x](none.md)\n[y](right.md#c-1)\n`src/none` `none.c` `run.{c,h}`\n",
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            (pathlib.Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
+            (pathlib.Path(folder) / name).write_text(text)
+        found = list(wrong(pathlib.Path(folder)))
+    if len(found) != 5 or not all(line.startswith("docs/wrong.md") for line in found):
+        print("its own example is judged wrongly:", *found, sep="\n  ")
+        return True
+    return False
+
+
+def main():
+    if self_test():
+        return True
+    root = pathlib.Path(sys.argv[1])
+    found = list(wrong(root))
+    for line in found:
+        print(line)
+    return bool(found) or not (root / "docs").is_dir()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
