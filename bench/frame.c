@@ -1,7 +1,7 @@
 /* What a whole frame costs, pass by pass: the default scene with a cold lens map, and again with the map
  * reused, as when only the exposure or the palette changes. Prints one line of JSON: every run, in ms.
  * frame.py runs it with one and two lavapipe threads and takes medians. */
-#include "render/output/picture.h"
+#include "render/output/png.h"
 #include "render/render.h"
 
 #include <argp.h>
@@ -29,8 +29,8 @@ static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene
 {
     struct kd_buffer png = { 0 };
     double start = now_ms();
-    enum kd_status status =
-        kd_picture_encode(frame, scene, plan, kd_renderer_device_name(renderer), level, &png, error);
+    const struct kd_picture picture = { frame, scene, plan, kd_renderer_device_name(renderer), 0 };
+    enum kd_status status = kd_png_of_picture(&picture, level, &png, error);
     cJSON_AddNumberToObject(run, name, now_ms() - start);
     kd_buffer_finish(&png);
     return status;

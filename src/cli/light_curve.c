@@ -13,7 +13,8 @@
 
 struct arguments {
     struct kd_scene_options scene;
-    const char *device, *output, *format, *start, *end;
+    const char *device, *output, *start, *end;
+    const struct kd_table_format *format;
     unsigned frames;
 };
 
@@ -39,9 +40,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'n': arguments->frames = kd_cli_number(state, "frames", text, 2, FRAMES_MAX); return 0;
     case 'o': arguments->output = text; return 0;
     case 'f':
-        if (strcmp(text, "json") && strcmp(text, "csv"))
+        arguments->format = kd_series_table(&kd_light_curve, text);
+        if (!arguments->format)
             argp_error(state, "--format %s: json or csv", text);
-        arguments->format = text;
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -91,7 +92,7 @@ static enum kd_status measure(struct work *w, const struct kd_scene *first, doub
         struct kd_frame frame = { 0 };
         scene.top.time += (to - first->top.time) * w->done / (w->frames - 1);
         kd_renderer_capacity(w->renderer, &capacity);
-        status = kd_curve_plan(&scene, &capacity, &plan, error);
+        status = kd_format_plan(kd_light_curve.frame, &scene, &capacity, &plan, error);
         if (!status)
             status = kd_render(w->renderer, &scene, &plan, progress, w, &frame, error);
         if (!status)
@@ -107,8 +108,11 @@ static enum kd_status measure(struct work *w, const struct kd_scene *first, doub
 static enum kd_status save(const struct work *w, const struct arguments *arguments, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
-    const char *dot = strrchr(arguments->output, '.'), *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
-    enum kd_status status = kd_curve_text(w->rows, w->frames, !strcmp(format, "csv"), &text);
+    const char *dot = strrchr(arguments->output, '.');
+    const struct kd_table_format *format = arguments->format ? arguments->format : dot ? kd_series_table(&kd_light_curve, dot + 1) : NULL;
+    if (!format)
+        format = &kd_light_curve.tables[0];
+    enum kd_status status = format->write(w->rows, w->frames, &text);
     if (status)
         kd_error_set(error, status, "out of memory for %u rows", w->frames);
     else

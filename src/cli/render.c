@@ -4,18 +4,18 @@
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "cli/stats.h"
-#include "render/output/picture.h"
+#include "render/output/format.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#define COMPRESSION 6 /* a file is written once and kept */
-
 struct arguments {
     struct kd_scene_options scene;
     const char *device, *output;
+    const struct kd_format *format; /* of the output */
     uint64_t memory;
     bool stats;
 };
@@ -27,14 +27,33 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* A picture of another kind would be a PNG under a name that says otherwise. */
-static void check_name(const char *path, const struct argp_state *state)
+/* "PNG", "PNG or FITS" */
+static void name_formats(char *out, size_t size)
+{
+    *out = 0;
+    for (size_t i = 0, n = 0; i < kd_n_formats && n < size; i++) {
+        n += (size_t)snprintf(out + n, size - n, "%s", i ? " or " : "");
+        for (const char *p = kd_formats[i]->name; *p && n + 1 < size; p++)
+            out[n++] = (char)toupper((unsigned char)*p);
+        out[n < size ? n : size - 1] = 0;
+    }
+}
+
+/* By the output's name; the first of all for a name that says nothing. A picture of another kind would be that under a name that says
+ * otherwise. */
+static const struct kd_format *format_of(const char *path, const struct argp_state *state)
 {
     static const char *const others[] = { ".jpg", ".jpeg", ".gif", ".webp", ".tif", ".tiff", ".bmp", ".exr", ".hdr", ".fits", ".pdf", ".svg" };
+    const struct kd_format *format = kd_format_of_path(path);
     const char *dot = strrchr(path, '.');
+    char known[80];
+    if (format)
+        return format;
+    name_formats(known, sizeof known);
     for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++)
         if (!strcasecmp(dot, others[i]))
-            argp_error(state, "output is \"%s\", allowed is a PNG file: a name that does not end in %s", path, others[i]);
+            argp_error(state, "output is \"%s\", allowed is a %s file: a name that does not end in %s", path, known, others[i]);
+    return kd_formats[0];
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -52,7 +71,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!arguments->output)
             argp_error(state, "-o FILE is missing: where should the picture go?");
         else
-            check_name(arguments->output, state);
+            arguments->format = format_of(arguments->output, state);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -63,15 +82,15 @@ struct work {
     struct kd_renderer *renderer;
     struct kd_plan plan;
     struct kd_frame frame;
-    struct kd_buffer png;
+    struct kd_buffer file;
     double render_ms, encode_ms;
 };
 
-static enum kd_status draw(struct work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status draw(struct work *work, const struct kd_format *format, struct kd_scene *scene, struct kd_error *error)
 {
     struct kd_capacity capacity;
     kd_renderer_capacity(work->renderer, &capacity);
-    enum kd_status status = kd_plan_make(scene, &capacity, &work->plan, error);
+    enum kd_status status = kd_format_plan(format, scene, &capacity, &work->plan, error);
     if (status)
         return status;
     struct kd_progress progress;
@@ -86,15 +105,13 @@ static enum kd_status draw(struct work *work, const struct kd_scene *scene, stru
     return status;
 }
 
-static enum kd_status save(struct work *work, const struct kd_scene *scene, const char *path,
-                           struct kd_error *error)
+static enum kd_status save(struct work *work, const struct kd_scene *scene, const struct arguments *arguments, struct kd_error *error)
 {
     double started = kd_progress_clock();
-    enum kd_status status =
-        kd_picture_encode(&work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer),
-                          COMPRESSION, &work->png, error);
+    const struct kd_picture picture = { &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0 };
+    enum kd_status status = kd_encode(arguments->format, &picture, KD_EFFORT_KEEP, NULL, &work->file, error);
     work->encode_ms = 1e3 * (kd_progress_clock() - started);
-    return status ? status : kd_file_write(path, &work->png, error);
+    return status ? status : kd_file_write(arguments->output, &work->file, error);
 }
 
 static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene,
@@ -107,7 +124,7 @@ static enum kd_status print_stats(const struct work *work, const struct kd_scene
         .frame = &work->frame,
         .render_ms = work->render_ms,
         .encode_ms = work->encode_ms,
-        .bytes = work->png.size,
+        .bytes = work->file.size,
     };
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_stats_json(&stats, &text);
@@ -130,13 +147,13 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
         status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory },
                                     &work.renderer, error);
     if (!status)
-        status = draw(&work, &scene, error);
+        status = draw(&work, arguments->format, &scene, error);
     if (!status)
-        status = save(&work, &scene, arguments->output, error);
+        status = save(&work, &scene, arguments, error);
     if (!status && arguments->stats)
         status = print_stats(&work, &scene, error);
     kd_frame_finish(&work.frame);
-    kd_buffer_finish(&work.png);
+    kd_buffer_finish(&work.file);
     kd_renderer_destroy(work.renderer);
     return status;
 }

@@ -2,7 +2,7 @@
 
 #include "cli/cli.h"
 #include "cli/file.h"
-#include "render/output/picture.h"
+#include "render/output/format.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -84,7 +84,7 @@ static enum kd_status merge_document(const char *path, struct kd_scene *scene, s
     enum kd_status status = kd_file_read(path, KD_SCENE_JSON_MAX, &text, error);
     if (!status) {
         const char *start = text.data ? (const char *)text.data : "";
-        if (text.size > 4 && memcmp(start, "\x89PNG", 4) == 0)
+        if (kd_format_of_bytes(start, text.size))
             status = kd_error_set(error, KD_EINVAL, "this is a picture, not a scene: use --from");
         else
             status = kd_scene_from_json(scene, start, text.size, error);
@@ -99,7 +99,7 @@ static enum kd_status take_picture(const char *path, struct kd_scene *scene, str
 {
     struct kd_buffer file = { 0 };
     enum kd_status status = kd_file_read(path, PICTURE_MAX, &file, error);
-    if (!status && (status = kd_picture_scene(file.data, file.size, scene, error)))
+    if (!status && (status = kd_format_scene(file.data, file.size, scene, error)))
         kd_cli_prefix(error, shown(path));
     kd_buffer_finish(&file);
     return status;

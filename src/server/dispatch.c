@@ -129,7 +129,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     stage(request, KD_STAGE_IDLE);
     kd_bytes_give(server->bodies, request->client, request->body.size);
     if (request->job) {
-        kd_buffer_finish(&request->job->png);
+        kd_buffer_finish(&request->job->file);
         kd_frame_finish(&request->job->frame);
         free(request->job);
     }

@@ -49,10 +49,10 @@ const struct kd_route kd_routes[] = {
     { "/v1/jobs/{id}/events", KD_GET, kd_handle_job_events, "text/event-stream", "The same whenever it changes" },
     { "/v1/jobs/{id}/preview.png", KD_GET, kd_handle_job_preview, "image/png",
       "The frame that is being rendered, as far as it is drawn, else the last finished one; 409 while there is nothing" },
-    { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, "application/zip",
+    { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, NULL,
       "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; "
       "of a light curve its rows, as application/json or text/csv",
-      .also = "image/png application/x-kerrd-frames application/json text/csv" },
-    { "/v1/render", KD_GET | KD_POST, kd_handle_render, "image/png", "The picture of a scene", KD_TAKES_SCENE, .status = { 200, 304 } },
+      .gives = KD_GIVES_RESULT },
+    { "/v1/render", KD_GET | KD_POST, kd_handle_render, NULL, "The picture of a scene", KD_TAKES_SCENE, .gives = KD_GIVES_PICTURE, .status = { 200, 304 } },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

@@ -9,7 +9,7 @@
 #include "studio.h"
 
 #include "image/png.h"
-#include "render/output/picture.h"
+#include "render/output/png.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,7 +92,7 @@ static enum kd_status read_reference(const char *path, struct kd_frame *out, str
         kd_buffer_finish(&file);
         return kd_error_set(error, KD_EIO, "%s cannot be read", path);
     }
-    enum kd_status status = kd_picture_scene(file.data, file.size, &scene, error);
+    enum kd_status status = kd_format_scene(file.data, file.size, &scene, error);
     if (!status)
         status = kd_png_decode(file.data, file.size, &png, error);
     if (!status) {
@@ -165,8 +165,8 @@ static bool update(const struct shot *shot, const char *path)
     struct kd_buffer png = { 0 };
     struct kd_error error = { 0 };
     scene.style.exposure = frame.exposure;
-    enum kd_status status =
-        kd_picture_encode(&frame, &scene, &(struct kd_plan) { 0 }, "reference", 8, &png, &error);
+    const struct kd_picture picture = { &frame, &scene, &(struct kd_plan) { 0 }, "reference", 0 };
+    enum kd_status status = kd_png_of_picture(&picture, 8, &png, &error);
     FILE *file = status ? NULL : fopen(path, "wb");
     bool good = file && fwrite(png.data, 1, png.size, file) == png.size;
     if (file && fclose(file))

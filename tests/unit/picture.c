@@ -1,6 +1,6 @@
 /* A picture can be rendered again from itself: the scene, and what was done with it, travel in the file. */
 #include "image/png.h"
-#include "render/output/picture.h"
+#include "render/output/png.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,8 @@ static void encode(const struct kd_scene *scene, const struct kd_plan *plan, str
     static uint16_t pixels[3 * 4 * 2] = { 1, 2, 3, 65535 };
     const struct kd_frame frame = { .width = 4, .height = 2, .layers = { { "rgb", 3, KD_LAYER_U16, pixels } }, .n_layers = 1 };
     struct kd_error error = { 0 };
-    if (kd_picture_encode(&frame, scene, plan, "llvmpipe, 256 bits", 6, file, &error))
+    const struct kd_picture picture = { &frame, scene, plan, "llvmpipe, 256 bits", 0 };
+    if (kd_encode(&kd_format_png, &picture, KD_EFFORT_KEEP, NULL, file, &error))
         fail_msg("%s", error.message);
 }
 
@@ -29,7 +30,7 @@ static void the_scene_comes_back(void **state)
     assert_int_equal(kd_scene_set(&scene, "spacetime.spin", "0.123456789012345678", &error), KD_OK);
     assert_int_equal(kd_scene_set(&scene, "camera.r", "50", &error), KD_OK);
     encode(&scene, &(struct kd_plan) { 0 }, &file);
-    if (kd_picture_scene(file.data, file.size, &back, &error))
+    if (kd_format_scene(file.data, file.size, &back, &error))
         fail_msg("%s", error.message);
     assert_int_equal(kd_scene_hash(&scene, before), KD_OK);
     assert_int_equal(kd_scene_hash(&back, after), KD_OK);
@@ -82,7 +83,7 @@ static void refuse(const char *key, const char *value, const char *word)
     memset(&scene, 0x5a, sizeof scene);
     memcpy(&untouched, &scene, sizeof scene);
     assert_int_equal(kd_png_encode(&params, &file, &error), KD_OK);
-    assert_int_equal(kd_picture_scene(file.data, file.size, &scene, &error), KD_EINVAL);
+    assert_int_equal(kd_format_scene(file.data, file.size, &scene, &error), KD_EINVAL);
     if (!strstr(error.message, word))
         fail_msg("\"%s\" does not say \"%s\"", error.message, word);
     assert_memory_equal(&scene, &untouched, sizeof scene);
@@ -96,7 +97,7 @@ static void other_pictures_are_refused(void **state)
     refuse("kerrd:scene", "{\"version\":1,\"nonsense\":1}", "nonsense");
     refuse("kerrd:scene", "{", "");
     struct kd_scene scene;
-    assert_int_equal(kd_picture_scene("{}", 2, &scene, NULL), KD_EINVAL);
+    assert_int_equal(kd_format_scene("{}", 2, &scene, NULL), KD_EINVAL);
 }
 
 int main(void)

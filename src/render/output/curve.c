@@ -2,16 +2,6 @@
 
 #include "scene/number.h"
 
-enum kd_status kd_curve_plan(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
-                             struct kd_error *error)
-{
-    struct kd_needs needs = kd_needs_of(scene);
-    needs.light = true;
-    if (isinf(scene->style.exposure))
-        scene->style.exposure = 0;
-    return kd_plan_make_for(scene, &needs, capacity, out, error);
-}
-
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame)
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
@@ -40,12 +30,42 @@ static enum kd_status write_row(const double *values, bool csv, bool last, struc
     return status ? status : kd_buffer_printf(out, "%s", csv ? "\n" : last ? "}" : "},\n");
 }
 
-enum kd_status kd_curve_text(const struct kd_curve_row *rows, size_t n, bool csv, struct kd_buffer *out)
+static enum kd_status write_csv(const void *rows, size_t n, struct kd_buffer *out)
 {
-    enum kd_status status = csv ? KD_OK : kd_buffer_printf(out, "{\"frames\":[\n");
-    for (int i = 0; i < COLUMNS && csv && !status; i++)
+    enum kd_status status = KD_OK;
+    for (int i = 0; i < COLUMNS && !status; i++)
         status = kd_buffer_printf(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
     for (size_t i = 0; i < n && !status; i++)
-        status = write_row((const double *)&rows[i], csv, i + 1 == n, out);
-    return status || csv ? status : kd_buffer_printf(out, "]}\n");
+        status = write_row((const double *)rows + i * COLUMNS, true, i + 1 == n, out);
+    return status;
 }
+
+static enum kd_status write_json(const void *rows, size_t n, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_printf(out, "{\"frames\":[\n");
+    for (size_t i = 0; i < n && !status; i++)
+        status = write_row((const double *)rows + i * COLUMNS, false, i + 1 == n, out);
+    return status ? status : kd_buffer_printf(out, "]}\n");
+}
+
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
+                             struct kd_error *error)
+{
+    const struct kd_curve_row row = kd_curve_row_of(picture->number, picture->scene, picture->frame);
+    (void)effort, (void)memory;
+    return kd_buffer_append(out, &row, sizeof row) ? kd_error_set(error, KD_ENOMEM, "out of memory for a row") : KD_OK;
+}
+
+static const struct kd_format one_row = {
+    .name = "row", .media_type = "application/octet-stream", .magic = "", .carries = KD_CARRIES_LIGHT, .encode = encode,
+};
+
+static const struct kd_table_format tables[] = {
+    { "json", "application/json", NULL, write_json },
+    { "csv", "text/csv", "light-curve.csv", write_csv },
+};
+
+const struct kd_series kd_light_curve = {
+    .name = "light-curve", .noun = "light curve", .frame = &one_row, .row_bytes = sizeof(struct kd_curve_row), .tables = tables,
+    .n_tables = sizeof tables / sizeof *tables,
+};

@@ -108,6 +108,20 @@ bool kd_accepts(const char *accept, const char *type)
     return kd_accept_weight(accept, type) > 0;
 }
 
+size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list)
+{
+    size_t best = n;
+    int most = 0;
+    for (size_t i = 0; i < n; i++) {
+        int weight = kd_accept_weight(accept, type(i, list));
+        if (weight > most) {
+            best = i;
+            most = weight;
+        }
+    }
+    return best;
+}
+
 bool kd_accepts_coding(const char *accept_encoding, const char *coding)
 {
     int named = -1, any = -1;

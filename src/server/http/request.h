@@ -24,6 +24,7 @@ struct kd_request {
     bool head, begun, body_announced, close;
     struct kd_buffer body;
     size_t body_mark; /* how much of it there was when its time was last set */
+    const struct kd_format *format; /* that the picture asked for has; NULL: none is asked for, or it may have any */
     struct kd_render_job *job; /* of a render under way; owned */
     struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
     struct kd_particles_job *particles; /* of particles being listed; owned */

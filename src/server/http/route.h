@@ -23,13 +23,21 @@ enum kd_takes {
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
+/* Media types of an answer. */
+enum kd_gives {
+    KD_GIVES_ITS_ANSWER, /* what `answer` and `also` say */
+    KD_GIVES_PICTURE,    /* a frame in each format that there is: render/output/format.h */
+    KD_GIVES_RESULT,     /* of a job: job/formats.h */
+};
+
 struct kd_route {
     const char *path; /* a segment in braces, at most one, stands for any: request->rest */
     unsigned methods;
     /* Called when the whole body is there, and again when the render it has asked for is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
-    const char *answer, *summary; /* media type, and a sentence for openapi.json */
+    const char *answer, *summary; /* media type, NULL where `gives` says them; and a sentence for openapi.json */
     enum kd_takes takes;
+    enum kd_gives gives;
     const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
     unsigned status[2]; /* of an answer that is none of a problem; { 0 }: 200; what DELETE ends is 204 */
 };

@@ -31,7 +31,6 @@
 #define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
 #define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */
 #define KD_JOB_BYTES ((uint64_t)16 << 30)  /* on disk, of all jobs */
-#define KD_PNG_COMPRESSION 1               /* a live view would rather have 10 ms than 20 % */
 
 #define KD_STATUS_CLASSES 6
 

@@ -21,7 +21,7 @@ struct kd_job {
     unsigned references;
     struct kd_job_record record;
     struct kd_job_spec spec; /* empty once it has ended */
-    bool curve;
+    const struct kd_series *series;
     unsigned frames, next, finished; /* next: none before it has still to be begun */
     unsigned char *have;             /* which are in their files */
     double fraction;                 /* of the frame being rendered */

@@ -133,7 +133,7 @@ static struct kd_job *create(struct kd_jobs *all, struct kd_job_spec *spec)
     job->have = have;
     job->spec = *spec;
     job->frames = spec->frames;
-    job->curve = spec->curve;
+    job->series = spec->series;
     *spec = (struct kd_job_spec) { 0 };
     return job;
 }
@@ -184,7 +184,7 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
         snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
     if (*why) { /* what is done is there for who reads it, whatever the request says to this version */
         spec.frames = known->frames;
-        spec.curve = known->curve;
+        spec.series = known->series;
     }
     struct kd_job *job = create(all, &spec);
     if (!job) {
@@ -195,7 +195,7 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
     job->record = *known;
     if (!job->record.frames) {
         job->record.frames = job->frames;
-        job->record.curve = job->curve;
+        job->record.series = job->series;
     }
     find_frames(job);
     append(all, job);
@@ -313,7 +313,7 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
         job->estimate_ms = draft->ms;
         job->record.created = kd_job_now_s();
         job->record.frames = job->frames;
-        job->record.curve = job->curve;
+        job->record.series = job->series;
         memcpy(job->record.preset, draft->preset, sizeof job->record.preset);
         snprintf(job->client, sizeof job->client, "%s", client);
         status = enter(all, job, text, length, quota, error);
@@ -404,7 +404,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
 {
     struct kd_jobs *all = job->all;
     pthread_mutex_lock(&all->lock);
-    *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .curve = job->curve, .frames = job->frames,
+    *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .series = job->series, .frames = job->frames,
                                     .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
                                     .bytes = job->bytes, .remaining_s = remaining_s(job) };
     out->fraction = job->frames ? fmin((job->finished + (kd_job_is_active(job) ? job->fraction : 0)) / job->frames, 1) : 0;

@@ -58,7 +58,8 @@ const char *kd_job_token(const struct kd_job *job);
 
 struct kd_job_status {
     enum kd_job_state state;
-    bool deleted, curve; /* its frames are rows of a light curve (render/output/curve.h) */
+    bool deleted;
+    const struct kd_series *series;
     unsigned frames, finished, place; /* place: jobs before it */
     double fraction;                  /* of the whole job */
     double remaining_s;               /* NAN: it waits for others, or is over */

@@ -1,5 +1,5 @@
-/* GET /v1/jobs/{id}/result: a frame as PNG, all of them as ZIP, or as they come; a light curve as JSON or CSV. */
-#include "render/output/curve.h"
+/* GET /v1/jobs/{id}/result: a frame as a file, all of them as ZIP, or as they come; a table of their rows. */
+#include "server/job/formats.h"
 #include "server/job/routes.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -15,16 +15,13 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PNG_TYPE "image/png"
-#define STREAM_TYPE "application/x-kerrd-frames"
-#define JSON_TYPE "application/json"
-#define CSV_TYPE "text/csv"
-#define CURVE_OFFERED JSON_TYPE ", " CSV_TYPE
+#define PREVIEW_TYPE "image/png" /* of a frame under way, whatever it will be */
 #define PART_BYTES 65536
 
 /* A stream of the frames from watcher.next on. */
 struct frames {
     struct kd_job_watcher watcher; /* first */
+    const char *suffix;            /* of a frame */
     struct archive *zip;           /* NULL: each frame after 16 bytes of its own */
     struct archive_entry *entry;
     int fd; /* of the frame under way, -1: none */
@@ -69,7 +66,7 @@ static bool head(struct frames *f)
         put_le32(numbers + 4, f->watcher.next);
         return !kd_buffer_append(&f->out, numbers, sizeof numbers);
     }
-    snprintf(name, sizeof name, "%06u.png", f->watcher.next);
+    snprintf(name, sizeof name, "%06u.%.8s", f->watcher.next, f->suffix);
     archive_entry_clear(f->entry);
     archive_entry_set_pathname(f->entry, name);
     archive_entry_set_size(f->entry, (la_int64_t)f->left);
@@ -146,9 +143,11 @@ static void release(void *cls)
 }
 
 /* Takes the reference over. */
-static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *job, bool zip, unsigned from)
+static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
+                                   const struct kd_job_format *in, unsigned from)
 {
-    const char *type = zip ? "application/zip" : STREAM_TYPE;
+    const char *type = in->media_type;
+    const bool zip = in == &kd_job_as_zip;
     if (zip)
         kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.zip", kd_job_id(job));
     struct frames *f = request->head ? NULL : calloc(1, sizeof *f);
@@ -158,6 +157,7 @@ static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *jo
                              : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     f->fd = -1;
+    f->suffix = status->series->frame->name;
     f->watcher = (struct kd_job_watcher) { .job = job, .mhd = request->mhd, .by_frame = true, .next = from, .deadline_ms = INFINITY };
     kd_job_watch(&f->watcher);
     if (!zip || open_zip(f))
@@ -177,20 +177,20 @@ static enum MHD_Result not_ready(struct kd_request *request, struct kd_job *job,
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_READY, .detail = detail });
 }
 
-static enum MHD_Result send_png(struct kd_request *request, struct kd_job *job, unsigned frame, const struct kd_job_status *status)
+static enum MHD_Result send_frame(struct kd_request *request, struct kd_job *job, unsigned frame, const struct kd_job_status *status)
 {
     uint64_t size;
     int fd = kd_job_frame(job, frame, &size);
     if (fd < 0)
         return not_ready(request, job, status);
     kd_job_release(job);
-    kd_reply_file(request, KD_INLINE, "%06u.png", frame);
+    kd_reply_file(request, KD_INLINE, "%06u.%s", frame, status->series->frame->name);
     struct MHD_Response *response = MHD_create_response_from_fd64(size, fd);
     if (!response) {
         close(fd);
         return kd_reply_no_memory(request);
     }
-    MHD_add_response_header(response, "Content-Type", PNG_TYPE);
+    MHD_add_response_header(response, "Content-Type", status->series->frame->media_type);
     request->reply_bytes = size;
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
@@ -208,23 +208,25 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
     struct kd_job_status status;
     struct kd_job_sight sight;
     struct kd_buffer png = { 0 };
-    char number[24], rows[32];
+    char number[24], rows[32], detail[160];
     if (!kd_reply_only(request, (const char *const[]) { NULL }, &refused))
         return refused;
     struct kd_job *job = kd_job_of(request, &refused);
     if (!job)
         return refused;
     kd_job_status(job, &status);
-    if (status.curve)
-        return bad(request, job, "the frames of this job are the rows of a light curve: there is nothing to look at");
+    if (status.series->row_bytes) {
+        snprintf(detail, sizeof detail, "the frames of this job are the rows of a %s: there is nothing to look at", status.series->noun);
+        return bad(request, job, detail);
+    }
     if (!kd_job_glimpse(job, &png, &sight))
         return not_ready(request, job, &status);
     if (sight.finished)
-        return send_png(request, job, sight.frame, &status);
+        return send_frame(request, job, sight.frame, &status);
     kd_job_release(job);
     snprintf(number, sizeof number, "%u", sight.frame);
     snprintf(rows, sizeof rows, "%u/%u", sight.rows, sight.height);
-    struct MHD_Response *response = kd_reply_take(&png, PNG_TYPE);
+    struct MHD_Response *response = kd_reply_take(&png, PREVIEW_TYPE);
     if (response) {
         MHD_add_response_header(response, "Kerrd-Frame", number);
         MHD_add_response_header(response, "Kerrd-Rows", rows);
@@ -232,62 +234,109 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-static bool read_row(struct kd_job *job, unsigned frame, struct kd_curve_row *out)
+static bool read_row(struct kd_job *job, unsigned frame, void *out, size_t row)
 {
     uint64_t size;
     int fd = kd_job_frame(job, frame, &size);
-    bool whole = fd >= 0 && size == sizeof *out && read(fd, out, sizeof *out) == (ssize_t)sizeof *out;
+    bool whole = fd >= 0 && size == row && read(fd, out, row) == (ssize_t)row;
     if (fd >= 0)
         close(fd);
     return whole;
 }
 
 /* Of a job that is done. */
-static enum MHD_Result send_curve(struct kd_request *request, struct kd_job *job, unsigned n, bool csv)
+static enum MHD_Result send_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
+                                  const struct kd_table_format *table)
 {
-    struct kd_curve_row *rows = malloc(n * sizeof *rows);
+    const size_t row = status->series->row_bytes;
+    char *rows = malloc(status->frames * row);
     struct kd_buffer text = { 0 };
     bool there = rows;
-    for (unsigned i = 0; i < n && there; i++)
-        there = read_row(job, i, &rows[i]);
+    for (unsigned i = 0; i < status->frames && there; i++)
+        there = read_row(job, i, rows + i * row, row);
     kd_job_release(job);
-    enum kd_status status = !rows ? KD_ENOMEM : there ? kd_curve_text(rows, n, csv, &text) : KD_EIO;
+    enum kd_status made = !rows ? KD_ENOMEM : there ? table->write(rows, status->frames, &text) : KD_EIO;
     free(rows);
-    if (csv)
-        kd_reply_file(request, KD_ATTACHMENT, "light-curve.csv");
-    return kd_reply_json(request, status, &text, csv ? CSV_TYPE : JSON_TYPE);
+    if (table->file)
+        kd_reply_file(request, KD_ATTACHMENT, "%s", table->file);
+    return kd_reply_json(request, made, &text, table->media_type);
 }
 
-/* What Accept would rather have, JSON if it does not care; NULL: neither. */
-static const char *curve_format(struct kd_request *request)
+static const char *type_of(size_t i, const void *tables) { return ((const struct kd_table_format *)tables)[i].media_type; }
+
+/* What Accept would rather have, the first if it does not care; NULL: none. */
+static const struct kd_table_format *accepted(struct kd_request *request, const struct kd_series *series)
 {
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    int json = kd_accept_weight((const char *)accept.data, JSON_TYPE), csv = kd_accept_weight((const char *)accept.data, CSV_TYPE);
+    size_t best = kd_accept_best((const char *)accept.data, series->n_tables, type_of, series->tables);
     kd_buffer_finish(&accept);
-    return csv > json ? "csv" : json ? "json" : NULL;
+    return best < series->n_tables ? &series->tables[best] : NULL;
 }
 
-static enum MHD_Result curve(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
+/* "application/json, text/csv", or "json or csv" */
+static const char *list_tables(const struct kd_series *series, bool types, char *out, size_t size)
 {
-    if (!format && !(format = curve_format(request))) {
-        kd_job_release(job);
-        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                                                .offered = CURVE_OFFERED,
-                                                                .detail = "light curves are offered as " CURVE_OFFERED });
+    for (size_t i = 0, n = 0; i < series->n_tables && n < size; i++)
+        n += (size_t)snprintf(out + n, size - n, "%s%s", !i ? "" : types ? ", " : " or ",
+                              types ? series->tables[i].media_type : series->tables[i].name);
+    return out;
+}
+
+static enum MHD_Result not_acceptable(struct kd_request *request, struct kd_job *job, const struct kd_series *series)
+{
+    char offered[160], detail[240];
+    kd_job_release(job);
+    list_tables(series, true, offered, sizeof offered);
+    snprintf(detail, sizeof detail, "%ss are offered as %s", series->noun, offered);
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered, .detail = detail });
+}
+
+/* The table of a job whose frames are rows. */
+static enum MHD_Result table_of(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
+{
+    const struct kd_series *series = status->series;
+    const struct kd_table_format *table = format ? kd_series_table(series, format) : accepted(request, series);
+    char names[80], detail[240];
+    if (!format && !table)
+        return not_acceptable(request, job, series);
+    if (!table) {
+        snprintf(detail, sizeof detail, "format is %s: the frames of this job are the rows of a %s",
+                 list_tables(series, false, names, sizeof names), series->noun);
+        return bad(request, job, detail);
     }
-    bool csv = !strcmp(format, "csv");
-    if (!csv && strcmp(format, "json"))
-        return bad(request, job, "format is json or csv: the frames of this job are the rows of a light curve");
-    if (kd_target_value(&request->target, "frame"))
-        return bad(request, job, "frame goes with pictures; a light curve comes whole");
-    return status->state == KD_JOB_DONE ? send_curve(request, job, status->frames, csv) : not_ready(request, job, status);
+    if (kd_target_value(&request->target, "frame")) {
+        snprintf(detail, sizeof detail, "frame goes with pictures; a %s comes whole", series->noun);
+        return bad(request, job, detail);
+    }
+    return status->state == KD_JOB_DONE ? send_table(request, job, status, table) : not_ready(request, job, status);
+}
+
+/* The frames of a job that are files: one of them, or all in something that holds them. */
+static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
+{
+    const char *one = status->series->frame->name;
+    uint64_t frame;
+    char detail[160];
+    if (!format)
+        format = status->frames > 1 ? kd_job_as_zip.name : one;
+    if (!kd_target_whole(&request->target, "frame", 0, status->frames ? status->frames - 1 : 0, &frame))
+        return bad(request, job, "frame is the number of a frame of this job, from 0 on");
+    if (!strcmp(format, one))
+        return send_frame(request, job, (unsigned)frame, status);
+    if (!strcmp(format, kd_job_as_stream.name))
+        return send_frames(request, job, status, &kd_job_as_stream, (unsigned)frame);
+    if (strcmp(format, kd_job_as_zip.name) || kd_target_value(&request->target, "frame")) {
+        snprintf(detail, sizeof detail, "format is %s or %s, both with frame=NUMBER if wanted, or %s", one, kd_job_as_stream.name,
+                 kd_job_as_zip.name);
+        return bad(request, job, detail);
+    }
+    return status->state == KD_JOB_DONE ? send_frames(request, job, status, &kd_job_as_zip, 0) : not_ready(request, job, status);
 }
 
 enum MHD_Result kd_handle_job_result(struct kd_request *request)
 {
     enum MHD_Result refused;
     struct kd_job_status status;
-    uint64_t frame;
     if (!kd_reply_only(request, (const char *const[]) { "format", "frame", NULL }, &refused))
         return refused;
     struct kd_job *job = kd_job_of(request, &refused);
@@ -295,17 +344,5 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
         return refused;
     kd_job_status(job, &status);
     const char *format = kd_target_value(&request->target, "format");
-    if (status.curve)
-        return curve(request, job, &status, format);
-    if (!format)
-        format = status.frames > 1 ? "zip" : "png";
-    if (!kd_target_whole(&request->target, "frame", 0, status.frames ? status.frames - 1 : 0, &frame))
-        return bad(request, job, "frame is the number of a frame of this job, from 0 on");
-    if (!strcmp(format, "png"))
-        return send_png(request, job, (unsigned)frame, &status);
-    if (!strcmp(format, "stream"))
-        return send_frames(request, job, false, (unsigned)frame);
-    if (strcmp(format, "zip") || kd_target_value(&request->target, "frame"))
-        return bad(request, job, "format is png or stream, both with frame=NUMBER if wanted, or zip");
-    return status.state == KD_JOB_DONE ? send_frames(request, job, true, 0) : not_ready(request, job, &status);
+    return (status.series->row_bytes ? table_of : files_of)(request, job, &status, format);
 }

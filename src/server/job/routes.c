@@ -40,7 +40,7 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     if (token)
         kd_json_string(&json, "token", kd_job_token(job));
     kd_json_string(&json, "state", state_word(s));
-    kd_json_string(&json, "output", s->curve ? "light-curve" : "pictures");
+    kd_json_string(&json, "output", s->series->name);
     kd_json_number(&json, "place", s->place);
     kd_json_number(&json, "frames", s->frames);
     kd_json_number(&json, "finished", s->finished);

@@ -1,7 +1,7 @@
 /* The frames of jobs on their way through the render queue. */
 #include "server/job/internal.h"
 
-#include "render/output/curve.h"
+#include "render/output/series.h"
 #include "base/clock.h"
 
 #include <stdio.h>
@@ -9,7 +9,6 @@
 #include <string.h>
 
 #define BEHIND_MAX 2      /* frames rendered and not yet in their files: one is rendered while one is encoded */
-#define COMPRESSION 6     /* files that stay: smaller, and nobody waits */
 struct kd_job_render {
     struct kd_render_job render; /* first: the queue's pointer is ours */
     struct kd_job *job;
@@ -21,12 +20,6 @@ static void rendered(struct kd_render_job *render);
 static void done(struct kd_render_job *render);
 static void progress(struct kd_render_job *render, double fraction);
 
-static enum kd_status plan_picture(struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *plan,
-                                   struct kd_error *error)
-{
-    return kd_plan_make(scene, capacity, plan, error);
-}
-
 static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_spec *spec, unsigned number,
                                  const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
 {
@@ -35,7 +28,7 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
     enum kd_status status = kd_job_spec_scene(spec, number, scene, error);
     if (status)
         return status;
-    status = (spec->curve ? kd_curve_plan : plan_picture)(scene, capacity, plan, &inner);
+    status = kd_format_plan(spec->series->frame, scene, capacity, plan, &inner);
     if (!status && plan->estimate_ms > 1e3 * all->params.longest_s)
         status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %u s a frame may take",
                               plan->estimate_ms * 1e-3, all->params.longest_s);
@@ -47,17 +40,6 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
         snprintf(pointer, sizeof pointer, "%s%.100s", spec->n_keys > 1 ? "/keyframes" : "/scene", spec->n_keys > 1 ? "" : inner.pointer);
     kd_error_field(error, pointer, "frame %u: %.440s", number, inner.message);
     return error->status = status;
-}
-
-/* Of a light curve: a row of it instead of a picture. */
-static enum kd_status encode_row(struct kd_render_job *render, unsigned encoder)
-{
-    const struct kd_job_render *frame = (const struct kd_job_render *)render;
-    const struct kd_curve_row row = kd_curve_row_of(frame->number, &render->scene, &render->frame);
-    (void)encoder;
-    if (kd_buffer_append(&render->png, &row, sizeof row))
-        return kd_error_set(&render->error, KD_ENOMEM, "out of memory for a row");
-    return KD_OK;
 }
 
 /* A frame has failed: for good, or until there is memory and room on the disk again. */
@@ -97,11 +79,12 @@ static bool begin(struct kd_job *job)
     }
     frame->render.claim.class = KD_CLASS_JOB;
     memcpy(frame->render.claim.client, job->client, sizeof job->client);
-    frame->render.compression = COMPRESSION;
-    frame->render.encode = job->spec.curve ? encode_row : NULL;
+    frame->render.format = job->series->frame;
+    frame->render.effort = KD_EFFORT_KEEP;
+    frame->render.number = job->next;
     frame->render.socket = -1;
     frame->render.progress = progress;
-    frame->render.glance = job->spec.curve ? NULL : &kd_job_glance;
+    frame->render.glance = job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_glance : NULL;
     frame->render.rendered = rendered;
     frame->render.done = done;
     frame->job = job;
@@ -197,7 +180,7 @@ static void done(struct kd_render_job *render)
     enum kd_status status = render->status;
     bool stored = !status;
     if (stored)
-        status = kd_job_store_put(all->store, job->record.id, frame->number, &render->png, &render->error);
+        status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
     if (stored && status)
         render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
     pthread_mutex_lock(&all->lock);
@@ -206,7 +189,7 @@ static void done(struct kd_render_job *render)
     else
         all->rendering = NULL;
     if (!status)
-        finished(job, frame->number, render->png.size);
+        finished(job, frame->number, render->file.size);
     else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
         job->next = frame->number < job->next ? frame->number : job->next;
         give_up(job, &render->error);
@@ -214,7 +197,7 @@ static void done(struct kd_render_job *render)
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
     kd_job_release(job);
-    kd_buffer_finish(&render->png);
+    kd_buffer_finish(&render->file);
     kd_frame_finish(&render->frame);
     free(frame);
 }

@@ -180,17 +180,20 @@ static enum kd_status read_sequence(struct reader *r)
 
 static enum kd_status read_output(struct reader *r)
 {
-    if (!r->output)
+    char known[200];
+    if (r->output)
+        r->spec->series = cJSON_IsString(r->output) ? kd_series_named(r->output->valuestring) : NULL;
+    if (r->spec->series)
         return KD_OK;
-    const char *word = cJSON_IsString(r->output) ? r->output->valuestring : "";
-    r->spec->curve = !strcmp(word, "light-curve");
-    return r->spec->curve || !strcmp(word, "pictures") ? KD_OK : not_a(r, r->output, "/output", "\"pictures\" or \"light-curve\"");
+    for (size_t i = 0, n = 0; i < kd_n_series && n < sizeof known; i++)
+        n += (size_t)snprintf(known + n, sizeof known - n, "%s\"%s\"", i ? " or " : "", kd_series_all[i]->name);
+    return not_a(r, r->output, "/output", known);
 }
 
 enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out,
                                  struct kd_error *error)
 {
-    struct kd_job_spec spec = { 0 };
+    struct kd_job_spec spec = { .series = kd_series_all[0] };
     struct reader r = { .spec = &spec, .error = error };
     const struct member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "keyframes", &r.keyframes },
                                       { "frames", &r.frames }, { "interpolation", &r.interpolation },

@@ -6,10 +6,11 @@
  *
  * A keyframe's scene is a merge patch of the keyframe before; what holds at frame 0 without a keyframe there is "scene". Between
  * keyframes real numbers are interpolated, everything else keeps the value of the keyframe before. After the last nothing changes.
- * With "output": "light-curve" each frame is measured instead of drawn. */
+ * With "output": "light-curve" each frame is measured instead of drawn (render/output/series.h). */
 #ifndef KD_SERVER_JOB_SPEC_H
 #define KD_SERVER_JOB_SPEC_H
 
+#include "render/output/series.h"
 #include "scene/scene.h"
 
 #define KD_JOB_BODY_MAX (4u << 20)
@@ -26,7 +27,7 @@ struct kd_job_spec {
     size_t n_keys;
     bool listed;
     bool smooth; /* monotone cubics instead of straight lines */
-    bool curve;  /* "output": "light-curve" instead of "pictures" */
+    const struct kd_series *series; /* "output": what it makes of its frames */
 };
 
 /* preset: what scenes are merged over instead of the defaults; "": those. Every scene of a list and every keyframe is valid

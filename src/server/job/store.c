@@ -223,6 +223,15 @@ static bool read_state(const cJSON *o, enum kd_job_state *out)
     return false;
 }
 
+/* NULL: it is of a version that knows more of them. */
+static const struct kd_series *series_of(const cJSON *o)
+{
+    const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "output"));
+    if (!name) /* versions without it knew two */
+        name = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve")) ? "light-curve" : "pictures";
+    return kd_series_named(name);
+}
+
 static bool read_record(const cJSON *o, const char *id, struct kd_job_record *out)
 {
     *out = (struct kd_job_record) { .created = number(o, "created"), .ended = number(o, "ended") };
@@ -235,8 +244,8 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
     double attempts = number(o, "attempts"), frames = number(o, "frames");
     out->attempts = attempts > 0 && attempts < 1e6 ? (unsigned)attempts : 0;
     out->frames = frames > 0 && frames <= KD_JOB_FRAMES_MAX ? (unsigned)frames : 0;
-    out->curve = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve"));
-    return true;
+    out->series = series_of(o);
+    return out->series;
 }
 
 struct found {
@@ -252,7 +261,7 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     cJSON *o = cJSON_ParseWithLength((const char *)text->data, text->size);
     bool good = o && read_record(o, id, out);
     if (!good)
-        *why = o && number(o, "format") > 0 && number(o, "format") != 1 ? "its job.json is of another version of kerrd"
+        *why = o && number(o, "format") > 0 && (number(o, "format") != 1 || !series_of(o)) ? "its job.json is of another version of kerrd"
                                                                        : "its job.json is damaged";
     cJSON_Delete(o);
     return good;
@@ -369,7 +378,7 @@ static enum kd_status record_json(const struct kd_job_record *record, struct kd_
     kd_json_number(&json, "ended", record->ended);
     kd_json_number(&json, "attempts", record->attempts);
     kd_json_number(&json, "frames", record->frames);
-    kd_json_bool(&json, "curve", record->curve);
+    kd_json_string(&json, "output", record->series->name);
     kd_json_string(&json, "preset", record->preset);
     kd_json_string(&json, "error", record->error);
     kd_json_end(&json);

@@ -7,6 +7,7 @@
 #define KD_SERVER_JOB_STORE_H
 
 #include "base/buffer.h"
+#include "render/output/series.h"
 #include "server/http/secret.h"
 
 #include <stdbool.h>
@@ -20,7 +21,7 @@ struct kd_job_record {
     double created, ended; /* seconds since 1970; ended: 0 until then */
     unsigned attempts;     /* times a server has gone on with it since its latest frame and ended otherwise than by being told to */
     unsigned frames;       /* of the request; 0 in records of versions that did not say */
-    bool curve;            /* they are rows of a light curve */
+    const struct kd_series *series; /* that they make */
     char preset[32];       /* that its scenes are merged over; "": none */
     char error[480];       /* of a failed one */
 };

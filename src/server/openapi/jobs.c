@@ -3,11 +3,14 @@
 #include "server/job/spec.h"
 #include "server/openapi/media.h"
 
+#include <stdio.h>
+
 #define SCENE "{\"$ref\":\"#/components/schemas/Scene\"}"
 #define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,"
 #define COUNT "{\"type\":\"integer\",\"minimum\":0}"
 
-#define OUTPUT "\"output\":{\"enum\":[\"pictures\",\"light-curve\"]}"
+/* Twice in the request and once in the answer: what a job makes of its frames, a list of names. */
+#define OUTPUT "\"output\":{\"enum\":[%s]}"
 
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" SCENE ",\"keyframes\":{\"type\":\"array\",\"minItems\":1,"
@@ -24,12 +27,25 @@ static const char answer[] =
 
 _Static_assert(KD_JOB_FRAMES_MAX == 10000, "openapi.json says so");
 
+/* "pictures","light-curve" */
+static void list_series(char *out, size_t size)
+{
+    for (size_t i = 0, n = 0; i < kd_n_series && n < size; i++)
+        n += (size_t)snprintf(out + n, size - n, "%s\"%s\"", i ? "," : "", kd_series_all[i]->name);
+}
+
 void kd_openapi_jobs_body(struct kd_json *json)
 {
-    kd_openapi_body(json, request, sizeof request - 1, NULL);
+    char names[200], schema[sizeof request + 2 * sizeof names];
+    list_series(names, sizeof names);
+    int n = snprintf(schema, sizeof schema, request, names, names);
+    kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 
 void kd_openapi_jobs_answer(struct kd_json *json)
 {
-    kd_openapi_media(json, "application/json", answer, sizeof answer - 1);
+    char names[200], schema[sizeof answer + sizeof names];
+    list_series(names, sizeof names);
+    int n = snprintf(schema, sizeof schema, answer, names);
+    kd_openapi_media(json, "application/json", schema, (size_t)n);
 }

@@ -1,7 +1,9 @@
 /* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
  * table. */
 #include "server/openapi/openapi.h"
+#include "render/output/format.h"
 #include "server/http/assets.h"
+#include "server/job/formats.h"
 #include "server/openapi/jobs.h"
 #include "server/openapi/media.h"
 #include "server/openapi/orbits.h"
@@ -95,11 +97,11 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
 
-/* What the query may hold besides fields of a scene. */
+/* What the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
 static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
-    { "/v1/jobs/{id}/result", "format", "{\"type\":\"string\",\"enum\":[\"zip\",\"png\",\"stream\",\"json\",\"csv\"]}",
+    { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve, the others of pictures" },
     { "/v1/jobs/{id}/result", "frame", WHOLE, "with format=png: which" },
 };
@@ -112,6 +114,18 @@ static bool has_query(const struct kd_route *route)
     return false;
 }
 
+static void add_format_schema(struct kd_json *json)
+{
+    struct kd_job_format format;
+    kd_json_object(json, "schema");
+    kd_json_string(json, "type", "string");
+    kd_json_array(json, "enum");
+    for (size_t i = 0; kd_job_format(i, &format); i++)
+        kd_json_string(json, NULL, format.name);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
 static void add_query(struct kd_json *json, const struct kd_route *route)
 {
     for (size_t i = 0; i < sizeof queries / sizeof *queries; i++) {
@@ -119,7 +133,10 @@ static void add_query(struct kd_json *json, const struct kd_route *route)
             continue;
         begin_parameter(json, "query", queries[i].name);
         kd_json_string(json, "description", queries[i].help);
-        kd_json_raw(json, "schema", queries[i].schema, strlen(queries[i].schema));
+        if (queries[i].schema)
+            kd_json_raw(json, "schema", queries[i].schema, strlen(queries[i].schema));
+        else
+            add_format_schema(json);
         kd_json_end(json);
     }
 }
@@ -226,11 +243,20 @@ static void begin_response(struct kd_json *json, unsigned status, const char *de
     kd_json_string(json, "description", description);
 }
 
-static void add_answer(struct kd_json *json, const struct kd_route *route)
+/* Of routes whose media types stand in a table; each once. */
+static void add_formats(struct kd_json *json, enum kd_gives gives)
+{
+    struct kd_job_format format;
+    for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++)
+        kd_openapi_media(json, kd_formats[i]->media_type, "", 0);
+    for (size_t i = 0; gives == KD_GIVES_RESULT && kd_job_format(i, &format); i++)
+        kd_openapi_media(json, format.media_type, "", 0);
+}
+
+static void add_typed(struct kd_json *json, const struct kd_route *route)
 {
     char type[64];
     snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
-    kd_json_object(json, "content");
     switch (route->takes) {
     case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
     case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
@@ -242,6 +268,15 @@ static void add_answer(struct kd_json *json, const struct kd_route *route)
         kd_openapi_media(json, type, "", 0);
         also += strlen(type);
     }
+}
+
+static void add_answer(struct kd_json *json, const struct kd_route *route)
+{
+    kd_json_object(json, "content");
+    if (route->gives == KD_GIVES_ITS_ANSWER)
+        add_typed(json, route);
+    else
+        add_formats(json, route->gives);
     kd_json_end(json);
 }
 

@@ -1,5 +1,4 @@
 /* From frames to files: the encoders behind the device. */
-#include "render/output/picture.h"
 #include "base/clock.h"
 #include "server/render/internal.h"
 
@@ -25,12 +24,11 @@ static struct kd_render_job *take_next(struct kd_render_queue *queue)
     return *link ? kd_render_list_take(&queue->encoding, link) : NULL;
 }
 
-static void encode(struct kd_render_queue *queue, struct kd_render_job *job, unsigned encoder)
+static void encode(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_encoder *encoder)
 {
     double start = kd_clock_ms();
-    job->status = job->encode ? job->encode(job, encoder)
-                              : kd_picture_encode(&job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue),
-                                                  job->compression, &job->png, &job->error);
+    const struct kd_picture picture = { &job->frame, &job->scene, &job->plan, kd_render_queue_device_name(queue), job->number };
+    job->status = kd_encode(job->format, &picture, job->effort, encoder, &job->file, &job->error);
     job->encode_ms = kd_clock_ms() - start;
     kd_frame_drop_layers(&job->frame);
 }
@@ -38,8 +36,8 @@ static void encode(struct kd_render_queue *queue, struct kd_render_job *job, uns
 void *kd_render_encode_main(void *user)
 {
     struct kd_render_queue *queue = user;
+    struct kd_encoder encoder = { 0 };
     pthread_mutex_lock(&queue->lock);
-    unsigned encoder = queue->encoders_begun++;
     while (!queue->closing || queue->unfinished) {
         struct kd_render_job *job = take_next(queue);
         if (!job) {
@@ -50,7 +48,7 @@ void *kd_render_encode_main(void *user)
         bool takes_long = is_long(job);
         queue->encoding_long |= takes_long;
         pthread_mutex_unlock(&queue->lock);
-        encode(queue, job, encoder);
+        encode(queue, job, &encoder);
         pthread_mutex_lock(&queue->lock);
         queue->frame_bytes -= bytes;
         queue->encoding_long &= !takes_long;
@@ -60,5 +58,6 @@ void *kd_render_encode_main(void *user)
         pthread_mutex_lock(&queue->lock);
     }
     pthread_mutex_unlock(&queue->lock);
+    kd_encoder_finish(&encoder);
     return NULL;
 }

@@ -46,7 +46,7 @@ struct kd_render_queue {
     _Atomic bool cancel;
 
     pthread_t render_thread, encoders[KD_ENCODERS];
-    unsigned n_encoders, encoders_begun;
+    unsigned n_encoders;
     bool render_thread_runs;
 };
 

@@ -2,7 +2,7 @@
 
 #include "base/json.h"
 #include "physics/kerr.h"
-#include "render/output/picture.h"
+#include "render/output/notes.h"
 #include "server/http/reply.h"
 
 #include <math.h>
@@ -145,7 +145,7 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     kd_json_number(json, "azimuth_deg", job->scene.camera.azimuth_deg);
     kd_json_number(json, "exposure", job->frame.exposure);
     kd_json_number(json, "fps", note->fps);
-    kd_json_number(json, "bytes", (double)frame->png.size);
+    kd_json_number(json, "bytes", (double)frame->file.size);
     add_quality(json, job, note);
     add_passes(json, job);
     kd_json_bool(json, "lens_map_reused", job->frame.lens_reused);
@@ -168,8 +168,9 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->number = note->number;
     frame->revision = note->revision;
     frame->time = job->scene.top.time;
-    frame->png = job->png;
-    job->png = (struct kd_buffer) { 0 };
+    frame->format = job->format;
+    frame->file = job->file;
+    job->file = (struct kd_buffer) { 0 };
     kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
     describe_quality(frame, job, note);
     describe_timing(frame, job);
@@ -192,7 +193,7 @@ void kd_live_frame_release(struct kd_live_frame *frame)
 {
     if (!frame || atomic_fetch_sub(&frame->references, 1) > 1)
         return;
-    kd_buffer_finish(&frame->png);
+    kd_buffer_finish(&frame->file);
     kd_buffer_finish(&frame->approximations);
     kd_buffer_finish(&frame->event);
     free(frame);

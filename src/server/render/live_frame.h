@@ -13,7 +13,8 @@ struct kd_live_frame {
     uint64_t number;   /* of the session's frames, growing, not without gaps */
     unsigned revision; /* of the scene that it shows */
     double time;       /* of the scene as it shows it, M */
-    struct kd_buffer png;
+    const struct kd_format *format;
+    struct kd_buffer file;           /* of it */
     struct kd_buffer approximations; /* as the header has them */
     struct kd_buffer event;          /* the data of its event: JSON in one line */
     char accuracy[200], timing[400], quality[160];
@@ -27,7 +28,7 @@ struct kd_live_note {
     double fps; /* of late */
 };
 
-/* Takes the job's png over. NULL: out of memory. One reference. */
+/* Takes the job's file over. NULL: out of memory. One reference. */
 struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct kd_live_note *note);
 struct kd_live_frame *kd_live_frame_share(struct kd_live_frame *frame);
 void kd_live_frame_release(struct kd_live_frame *frame); /* accepts NULL */

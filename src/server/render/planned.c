@@ -1,5 +1,6 @@
 #include "server/render/planned.h"
 
+#include "render/output/format.h"
 #include "server/http/reply.h"
 #include "server/render/scene_source.h"
 #include "server/render/queue.h"
@@ -35,8 +36,12 @@ static bool make_plan(struct kd_planned *p, bool check)
 {
     struct kd_error error = { 0 };
     struct kd_capacity capacity;
+    const struct kd_format *format = p->task.request->format;
     kd_render_queue_capacity(p->task.request->server->renders, &capacity);
-    enum kd_status status = check ? kd_plan_check(&p->scene, &capacity, &error) : kd_plan_make(&p->scene, &capacity, &p->plan, &error);
+    p->drawn = p->scene;
+    enum kd_status status = check    ? kd_plan_check(&p->scene, &capacity, &error)
+                            : format ? kd_format_plan(format, &p->drawn, &capacity, &p->plan, &error)
+                                     : kd_plan_make(&p->scene, &capacity, &p->plan, &error);
     return !status || fail(p, status, &error, kd_problem_from(&error));
 }
 

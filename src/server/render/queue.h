@@ -16,6 +16,7 @@
 #define KD_SERVER_RENDER_QUEUE_H
 
 #include "base/buffer.h"
+#include "render/output/format.h"
 #include "render/render.h"
 #include "server/http/shares.h"
 
@@ -40,7 +41,9 @@ struct kd_render_job {
     struct kd_claim claim; /* client and class, which says how it is served; what is left is by the plan */
     struct kd_scene scene;
     struct kd_plan plan;
-    int compression;
+    const struct kd_format *format; /* of the file that the picture becomes, */
+    enum kd_effort effort;
+    unsigned number; /* as in struct kd_picture */
     /* NULL: a picture is rendered and encoded. Else this is called instead, with the device; if it sets `more` it is called again at
      * the next turn, and so on. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
@@ -48,8 +51,6 @@ struct kd_render_job {
     bool more;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; of a picture in slices, with the device */
     const struct kd_glance *glance; /* of a picture in slices; may be NULL; user: the job. With the device */
-    /* NULL: as a file, with its scene. Else this, from the frame to the bytes in png; on an encoder's thread, whose number it gets. */
-    enum kd_status (*encode)(struct kd_render_job *job, unsigned encoder);
     _Atomic bool drop;                           /* set by whoever wants it no more: KD_ECANCELLED */
     int socket;                                  /* of the client; once it hangs up the job is dropped; -1: none */
     void (*rendered)(struct kd_render_job *job); /* may be NULL; with the device, before the frame is encoded */
@@ -58,7 +59,7 @@ struct kd_render_job {
     /* the outcome: KD_ECANCELLED when dropped */
     enum kd_status status;
     struct kd_error error;
-    struct kd_buffer png;
+    struct kd_buffer file;
     struct kd_frame frame; /* without its layers */
     double queue_ms, encode_ms; /* queue_ms: in which others had the device, before it began and between its slices */
     /* the queue's own */

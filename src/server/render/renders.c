@@ -1,5 +1,5 @@
 /* POST /v1/plan, and /v1/render from the scene to the picture. */
-#include "render/output/picture.h"
+#include "render/output/notes.h"
 #include "server/http/negotiate.h"
 #include "server/render/planned.h"
 #include "server/http/reply.h"
@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OFFERED "image/png"
-
 enum MHD_Result kd_handle_plan(struct kd_request *request)
 {
     enum MHD_Result result;
@@ -20,12 +18,32 @@ enum MHD_Result kd_handle_plan(struct kd_request *request)
     return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer) : result;
 }
 
-static bool accepts(struct kd_request *request)
+static const char *type_of(size_t i, const void *formats) { return ((const struct kd_format *const *)formats)[i]->media_type; }
+
+/* The format that Accept would rather have; NULL: none. */
+static const struct kd_format *accepted(struct kd_request *request)
 {
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    bool yes = kd_accepts((const char *)accept.data, OFFERED);
+    size_t best = kd_accept_best((const char *)accept.data, kd_n_formats, type_of, kd_formats);
     kd_buffer_finish(&accept);
-    return yes;
+    return best < kd_n_formats ? kd_formats[best] : NULL;
+}
+
+static enum MHD_Result refuse(struct kd_request *request)
+{
+    struct kd_buffer offered = { 0 }, detail = { 0 };
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < kd_n_formats && !status; i++)
+        status = kd_buffer_printf(&offered, "%s%s", i ? ", " : "", kd_formats[i]->media_type);
+    if (!status)
+        status = kd_buffer_printf(&detail, "pictures are offered as %s only", (const char *)offered.data);
+    enum MHD_Result result = status ? kd_reply_no_memory(request)
+                                    : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
+                                                                                       .offered = (const char *)offered.data,
+                                                                                       .detail = (const char *)detail.data });
+    kd_buffer_finish(&offered);
+    kd_buffer_finish(&detail);
+    return result;
 }
 
 static bool client_has(struct kd_request *request)
@@ -55,7 +73,7 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     if (!response)
         return NULL;
     snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
-    kd_reply_file(request, KD_INLINE, "kerrd.png");
+    kd_reply_file(request, KD_INLINE, "kerrd.%s", request->format->name);
     MHD_add_response_header(response, "ETag", request->etag);
     MHD_add_response_header(response, "Cache-Control", "private, no-cache");
     MHD_add_response_header(response, "Vary", "Accept");
@@ -104,22 +122,22 @@ static void release_picture(void *cls)
 
 static struct MHD_Response *picture_response(struct kd_request *request)
 {
-    struct kd_buffer *png = &request->job->png;
+    struct kd_buffer *file = &request->job->file;
     struct picture *picture = malloc(sizeof *picture);
     if (!picture)
         return NULL;
-    *picture = (struct picture) { .server = request->server, .data = png->data, .size = png->size };
+    *picture = (struct picture) { .server = request->server, .data = file->data, .size = file->size };
     memcpy(picture->client, request->client, sizeof picture->client);
     struct MHD_Response *response = MHD_create_response_from_buffer_with_free_callback_cls(
-        png->size, png->data, release_picture, picture);
+        file->size, file->data, release_picture, picture);
     if (!response) {
         free(picture);
         return NULL;
     }
-    kd_bytes_add(request->server->replies, request->client, png->size);
-    request->reply_bytes = png->size;
-    *png = (struct kd_buffer) { 0 };
-    MHD_add_response_header(response, "Content-Type", OFFERED);
+    kd_bytes_add(request->server->replies, request->client, file->size);
+    request->reply_bytes = file->size;
+    *file = (struct kd_buffer) { 0 };
+    MHD_add_response_header(response, "Content-Type", request->format->media_type);
     return response;
 }
 
@@ -200,7 +218,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
     memcpy(job->claim.client, request->client, sizeof job->claim.client);
     job->scene = *scene;
     job->plan = *plan;
-    job->compression = KD_PNG_COMPRESSION;
+    job->format = request->format;
+    job->effort = KD_EFFORT_QUICK;
     job->socket = kd_connection_socket(request->connection);
     job->done = wake;
     job->user = request;
@@ -214,9 +233,10 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
 static enum kd_status tag(struct kd_request *request, const struct kd_scene *scene)
 {
     char hash[65];
+    const char *name = request->format == kd_formats[0] ? "" : request->format->name;
     enum kd_status status = kd_scene_hash(scene, hash);
     if (!status)
-        snprintf(request->etag, sizeof request->etag, "\"%s-%s\"", hash, request->server->etag_tail);
+        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s\"", hash, request->server->etag_tail, *name ? "-" : "", name);
     return status;
 }
 
@@ -228,11 +248,8 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
 
     if (request->job)
         return deliver(request);
-    if (!accepts(request))
-        return kd_reply_problem(
-            request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                            .offered = OFFERED,
-                                            .detail = "pictures are offered as " OFFERED " only" });
+    if (!request->format && !(request->format = accepted(request)))
+        return refuse(request);
     const struct kd_planned *planned = kd_planned_of(request, &result);
     if (!planned)
         return result;
@@ -244,8 +261,8 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (client_has(request))
         return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), plan));
     if (request->head)
-        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(OFFERED), plan));
+        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(request->format->media_type), plan));
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
-    return submit(request, scene, plan);
+    return submit(request, &planned->drawn, plan);
 }

@@ -2,7 +2,6 @@
 #ifndef KD_SERVER_SESSION_INTERNAL_H
 #define KD_SERVER_SESSION_INTERNAL_H
 
-#include "image/png_live.h"
 #include "render/live/governor.h"
 #include "server/http/secret.h"
 #include "server/session/budget.h"
@@ -46,7 +45,6 @@ struct kd_sessions {
     uint64_t frames, bytes; /* published */
     bool closed;
     double looked_ms;
-    struct kd_png_live *encoders[KD_ENCODERS];
 };
 
 /* All with all->lock held where nothing else is said. */

@@ -12,7 +12,6 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define PNG_TYPE "image/png"
 #define BINARY_TYPE "application/x-kerrd-frames"
 #define WAIT_MS 25000        /* below the half minute after which proxies give up */
 #define HEARTBEAT_MS 15000.0 /* of an event stream */
@@ -44,14 +43,14 @@ static void release_frame(void *cls) { kd_live_frame_release(cls); }
 static enum MHD_Result send_frame(struct kd_request *request, struct kd_live_frame *frame)
 {
     struct MHD_Response *response =
-        MHD_create_response_from_buffer_with_free_callback_cls(frame->png.size, frame->png.data, release_frame, frame);
+        MHD_create_response_from_buffer_with_free_callback_cls(frame->file.size, frame->file.data, release_frame, frame);
     if (!response) {
         kd_live_frame_release(frame);
         return kd_reply_no_memory(request);
     }
-    MHD_add_response_header(response, "Content-Type", PNG_TYPE);
+    MHD_add_response_header(response, "Content-Type", frame->format->media_type);
     describe(response, frame);
-    request->reply_bytes = frame->png.size;
+    request->reply_bytes = frame->file.size;
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
@@ -67,7 +66,7 @@ static enum MHD_Result look(struct kd_request *request)
     switch (what) {
     case KD_VIEWER_FRAME: return send_frame(request, frame);
     case KD_VIEWER_OVER: return error.status ? kd_reply_error(request, &error) : ended(request);
-    case KD_VIEWER_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PNG_TYPE));
+    case KD_VIEWER_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, kd_format_live()->media_type));
     default: return MHD_NO;
     }
 }
@@ -118,7 +117,7 @@ struct stream {
     struct kd_viewer viewer; /* first */
     enum { MULTIPART, BINARY, EVENTS } form;
     struct kd_live_frame *frame; /* whose bytes are on their way */
-    char before[64];
+    char before[64], next[96];
     struct part { const char *data; size_t size; } parts[3];
     size_t part, at;
 };
@@ -131,9 +130,6 @@ static void put_le32(char *out, uint32_t value)
         out[i] = (char)(value >> 8 * i & 255);
 }
 
-/* A browser shows a part when the head of the next has come: so that follows each frame at once. */
-#define NEXT_PART "\r\n--kerrd\r\nContent-Type: image/png\r\n\r\n"
-
 static void frame_parts(struct stream *s, struct kd_live_frame *frame)
 {
     s->frame = frame;
@@ -141,16 +137,16 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
     memset(s->parts, 0, sizeof s->parts);
     switch (s->form) {
     case MULTIPART:
-        set_part(s, 1, frame->png.data, frame->png.size);
-        set_part(s, 2, NEXT_PART, sizeof NEXT_PART - 1);
+        set_part(s, 1, frame->file.data, frame->file.size);
+        set_part(s, 2, s->next, strlen(s->next));
         return;
     case BINARY:
-        put_le32(s->before, (uint32_t)frame->png.size);
+        put_le32(s->before, (uint32_t)frame->file.size);
         put_le32(s->before + 4, (uint32_t)frame->number);
         put_le32(s->before + 8, frame->revision);
         put_le32(s->before + 12, 0);
         set_part(s, 0, s->before, 16);
-        set_part(s, 1, frame->png.data, frame->png.size);
+        set_part(s, 1, frame->file.data, frame->file.size);
         return;
     case EVENTS:
         set_part(s, 0, s->before,
@@ -258,8 +254,10 @@ static enum MHD_Result open_stream(struct kd_request *request, int form, const c
                                      .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
+    /* A browser shows a part when the head of the next has come: so that follows each frame at once, and the first comes alone. */
+    snprintf(s->next, sizeof s->next, "\r\n--kerrd\r\nContent-Type: %s\r\n\r\n", kd_format_live()->media_type);
     if (form == MULTIPART)
-        set_part(s, 0, &NEXT_PART[2], sizeof NEXT_PART - 3);
+        set_part(s, 0, s->next + 2, strlen(s->next + 2));
     kd_viewer_attach(&s->viewer);
     return start_stream(request, s, type);
 }

@@ -22,7 +22,6 @@ struct kd_session_frame {
 
 /* Locked where nothing else is said. */
 
-static enum kd_status encode(struct kd_render_job *job, unsigned encoder);
 static void rendered(struct kd_render_job *job);
 static void done(struct kd_render_job *job);
 
@@ -56,7 +55,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     live->begun_ms = now;
     live->job = (struct kd_render_job) {
         .claim.class = turn->refining ? KD_CLASS_REFINEMENT : KD_CLASS_LIVE, .socket = -1,
-        .encode = encode, .rendered = rendered, .done = done,
+        .format = kd_format_live(), .effort = KD_EFFORT_LIVE, .rendered = rendered, .done = done,
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
@@ -109,14 +108,6 @@ void kd_session_drop(struct kd_session *s)
 {
     if (s->rendering)
         atomic_store(&s->rendering->job.drop, true);
-}
-
-/* On an encoder's thread, unlocked. */
-static enum kd_status encode(struct kd_render_job *job, unsigned encoder)
-{
-    const struct kd_session_frame *live = (const struct kd_session_frame *)job;
-    return kd_png_live_encode(live->session->all->encoders[encoder], job->frame.width, job->frame.height, kd_frame_pixels(&job->frame), &job->png,
-                              &job->error);
 }
 
 static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
@@ -202,7 +193,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_live_frame_release(s->latest);
     s->latest = frame;
     s->all->frames++;
-    s->all->bytes += frame->png.size;
+    s->all->bytes += frame->file.size;
     kd_session_wake(s);
 }
 
@@ -228,7 +219,7 @@ static void done(struct kd_render_job *job)
     kd_session_pump(s);
     kd_session_let_go(s);
     pthread_mutex_unlock(&all->lock);
-    kd_buffer_finish(&job->png);
+    kd_buffer_finish(&job->file);
     kd_frame_finish(&job->frame);
     free(live);
 }

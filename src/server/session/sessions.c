@@ -16,11 +16,6 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     all->params = *params;
     pthread_mutex_init(&all->lock, NULL);
-    for (unsigned i = 0; i < KD_ENCODERS; i++)
-        if (kd_png_live_create(kd_deflate_fastest(), &all->encoders[i], error)) {
-            kd_sessions_destroy(all);
-            return KD_ENOMEM;
-        }
     *out = all;
     return KD_OK;
 }
@@ -236,8 +231,6 @@ void kd_sessions_destroy(struct kd_sessions *all)
     if (!all)
         return;
     kd_sessions_close(all);
-    for (unsigned i = 0; i < KD_ENCODERS; i++)
-        kd_png_live_destroy(all->encoders[i]);
     pthread_mutex_destroy(&all->lock);
     free(all);
 }

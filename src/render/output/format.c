@@ -1,0 +1,78 @@
+#include "render/output/format.h"
+
+#include <string.h>
+#include <strings.h>
+
+const struct kd_format *kd_format_named(const char *name)
+{
+    for (size_t i = 0; i < kd_n_formats; i++)
+        if (!strcmp(kd_formats[i]->name, name))
+            return kd_formats[i];
+    return NULL;
+}
+
+const struct kd_format *kd_format_of_path(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    for (size_t i = 0; dot && i < kd_n_formats; i++)
+        if (!strcasecmp(kd_formats[i]->name, dot + 1))
+            return kd_formats[i];
+    return NULL;
+}
+
+const struct kd_format *kd_format_of_bytes(const void *data, size_t size)
+{
+    for (size_t i = 0; i < kd_n_formats; i++) {
+        size_t n = strlen(kd_formats[i]->magic);
+        if (n && size >= n && !memcmp(data, kd_formats[i]->magic, n))
+            return kd_formats[i];
+    }
+    return NULL;
+}
+
+const struct kd_format *kd_format_live(void)
+{
+    size_t i = 0;
+    while (i + 1 < kd_n_formats && !kd_formats[i]->live)
+        i++;
+    return kd_formats[i];
+}
+
+enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
+                              struct kd_plan *out, struct kd_error *error)
+{
+    struct kd_needs needs = kd_needs_of(scene);
+    needs.light |= (format->carries & KD_CARRIES_LIGHT) != 0;
+    if (!(format->carries & KD_CARRIES_PICTURE) && isinf(scene->style.exposure))
+        scene->style.exposure = 0;
+    return kd_plan_make_for(scene, &needs, capacity, out, error);
+}
+
+enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error)
+{
+    const struct kd_format *format = kd_format_of_bytes(data, size);
+    if (!format)
+        format = kd_formats[0]; /* which says what is wrong with it */
+    if (!format->scene)
+        return kd_error_set(error, KD_EINVAL, "files of the format %s hold no scene", format->name);
+    return format->scene(data, size, out, error);
+}
+
+enum kd_status kd_encode(const struct kd_format *format, const struct kd_picture *picture, enum kd_effort effort,
+                         struct kd_encoder *encoder, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_encoder once = { 0 }, *e = encoder ? encoder : &once;
+    if (e->of != format)
+        kd_encoder_finish(e);
+    e->of = format;
+    enum kd_status status = format->encode(picture, effort, &e->memory, out, error);
+    kd_encoder_finish(&once);
+    return status;
+}
+
+void kd_encoder_finish(struct kd_encoder *encoder)
+{
+    if (encoder->memory && encoder->of->forget)
+        encoder->of->forget(encoder->memory);
+    *encoder = (struct kd_encoder) { 0 };
+}

@@ -1,0 +1,6 @@
+/* The table of format.h, alone: a test may bring its own. */
+#include "render/output/format.h"
+
+#define ENTRY(name) &kd_format_##name,
+const struct kd_format *const kd_formats[] = { KD_FORMATS(ENTRY) };
+const size_t kd_n_formats = sizeof kd_formats / sizeof *kd_formats;

@@ -1,0 +1,42 @@
+#include "render/output/notes.h"
+
+#include <stdio.h>
+
+void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
+{
+    int n = snprintf(out, KD_ACCURACY_TEXT, "rays=%llu engine=%s precision=%s steps=%u critical_rays=%llu undecided=%llu sampled=%u",
+                     (unsigned long long)plan->rays, kd_engine_name(plan->setting.engine),
+                     kd_precision_name(plan->setting.precision), plan->setting.steps, (unsigned long long)(kd_plan_rays(plan) - plan->rays),
+                     (unsigned long long)report->undecided,
+                     report->sampled);
+    if (report->sampled)
+        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
+                 report->differ, report->median, report->worst);
+}
+
+/* One sentence a line, as a reader of the file's properties sees them. */
+static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_append(out, "", 0); /* a plan without any still gives a string */
+    for (size_t i = 0; i < plan->n_approximations && !status; i++)
+        status = kd_buffer_printf(out, "%s%s", i ? "\n" : "", plan->approximations[i]);
+    return status;
+}
+
+enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error)
+{
+    *out = (struct kd_notes) { 0 };
+    kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
+    enum kd_status status = kd_scene_to_json(picture->scene, &out->scene);
+    if (!status)
+        status = kd_scene_hash(picture->scene, out->hash);
+    if (!status)
+        status = join_approximations(picture->plan, &out->approximations);
+    return status ? kd_error_set(error, status, "cannot describe the scene inside its picture: %s", kd_status_name(status)) : KD_OK;
+}
+
+void kd_notes_finish(struct kd_notes *notes)
+{
+    kd_buffer_finish(&notes->scene);
+    kd_buffer_finish(&notes->approximations);
+}

@@ -1,0 +1,22 @@
+/* What a file tells of its picture, whatever its format: enough to render it again, and how it was made. Any thread. */
+#ifndef KD_RENDER_OUTPUT_NOTES_H
+#define KD_RENDER_OUTPUT_NOTES_H
+
+#include "render/output/format.h"
+
+/* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
+ * worst=2.0e-05"; without the last four where nothing was sampled. */
+#define KD_ACCURACY_TEXT 200
+void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
+
+struct kd_notes {
+    struct kd_buffer scene;          /* canonical JSON */
+    char hash[65];
+    struct kd_buffer approximations; /* one a line */
+    char accuracy[KD_ACCURACY_TEXT];
+};
+/* KD_ENOMEM. Finish it in any case. */
+enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
+void kd_notes_finish(struct kd_notes *notes);
+
+#endif

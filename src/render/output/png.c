@@ -1,0 +1,86 @@
+#include "render/output/png.h"
+
+#include "image/png.h"
+#include "image/png_live.h"
+#include "render/output/notes.h"
+
+#include <string.h>
+
+enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out, struct kd_error *error)
+{
+    const struct kd_frame *frame = picture->frame;
+    struct kd_notes notes;
+    enum kd_status status = kd_notes_of(picture, &notes, error);
+    const struct kd_png_text text[] = {
+        { "kerrd:scene", (const char *)notes.scene.data },
+        { "kerrd:hash", notes.hash },
+        { "kerrd:version", KD_VERSION },
+        { "kerrd:approximations", (const char *)notes.approximations.data },
+        { "kerrd:accuracy", notes.accuracy },
+        { "kerrd:device", picture->device },
+        { "Software", "kerrd " KD_VERSION },
+    };
+    const struct kd_png_params params = {
+        .width = frame->width,
+        .height = frame->height,
+        .bit_depth = kd_frame_bit_depth(frame),
+        .compression = compression,
+        .pixels = kd_frame_pixels(frame),
+        .text = text,
+        .n_text = sizeof text / sizeof *text,
+    };
+    if (!status)
+        status = kd_png_encode(&params, out, error);
+    kd_notes_finish(&notes);
+    return status;
+}
+
+static enum kd_status encode_live(const struct kd_frame *frame, void **memory, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_png_live *live = *memory;
+    if (kd_frame_bit_depth(frame) != 8)
+        return kd_error_set(error, KD_EINVAL, "a live frame has %d bits a channel, allowed are 8", kd_frame_bit_depth(frame));
+    enum kd_status status = live ? KD_OK : kd_png_live_create(kd_deflate_fastest(), &live, error);
+    if (status)
+        return status;
+    *memory = live;
+    return kd_png_live_encode(live, frame->width, frame->height, kd_frame_pixels(frame), out, error);
+}
+
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
+                             struct kd_error *error)
+{
+    if (effort == KD_EFFORT_LIVE)
+        return encode_live(picture->frame, memory, out, error);
+    /* Who waits would rather have 10 ms than 20 %; of what stays nobody waits for the encoder. */
+    return kd_png_of_picture(picture, effort == KD_EFFORT_QUICK ? 1 : 6, out, error);
+}
+
+static void forget(void *memory) { kd_png_live_destroy(memory); }
+
+static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *out, struct kd_error *error)
+{
+    struct kd_png picture;
+    enum kd_status status = kd_png_decode(data, size, &picture, error);
+    if (status)
+        return status;
+    const char *text = kd_png_text_find(&picture, "kerrd:scene");
+    if (text) {
+        struct kd_scene scene; /* *out stays as it was when the document is refused */
+        kd_scene_defaults(&scene);
+        status = kd_scene_from_json(&scene, text, strlen(text), error);
+        if (!status)
+            *out = scene;
+    } else {
+        status = kd_error_set(error, KD_EINVAL,
+                              "the picture holds no scene: it was not made by kerrd, or its text "
+                              "was stripped");
+    }
+    kd_png_finish(&picture);
+    return status;
+}
+
+const struct kd_format kd_format_png = {
+    .name = "png", .media_type = "image/png", .magic = "\x89PNG", .carries = KD_CARRIES_PICTURE, .live = true,
+    .encode = encode, .forget = forget, .scene = scene_in,
+};

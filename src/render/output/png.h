@@ -1,0 +1,13 @@
+/* A frame as a PNG file that can be rendered again from itself: kd_format_png. Any thread.
+ *
+ * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations"
+ * (one a line), "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software". None with KD_EFFORT_LIVE. */
+#ifndef KD_RENDER_OUTPUT_PNG_H
+#define KD_RENDER_OUTPUT_PNG_H
+
+#include "render/output/format.h"
+
+/* The same with a compression of one's own, as kd_png_params has it. */
+enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out, struct kd_error *error);
+
+#endif

@@ -1,0 +1,26 @@
+#include "render/output/series.h"
+
+#include "render/output/curve.h"
+
+#include <string.h>
+
+static const struct kd_series pictures = { .name = "pictures", .noun = "picture", .frame = &kd_format_png };
+
+const struct kd_series *const kd_series_all[] = { &pictures, &kd_light_curve };
+const size_t kd_n_series = sizeof kd_series_all / sizeof *kd_series_all;
+
+const struct kd_series *kd_series_named(const char *name)
+{
+    for (size_t i = 0; i < kd_n_series; i++)
+        if (!strcmp(kd_series_all[i]->name, name))
+            return kd_series_all[i];
+    return NULL;
+}
+
+const struct kd_table_format *kd_series_table(const struct kd_series *series, const char *name)
+{
+    for (size_t i = 0; i < series->n_tables; i++)
+        if (!strcmp(series->tables[i].name, name))
+            return &series->tables[i];
+    return NULL;
+}

@@ -1,0 +1,36 @@
+#include "server/job/formats.h"
+
+#include <string.h>
+
+const struct kd_job_format kd_job_as_zip = { "zip", "application/zip" };
+const struct kd_job_format kd_job_as_stream = { "stream", "application/x-kerrd-frames" };
+
+/* Of one series: its tables; or what holds its files, and these by themselves. */
+static bool of_series(const struct kd_series *series, size_t i, struct kd_job_format *out)
+{
+    const struct kd_job_format files[] = { kd_job_as_zip, { series->frame->name, series->frame->media_type }, kd_job_as_stream };
+    size_t n = series->row_bytes ? series->n_tables : sizeof files / sizeof *files;
+    if (i < n)
+        *out = series->row_bytes ? (struct kd_job_format) { series->tables[i].name, series->tables[i].media_type } : files[i];
+    return i < n;
+}
+
+/* Whether one that comes before these, number i of series k, has its name. */
+static bool again(size_t k, size_t i, const char *name)
+{
+    struct kd_job_format other;
+    for (size_t before = 0; before <= k; before++)
+        for (size_t j = 0; (before < k || j < i) && of_series(kd_series_all[before], j, &other); j++)
+            if (!strcmp(other.name, name))
+                return true;
+    return false;
+}
+
+bool kd_job_format(size_t number, struct kd_job_format *out)
+{
+    for (size_t k = 0; k < kd_n_series; k++)
+        for (size_t i = 0; of_series(kd_series_all[k], i, out); i++)
+            if (!again(k, i, out->name) && !number--)
+                return true;
+    return false;
+}

@@ -1,0 +1,9 @@
+#ifndef KD_TESTS_UNIT_FAKE_FORMATS_H
+#define KD_TESTS_UNIT_FAKE_FORMATS_H
+
+#include "render/output/format.h"
+
+extern const struct kd_format fake_format;
+extern int fake_memories; /* that it was given and has not been asked to forget */
+
+#endif
