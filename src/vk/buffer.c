@@ -2,6 +2,7 @@
 
 #include "vk/device.h"
 #include "vk/mapped.h"
+#include "vk/view.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@ static void buffer_free(struct kd_vk *vk, struct kd_vk_retired *object)
 {
     struct kd_vk_buffer *buffer = (struct kd_vk_buffer *)object;
     kd_vk_mapped_forget(vk, buffer);
+    kd_vk_views_finish(vk, buffer);
     vk->fn.DestroyBuffer(vk->device, buffer->handle, NULL);
     if (buffer->slice.block)
         kd_vk_heap_give(vk, &buffer->slice);

@@ -14,6 +14,7 @@ struct kd_vk_buffer {
     enum kd_vk_memory memory;
     struct kd_vk_buffer *next_mapped; /* in kd_vk.mapped */
     uint64_t read, written, seen;     /* mapped.h */
+    struct kd_vk_view *views;         /* view.h */
     char name[64];
 };
 

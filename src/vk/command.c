@@ -1,16 +1,20 @@
 #include "vk/barrier.h"
 #include "vk/buffer.h"
 #include "vk/device.h"
+#include "vk/kind.h"
 #include "vk/mapped.h"
 #include "vk/pipeline.h"
 #include "vk/submit.h"
+#include "vk/view.h"
 
 #include <inttypes.h>
 
-/* The bytes a binding means. */
-static uint64_t end_of(const struct kd_vk_binding *binding)
+/* The bytes a binding means: whole texels, if it is one of texels. */
+static uint64_t size_of(const struct kd_vk_binding *binding, enum kd_vk_kind kind)
 {
-    return binding->size ? binding->offset + binding->size : binding->buffer->size;
+    uint64_t size = binding->size ? binding->size : binding->buffer->size - binding->offset;
+    uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
+    return texel ? size / texel * texel : size;
 }
 
 static bool inside(const struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size)
@@ -18,8 +22,39 @@ static bool inside(const struct kd_vk_buffer *buffer, uint64_t offset, uint64_t 
     return offset <= buffer->size && size <= buffer->size - offset;
 }
 
+/* What this device binds at most of a kind, in bytes. */
+static uint64_t most_of(const struct kd_vk *vk, enum kd_vk_kind kind)
+{
+    const struct kd_vk_info *info = &vk->physical.info;
+    uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
+    return texel                   ? info->max_texels * texel
+           : kind == KD_VK_UNIFORM ? info->max_uniform_bytes
+                                   : info->max_binding_bytes;
+}
+
+/* Beyond what holds for every kind. */
+static enum kd_status check_kind(const struct kd_vk *vk, const char *pass, uint32_t index,
+                                 const struct kd_vk_binding *binding, enum kd_vk_kind kind, struct kd_error *error)
+{
+    uint64_t size = size_of(binding, kind), most = most_of(vk, kind);
+    uint32_t texel = kd_vk_kind_info(kind)->texel_bytes;
+    if (binding->write && kind != KD_VK_STORAGE)
+        return kd_error_set(error, KD_EINVAL, "%s: binding %u, '%s', is written, but is no storage buffer", pass, index,
+                            binding->buffer->name);
+    if (!size || (binding->size && size != binding->size))
+        return kd_error_set(error, KD_EINVAL, "%s: binding %u, '%s', must span whole texels of %u bytes", pass, index,
+                            binding->buffer->name, texel);
+    if (size > most)
+        return kd_error_set(
+            error, KD_ETOOBIG,
+            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass, index,
+            size, binding->buffer->name, most);
+    return KD_OK;
+}
+
 static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, uint32_t index,
-                                    const struct kd_vk_binding *binding, struct kd_error *error)
+                                    const struct kd_vk_binding *binding, enum kd_vk_kind kind,
+                                    struct kd_error *error)
 {
     if (!binding->buffer)
         return kd_error_set(error, KD_EINVAL, "%s: binding %u has no buffer", pass, index);
@@ -30,12 +65,7 @@ static enum kd_status check_binding(const struct kd_vk *vk, const char *pass, ui
                             " bytes), must lie inside it and begin at a multiple of %u",
                             pass, index, binding->offset, binding->size, binding->buffer->name,
                             binding->buffer->size, KD_VK_ALIGNMENT);
-    if (end_of(binding) - binding->offset > vk->physical.info.max_binding_bytes)
-        return kd_error_set(
-            error, KD_ETOOBIG,
-            "%s: binding %u spans %" PRIu64 " bytes of '%s', this device binds at most %" PRIu64, pass, index,
-            end_of(binding) - binding->offset, binding->buffer->name, vk->physical.info.max_binding_bytes);
-    return KD_OK;
+    return check_kind(vk, pass, index, binding, kind, error);
 }
 
 static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_dispatch *dispatch,
@@ -52,7 +82,7 @@ static enum kd_status check_dispatch(const struct kd_vk *vk, const struct kd_vk_
     if (dispatch->pipeline->push_bytes && !dispatch->push)
         return kd_error_set(error, KD_EINVAL, "%s: no push constants were given", pass);
     for (uint32_t i = 0; i < dispatch->pipeline->n_buffers && !status; i++)
-        status = check_binding(vk, pass, i, &dispatch->bindings[i], error);
+        status = check_binding(vk, pass, i, &dispatch->bindings[i], dispatch->pipeline->kinds[i], error);
     return status;
 }
 
@@ -73,6 +103,8 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
 {
     VkDescriptorSet set;
     VkDescriptorBufferInfo buffers[KD_VK_MAX_BINDINGS];
+    VkBufferView views[KD_VK_MAX_BINDINGS];
+    VkWriteDescriptorSet writes[KD_VK_MAX_BINDINGS];
     const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
     if (!pipeline->n_buffers)
         return KD_OK;
@@ -81,15 +113,20 @@ static enum kd_status bind_buffers(struct kd_vk *vk, struct kd_vk_slot *slot,
         return status;
     for (uint32_t i = 0; i < pipeline->n_buffers; i++) {
         const struct kd_vk_binding *b = &dispatch->bindings[i];
-        buffers[i] = (VkDescriptorBufferInfo) { b->buffer->handle, b->offset, end_of(b) - b->offset };
+        const struct kd_vk_kind_info *kind = kd_vk_kind_info(pipeline->kinds[i]);
+        buffers[i] = (VkDescriptorBufferInfo) { b->buffer->handle, b->offset, size_of(b, pipeline->kinds[i]) };
+        writes[i] = (VkWriteDescriptorSet) { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                             .dstSet = set,
+                                             .dstBinding = i,
+                                             .descriptorCount = 1,
+                                             .descriptorType = kind->descriptor,
+                                             .pBufferInfo = &buffers[i],
+                                             .pTexelBufferView = &views[i] };
+        if (kind->texel_bytes && (status = kd_vk_view_get(vk, b->buffer, kind->format, b->offset, buffers[i].range,
+                                                          &views[i], error)))
+            return status;
     }
-    /* Successive bindings of one kind are one write. */
-    const VkWriteDescriptorSet write = { .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                         .dstSet = set,
-                                         .descriptorCount = pipeline->n_buffers,
-                                         .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                         .pBufferInfo = buffers };
-    vk->fn.UpdateDescriptorSets(vk->device, 1, &write, 0, NULL);
+    vk->fn.UpdateDescriptorSets(vk->device, pipeline->n_buffers, writes, 0, NULL);
     vk->fn.CmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->layout, 0, 1, &set,
                                  0, NULL);
     return KD_OK;
@@ -101,8 +138,8 @@ static void order_dispatch(struct kd_vk *vk, struct kd_vk_slot *slot, const stru
     uint32_t n = dispatch->pipeline->n_buffers;
     for (uint32_t i = 0; i < n; i++) {
         const struct kd_vk_binding *b = &dispatch->bindings[i];
-        accesses[i] =
-            access_of(vk, b->buffer, b->offset, end_of(b), VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, b->write);
+        accesses[i] = access_of(vk, b->buffer, b->offset, b->offset + size_of(b, dispatch->pipeline->kinds[i]),
+                                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, b->write);
         b->buffer->retired.ticket = kd_vk_current(vk);
     }
     kd_vk_barrier_before(vk, slot->commands, accesses, n);

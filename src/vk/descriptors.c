@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-/* Room for the largest set each time, so that counting sets is enough to know when a pool is full. */
+/* Room for the largest set of each kind each time, so that counting sets is enough to know when a pool is full. */
 static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descriptors, struct kd_error *error)
 {
     enum kd_status status;
@@ -13,12 +13,14 @@ static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descripto
     if (!pools)
         return kd_error_set(error, KD_ENOMEM, "no memory for descriptor pools");
     descriptors->pools = pools;
-    const VkDescriptorPoolSize size = { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                        KD_VK_SETS_PER_POOL * KD_VK_MAX_BINDINGS };
+    const uint32_t most = KD_VK_SETS_PER_POOL * KD_VK_MAX_BINDINGS;
+    const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, most },
+                                           { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, most },
+                                           { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, most } };
     const VkDescriptorPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                               .maxSets = KD_VK_SETS_PER_POOL,
-                                              .poolSizeCount = 1,
-                                              .pPoolSizes = &size };
+                                              .poolSizeCount = sizeof sizes / sizeof *sizes,
+                                              .pPoolSizes = sizes };
     KD_VK_TRY(&vk->fn, CreateDescriptorPool, vk->device, &info, NULL, &pool);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_DESCRIPTOR_POOL, KD_VK_HANDLE(pool), "descriptor pool %zu",
                      descriptors->n_pools);

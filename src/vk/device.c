@@ -48,7 +48,7 @@ static enum kd_status choose(struct kd_vk *vk, const char *wish, struct kd_error
     return status;
 }
 
-/* The required feature and whatever optional ones there are: kernels ask kd_vk_info before using them. */
+/* The required features and whatever optional ones there are: kernels ask kd_vk_info before using them. */
 static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
 {
     enum kd_status status;
@@ -66,6 +66,7 @@ static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
     VkPhysicalDeviceVulkan12Features f12 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
         .timelineSemaphore = VK_TRUE,
+        .uniformBufferStandardLayout = VK_TRUE,
         .hostQueryReset = vk->physical.host_query_reset,
         .shaderSubgroupExtendedTypes = vk->physical.subgroup_extended_types,
     };

@@ -9,9 +9,13 @@
 /* Vulkan guarantees 4096 allocations; a block this large keeps us far below. A larger buffer gets a block of
  * its own. */
 #define KD_VK_BLOCK_BYTES (UINT64_C(64) << 20)
-#define KD_VK_ALIGNMENT 256 /* no nonCoherentAtomSize is larger (Vulkan 1.2, table 53): buffers share no atom */
+/* No nonCoherentAtomSize is larger (Vulkan 1.2, table 53): buffers share no atom. No min{Storage,Uniform,Texel}BufferOffsetAlignment
+ * is larger either: a binding of any kind may begin at each multiple. */
+#define KD_VK_ALIGNMENT 256
 #define KD_VK_BUFFER_USAGE                                                                                   \
-    (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT)
+    (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |                               \
+     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |                           \
+     VK_BUFFER_USAGE_TRANSFER_DST_BIT)
 
 struct kd_vk_block {
     struct kd_vk_block *next;

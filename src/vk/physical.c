@@ -73,6 +73,8 @@ static void read_limits(struct kd_vk_physical *device)
     info->api_version = device->properties.apiVersion;
     info->driver_version = device->properties.driverVersion;
     info->max_binding_bytes = limits->maxStorageBufferRange;
+    info->max_uniform_bytes = limits->maxUniformBufferRange;
+    info->max_texels = limits->maxTexelBufferElements;
     info->max_push_bytes = limits->maxPushConstantsSize;
     info->max_groups_x = limits->maxComputeWorkGroupCount[0];
     info->max_groups_y = limits->maxComputeWorkGroupCount[1];
@@ -127,6 +129,8 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
     device->subgroup_extended_types = f12.shaderSubgroupExtendedTypes;
     if (!f12.timelineSemaphore)
         lacks(info, "timeline semaphores");
+    if (!f12.uniformBufferStandardLayout) /* Vulkan 1.2 requires it, as it does the semaphores */
+        lacks(info, "uniform buffers of standard layout");
 }
 
 /* Layered drivers (Vulkan over Metal) demand that VK_KHR_portability_subset be enabled where it is listed. */

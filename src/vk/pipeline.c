@@ -1,9 +1,11 @@
 #include "vk/pipeline.h"
 
 #include "vk/device.h"
+#include "vk/kind.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SPIRV_MAGIC 0x07230203u
 #define MAX_SPEC 32
@@ -19,6 +21,10 @@ static enum kd_status check(const struct kd_vk *vk, const struct kd_vk_pipeline_
     if (params->n_buffers > KD_VK_MAX_BINDINGS)
         return kd_error_set(error, KD_EINVAL, "pipeline '%s': %u buffers, at most %u", name,
                             params->n_buffers, KD_VK_MAX_BINDINGS);
+    for (uint32_t i = 0; i < params->n_buffers; i++)
+        if (!kd_vk_kind_info(params->kinds[i]))
+            return kd_error_set(error, KD_EINVAL, "pipeline '%s': binding %u is of kind %u, which there is none of", name, i,
+                                (uint32_t)params->kinds[i]);
     if (params->push_bytes > max_push || params->push_bytes % 4)
         return kd_error_set(error, KD_EINVAL,
                             "pipeline '%s': %u bytes of push constants, at most %u and a multiple of 4", name,
@@ -35,7 +41,7 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
     VkDescriptorSetLayoutBinding bindings[KD_VK_MAX_BINDINGS];
     for (uint32_t i = 0; i < pipeline->n_buffers; i++)
         bindings[i] = (VkDescriptorSetLayoutBinding) { .binding = i,
-                                                       .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                       .descriptorType = kd_vk_kind_info(pipeline->kinds[i])->descriptor,
                                                        .descriptorCount = 1,
                                                        .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT };
     const VkDescriptorSetLayoutCreateInfo set = { .sType =
@@ -132,6 +138,7 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
     pipeline->retired.free = pipeline_free;
     pipeline->n_buffers = params->n_buffers;
     pipeline->push_bytes = params->push_bytes;
+    memcpy(pipeline->kinds, params->kinds, sizeof pipeline->kinds);
     snprintf(pipeline->name, sizeof pipeline->name, "%s", params->name ? params->name : "unnamed");
     vk->n_pipelines++;
     struct kd_error why = { 0 };

@@ -12,6 +12,7 @@ struct kd_vk_pipeline {
     VkPipelineLayout layout;
     VkPipeline handle;
     uint32_t n_buffers, push_bytes;
+    enum kd_vk_kind kinds[KD_VK_MAX_BINDINGS];
     char name[64];
 };
 

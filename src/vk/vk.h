@@ -29,6 +29,8 @@ struct kd_vk_info {
     uint64_t heap_bytes;        /* largest device-local heap */
     uint64_t budget_bytes;      /* of it, what this process may use now (VK_EXT_memory_budget); 0: not told */
     uint64_t max_binding_bytes; /* largest storage-buffer binding: 128 MiB on lavapipe */
+    uint64_t max_uniform_bytes; /* largest uniform-buffer binding: at least 16 KiB, often 64 */
+    uint64_t max_texels;        /* of one binding of texels: at least 65536 (SwiftShader), 2^27 on lavapipe */
     uint64_t max_allocation_bytes;
     uint32_t max_push_bytes, subgroup_size, max_groups_x, max_groups_y, max_workgroup;
     bool float64, timestamps;
@@ -60,8 +62,8 @@ uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* warnings and erro
  * does; malloc'd. NULL where there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
-/* Buffers: suballocated from few large allocations. DEVICE: storage + transfer. UPLOAD and READBACK are
- * host-visible and persistently mapped (storage + transfer as well). What the host has written to an UPLOAD buffer before
+/* Buffers: suballocated from few large allocations. Each can be bound as any kind and copied from and to. UPLOAD and READBACK
+ * are host-visible and persistently mapped. What the host has written to an UPLOAD buffer before
  * kd_vk_submit is seen by that submission; what the device has written to either is seen by the host after kd_vk_wait, also
  * where the memory is not coherent. A READBACK buffer's contents are the device's alone. */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
@@ -73,8 +75,19 @@ void *kd_vk_buffer_map(struct kd_vk_buffer *buffer); /* NULL for KD_VK_DEVICE wi
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
 uint64_t kd_vk_allocated(const struct kd_vk *vk); /* bytes held from the device, all buffers */
 
-/* Pipelines: one storage buffer a binding 0..n_buffers-1 in set 0; push constants; specialisation constants
- * of 4 bytes. */
+/* How a kernel sees a binding. A software device reads a storage buffer lane by lane with a check for each word, uniform
+ * buffers and texels through vector gathers; elsewhere the kinds differ little. Only storage can be written, and only storage
+ * holds as much as max_binding_bytes: a kernel that reads bands of pixels as texels needs a twin that reads them as storage. */
+enum kd_vk_kind {
+    KD_VK_STORAGE,     /* buffer { } */
+    KD_VK_UNIFORM,     /* uniform { }, std140 or std430; max_uniform_bytes */
+    KD_VK_TEXELS_R,    /* uniform textureBuffer of R32_SFLOAT, a texel a float; max_texels */
+    KD_VK_TEXELS_RGBA, /* and of R32G32B32A32_SFLOAT, a texel four floats */
+};
+#define KD_VK_MAX_BINDINGS 8
+
+/* Pipelines: one buffer a binding 0..n_buffers-1 in set 0, storage unless `kinds` says otherwise; push constants;
+ * specialisation constants of 4 bytes. */
 struct kd_vk_spec {
     uint32_t id;
     uint32_t value;
@@ -84,6 +97,7 @@ struct kd_vk_pipeline_params {
     const uint32_t *spirv;
     size_t spirv_bytes;
     uint32_t n_buffers, push_bytes;
+    enum kd_vk_kind kinds[KD_VK_MAX_BINDINGS];
     const struct kd_vk_spec *spec;
     size_t n_spec;
 };
@@ -97,10 +111,9 @@ void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline);
  * Passes are timed: the same pass name over several dispatches and submissions adds up. */
 struct kd_vk_binding {
     struct kd_vk_buffer *buffer;
-    uint64_t offset, size; /* size 0: to the end; offset a multiple of 256 */
-    bool write;            /* the shader writes (it may read as well) */
+    uint64_t offset, size; /* size 0: to the end, of texels as many whole ones as there are; offset a multiple of 256 */
+    bool write;            /* the shader writes (it may read as well); storage alone */
 };
-#define KD_VK_MAX_BINDINGS 8
 struct kd_vk_dispatch {
     const char *pass; /* string that outlives the submission, e.g. a literal */
     const struct kd_vk_pipeline *pipeline;

@@ -11,6 +11,7 @@
 struct fake_device {
     uint32_t groups;                    /* workgroups of a dispatch along x and y */
     uint64_t binding, allocation, heap; /* bytes */
+    uint32_t texels, uniform;           /* texels and bytes of a binding */
     bool incoherent;                    /* no memory is coherent: the host sees a copy, which only flushes and invalidations move */
     int lost_at;                        /* the submission, counted from 1, that loses the device */
 };
@@ -42,6 +43,10 @@ static void fake_limits(VkPhysicalDeviceProperties *p)
         p->limits.maxComputeWorkGroupCount[0] = p->limits.maxComputeWorkGroupCount[1] = fake.groups;
     if (fake.binding)
         p->limits.maxStorageBufferRange = (uint32_t)fake.binding;
+    if (fake.texels)
+        p->limits.maxTexelBufferElements = fake.texels;
+    if (fake.uniform)
+        p->limits.maxUniformBufferRange = fake.uniform;
 }
 
 static void fake_types(VkPhysicalDeviceMemoryProperties *p)

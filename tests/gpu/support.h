@@ -17,6 +17,7 @@
 #include "vk/pipeline.h"
 #include "vk/vk.h"
 
+#include "kinds_spv.h"
 #include "mix_spv.h"
 #include "spin_spv.h"
 
@@ -109,6 +110,25 @@ static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, 
                                    .push = &push,
                                    .groups = { (n + MIX_GROUP - 1) / MIX_GROUP } },
         &error));
+}
+
+/* kinds.comp: a uniform block, texels of one float, texels of four, storage. */
+struct kinds_block {
+    uint32_t n;
+    float scale, table[6];
+};
+#define KINDS_PARAMS                                                                                         \
+    { .name = "kinds",                                                                                       \
+      .spirv = kinds_spv,                                                                                    \
+      .spirv_bytes = sizeof kinds_spv,                                                                       \
+      .n_buffers = 4,                                                                                        \
+      .kinds = { KD_VK_UNIFORM, KD_VK_TEXELS_R, KD_VK_TEXELS_RGBA, KD_VK_STORAGE } }
+
+static inline struct kd_vk_pipeline *make_kinds(struct kd_vk *vk)
+{
+    struct kd_vk_pipeline *pipeline = NULL;
+    OK(kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params) KINDS_PARAMS, &pipeline, &error));
+    return pipeline;
 }
 
 static inline struct kd_vk_buffer *make_buffer(struct kd_vk *vk, uint32_t n, enum kd_vk_memory memory,

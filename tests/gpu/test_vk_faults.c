@@ -23,6 +23,7 @@ static bool trips(const char *name)
       (VkPhysicalDevice a, const VkDeviceCreateInfo *b, const VkAllocationCallbacks *c, VkDevice *d),        \
       (a, b, c, d))                                                                                          \
     CREATES(X, Buffer, BufferCreateInfo)                                                                     \
+    CREATES(X, BufferView, BufferViewCreateInfo)                                                             \
     CREATES(X, ShaderModule, ShaderModuleCreateInfo)                                                         \
     CREATES(X, DescriptorSetLayout, DescriptorSetLayoutCreateInfo)                                           \
     CREATES(X, PipelineLayout, PipelineLayoutCreateInfo)                                                     \
@@ -118,7 +119,7 @@ static enum kd_status life(struct kd_error *error)
 {
     enum { n = 64 };
     struct kd_vk *vk = NULL;
-    struct kd_vk_pipeline *pipeline = NULL;
+    struct kd_vk_pipeline *pipeline = NULL, *kinds = NULL;
     struct kd_vk_buffer *x = NULL, *y = NULL;
     const struct kd_vk_spec spec = { 0, MIX_GROUP };
     const struct mix_push push = { n, 1 };
@@ -139,6 +140,17 @@ static enum kd_status life(struct kd_error *error)
                                                                          .spec = &spec,
                                                                          .n_spec = 1 },
                                        &pipeline, error);
+    if (!status)
+        status = kd_vk_pipeline_create(vk, &(struct kd_vk_pipeline_params) KINDS_PARAMS, &kinds, error);
+    if (!status)
+        memset(kd_vk_buffer_map(x), 0, n * 4); /* a block of no elements */
+    if (!status)
+        status = kd_vk_dispatch(vk,
+                                &(struct kd_vk_dispatch) { .pass = "kinds",
+                                                           .pipeline = kinds,
+                                                           .bindings = { { .buffer = x }, { .buffer = x }, { .buffer = x },
+                                                                         { .buffer = y, .write = true } } },
+                                error);
     for (int i = 0; i < 7 && !status; i++) { /* more than may be in flight */
         status = kd_vk_dispatch(
             vk,
@@ -156,6 +168,7 @@ static enum kd_status life(struct kd_error *error)
         kd_vk_buffer_destroy(vk, x);
         kd_vk_buffer_destroy(vk, y);
         kd_vk_pipeline_destroy(vk, pipeline);
+        kd_vk_pipeline_destroy(vk, kinds);
         kd_vk_destroy(vk);
     }
     return status;

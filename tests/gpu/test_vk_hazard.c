@@ -48,6 +48,8 @@ static void pairs(void **state)
                                                                                 : VK_ACCESS_SHADER_READ_BIT
                                                   : second             ? VK_ACCESS_TRANSFER_WRITE_BIT
                                                                        : VK_ACCESS_TRANSFER_READ_BIT));
+                if (stages[b] == COMPUTE && !second) /* texels are read as storage is, uniform blocks are not */
+                    assert_true(barrier.dst_access & VK_ACCESS_UNIFORM_READ_BIT);
             }
 }
 

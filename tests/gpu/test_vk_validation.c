@@ -35,11 +35,41 @@ static uint32_t fill_then_add(bool barriers)
     return messages;
 }
 
+/* Messages from a fill of what a kernel then reads through binding k: a uniform block, texels of one float, of four. */
+static uint32_t fill_then_read(int k, bool barriers)
+{
+    struct kd_vk *vk = open_device(true);
+    struct kd_vk_pipeline *pipeline = make_kinds(vk);
+    struct kd_vk_buffer *still = make_buffer(vk, 256, KD_VK_UPLOAD, "still"), *x = make_buffer(vk, 256, KD_VK_DEVICE, "x"),
+                        *y = make_buffer(vk, 256, KD_VK_DEVICE, "y");
+    memset(words(still), 0, 1024);
+    if (!barriers)
+        vk->fn.CmdPipelineBarrier = no_barrier;
+    struct kd_vk_dispatch d = { .pipeline = pipeline,
+                                .bindings = { { .buffer = still }, { .buffer = still }, { .buffer = still },
+                                              { .buffer = y, .write = true } } };
+    d.bindings[k].buffer = x;
+    OK(kd_vk_fill(vk, x, 0, 1024, 0, &error));
+    OK(kd_vk_dispatch(vk, &d, &error));
+    finish(vk);
+    kd_vk_buffer_destroy(vk, still);
+    kd_vk_buffer_destroy(vk, x);
+    kd_vk_buffer_destroy(vk, y);
+    kd_vk_pipeline_destroy(vk, pipeline);
+    uint32_t messages = kd_vk_validation_messages(vk);
+    kd_vk_destroy(vk);
+    return messages;
+}
+
 static void synchronisation(void **state)
 {
     (void)state;
     assert_int_equal(fill_then_add(true), 0);
     assert_true(fill_then_add(false) > 0);
+    for (int k = 0; k < 3; k++) {
+        assert_int_equal(fill_then_read(k, true), 0);
+        assert_true(fill_then_read(k, false) > 0);
+    }
 }
 
 /* The core checks: a fill that is not aligned. It is discarded, not run. */

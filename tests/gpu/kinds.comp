@@ -1,0 +1,18 @@
+// y = y * scale + what each kind of binding holds for i. TABLE is packed tightly, as only the standard layout has it.
+#version 450
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_scalar_block_layout : require
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0, std430) uniform Block { uint n; float scale; float table[6]; };
+layout(set = 0, binding = 1) uniform textureBuffer singles;
+layout(set = 0, binding = 2) uniform textureBuffer fours;
+layout(set = 0, binding = 3) buffer Y { float y[]; };
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= n)
+        return;
+    vec4 four = texelFetch(fours, int(i));
+    y[i] = y[i] * scale + table[i % 6] + 10 * texelFetch(singles, int(i)).x + four.x + 2 * four.y + 3 * four.z + 4 * four.w;
+}
