@@ -12,7 +12,7 @@
  * the largest and stays, 3 bytes a pixel with ISA-L and 6 with libdeflate. What a frame costs: bench/results, *-encode.md.
  *
  * The file: IHDR, sRGB, one IDAT, IEND. No text: what a live frame shows is told beside it, and one that is to be kept is rendered
- * again by kd_picture_encode. */
+ * again, as a file that carries its scene (render/output/png.h). */
 #ifndef KD_IMAGE_PNG_LIVE_H
 #define KD_IMAGE_PNG_LIVE_H
 
