@@ -17,7 +17,7 @@ enum { OPTIONAL, NEEDED };
 const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN },
-    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0 },
+    { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE },
     { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0 },
     { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0 },
     { "", "method", WORD, AT(way), 0, 0, WAY_WORDS, ANY, 0 },
@@ -33,15 +33,15 @@ _Static_assert(sizeof kd_orbit_settings / sizeof *kd_orbit_settings == KD_ORBIT_
 const struct kd_orbit_field kd_orbit_fields[] = {
 #define AT(member) offsetof(struct kd_orbit_spec, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN },
-    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED },
+    { "", "p", REAL, AT(p), 0, 1e20, 0, KD_ORBIT_SHAPE, NEEDED, .bound = KD_BOUND_RADIUS },
     { "", "e", REAL, AT(e), 0, 1, 0, KD_ORBIT_SHAPE, NEEDED, KD_OPEN_ABOVE },
     { "", "inclination_deg", REAL, AT(inclination_deg), 0, 180, 0, KD_ORBIT_SHAPE, OPTIONAL },
     { "", "energy", REAL, AT(energy), -1e6, 1e6, 0, KD_ORBIT_CONSTANTS, NEEDED },
     { "", "angular_momentum", REAL, AT(momentum), -1e20, 1e20, 0, KD_ORBIT_CONSTANTS, NEEDED },
-    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
-    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
+    { "", "carter", REAL, AT(carter), -1e30, 1e30, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_POSITIVE },
+    { "", "r", REAL, AT(r), 0, 1e20, 0, KD_ORBIT_CONSTANTS, OPTIONAL, .bound = KD_BOUND_RADIUS },
     { "", "outward", TRUTH, AT(outward), 0, 1, 0, KD_ORBIT_CONSTANTS, OPTIONAL },
-    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED },
+    { "position", "r", REAL, AT(place_r), 0, 1e20, 0, KD_ORBIT_STATE, NEEDED, .bound = KD_BOUND_RADIUS },
     { "position", "theta_deg", REAL, AT(theta_deg), 0, 180, 0, KD_ORBIT_STATE, OPTIONAL },
     { "position", "phi_deg", REAL, AT(phi_deg), -360, 360, 0, KD_ORBIT_STATE, OPTIONAL },
     { "velocity", "frame", WORD, AT(frame), 0, 0, FRAME_WORDS, KD_ORBIT_STATE, OPTIONAL },
@@ -59,10 +59,10 @@ const char *kd_orbit_way_name(enum kd_orbit_way way)
     return names[way];
 }
 
-static const char *word(enum kd_orbit_words words, int i)
+const char *kd_orbit_field_word(const struct kd_orbit_field *field, int i)
 {
     static const char *const frames[] = { [KD_ORBIT_STATIC] = "static", [KD_ORBIT_ZAMO] = "zamo" };
-    switch (words) {
+    switch (field->words) {
     case WAY_WORDS: return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL;
     case FRAME_WORDS: return i < 2 ? frames[i] : NULL;
     case CASE_WORDS: return i < KD_CASES ? kd_orbit_case_name((enum kd_orbit_case)i) : NULL;
@@ -84,8 +84,8 @@ static void describe_allowed(const struct kd_orbit_field *field, char out[KD_ALL
     case WHOLE: snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s", low, high); return;
     case REAL: snprintf(out, KD_ALLOWED_SIZE, ranges[field->open], low, high); return;
     case WORD:
-        for (int i = 0; word(field->words, i) && used < KD_ALLOWED_SIZE; i++)
-            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", word(field->words, i));
+        for (int i = 0; kd_orbit_field_word(field, i) && used < KD_ALLOWED_SIZE; i++)
+            used += (size_t)snprintf(out + used, KD_ALLOWED_SIZE - used, "%s\"%s\"", i ? ", " : "", kd_orbit_field_word(field, i));
         return;
     }
 }
@@ -116,8 +116,8 @@ static bool store(void *to, const struct kd_orbit_field *field, const struct kd_
         *(bool *)at = value->number != 0;
         return true;
     case WORD:
-        for (int i = 0; value->kind == KD_VALUE_STRING && word(field->words, i); i++)
-            if (!strcmp(value->text, word(field->words, i))) {
+        for (int i = 0; value->kind == KD_VALUE_STRING && kd_orbit_field_word(field, i); i++)
+            if (!strcmp(value->text, kd_orbit_field_word(field, i))) {
                 memcpy(at, &i, sizeof i); /* an enum of ours: as wide as int */
                 return true;
             }

@@ -29,9 +29,11 @@ static bool is_pinhole(const struct kd_camera *camera)
            (camera->projection == KD_PROJECTION_AUTO && isfinite(camera->r));
 }
 
+enum { BITS = 8, STEPS = 4 };
+
 static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *error)
 {
-    if (scene->image.bit_depth == 8 || scene->image.bit_depth == 16)
+    if (scene->image.bit_depth % BITS == 0) /* 8 to 16, by its range */
         return KD_OK;
     return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d, allowed are 8 and 16 bits",
                           scene->image.bit_depth);
@@ -169,14 +171,14 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
 /* The rest of what accuracy.* may not say together depends on the device: render/accuracy/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
-    if (scene->accuracy.steps % 4 == 0)
+    if (scene->accuracy.steps % STEPS == 0)
         return KD_OK;
     return kd_error_field(error, "/accuracy/steps", "accuracy.steps is %d, allowed are multiples of 4 up to 2048, and 0",
                           scene->accuracy.steps);
 }
 
 const struct kd_rule kd_rules[] = {
-    { "`image.bit_depth` is 8 or 16.", bit_depth },
+    { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
     { "`camera.projection` \"pinhole\" needs a finite `camera.r`, \"plane\" and \"ring\" need `camera.r` \"infinity\".",
       projection },
     { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and `camera.pitch_deg` the "
@@ -189,6 +191,6 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
-    { "`accuracy.steps` is a multiple of 4.", steps },
+    { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

@@ -7,6 +7,9 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
+    /* Where the rule is that a whole number is a multiple of one, which a schema can say too; else NULL, NULL, 0. */
+    const char *section, *name;
+    int32_t multiple;
 };
 extern const struct kd_rule kd_rules[];
 extern const size_t kd_rule_count;

@@ -1,4 +1,5 @@
 /* JSON Schema of the scene document, from the table. */
+#include "scene/rules.h"
 #include "scene/writer.h"
 
 #include <string.h>
@@ -9,6 +10,13 @@ static void write_range(struct kd_writer *w, const char *type, const struct kd_f
     kd_write_number(w, field->minimum);
     kd_write(w, ",\"maximum\":");
     kd_write_number(w, field->maximum);
+}
+
+static void write_multiple(struct kd_writer *w, const struct kd_field *field)
+{
+    for (size_t i = 0; i < kd_rule_count; i++)
+        if (kd_rules[i].multiple && !strcmp(kd_rules[i].section, field->section) && !strcmp(kd_rules[i].name, field->name))
+            kd_write(w, ",\"multipleOf\":%d", kd_rules[i].multiple);
 }
 
 static void write_words(struct kd_writer *w, const struct kd_field *field)
@@ -25,7 +33,10 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
 {
     switch (field->kind) {
     case KD_FIELD_REAL: write_range(w, "number", field); return;
-    case KD_FIELD_INT: write_range(w, "integer", field); return;
+    case KD_FIELD_INT:
+        write_range(w, "integer", field);
+        write_multiple(w, field);
+        return;
     case KD_FIELD_BOOL: kd_write(w, "\"type\":\"boolean\""); return;
     case KD_FIELD_ENUM: write_words(w, field); return;
     case KD_FIELD_WORD:

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.parse
 
 import daemon
 
@@ -82,6 +83,9 @@ class OpenApi(daemon.Case):
                 ('sessions', {'spots': [{}] * 17}, {'spots': [{'r': 0}]}, {'spots': [{'q': 1}]}, {'spots': 1}, {'spot1': {'r': 0}},
                  {'spot1': {'r': 10}, 'image': {'width': 32, 'height': 18}}),
                 ('sessions', {'spots': [{'r': 10}] * 17}, {'spots': [{'r': 10}] * 16, 'image': {'width': 32, 'height': 18}}),
+                ('plan', {'image': {'bit_depth': 12}}, {'image': {'bit_depth': 4}}, {'image': {'bit_depth': 16}}),
+                ('plan', {'accuracy': {'engine': 'mino-rkn6', 'steps': 6}}, {'accuracy': {'steps': -4}},
+                 {'accuracy': {'engine': 'mino-rkn6', 'steps': 8}}),
                 ('jobs', {'scenes': []}, {'scene': {}, 'keyframes': []}, {'scene': {'image': {'width': 32, 'height': 18}}})):
             body = self.document['paths']['/v1/' + path]['post']['requestBody']['content']['application/json']['schema']
             judge = jsonschema.Draft202012Validator({**body, 'components': self.document['components']})
@@ -91,6 +95,17 @@ class OpenApi(daemon.Case):
                     self.assertEqual(judge.is_valid(document), good)
                     status = self.daemon.post('/v1/' + path, document).status
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
+
+    def test_ranges_of_a_parameter(self):
+        schema = {p['name']: p['schema'] for p in self.document['paths']['/v1/physics/kerr']['get']['parameters']}['spin']
+        judge = jsonschema.Draft202012Validator(schema)
+        for text, good in (('0:0.9:10', True), ('-.5:9e-1:2', True), ('0.:5.E-1:2', True), ('0:+0.9:2', False), ('00.5:0.9:2', False), ('.:0.9:2', False), ('0.9:0:3', True), ('0:0.9:100000', True), ('0:0.9:1', False),
+                           ('0:0.9:0', False), ('0:0.9:100001', False), ('0:0.9', False), ('0:0.9:10:3', False), ('0:x:10', False), ('', False),
+                           ('0: 0.9:10', False)):
+            with self.subTest(text):
+                self.assertEqual(judge.is_valid(text), good)
+                status = self.daemon.get('/v1/physics/kerr?spin=' + urllib.parse.quote(text)).status
+                self.assertEqual(status, 200 if good else 422)
 
     def test_generated_client(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -36,17 +36,27 @@ static inline void kd_openapi_operation_id(char *out, size_t size, const char *m
     out[n] = 0;
 }
 
-/* A requestBody that must be there, as JSON of this schema; other: a second media type, NULL for none. */
-static inline void kd_openapi_body(struct kd_json *json, const char *schema, size_t size, const char *other)
+/* A requestBody that must be there; between the two, its media types. */
+static inline void kd_openapi_body_begin(struct kd_json *json)
 {
     kd_json_object(json, "requestBody");
     kd_json_bool(json, "required", true);
     kd_json_object(json, "content");
+}
+static inline void kd_openapi_body_end(struct kd_json *json)
+{
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+/* One as JSON of this schema; other: a second media type, NULL for none. */
+static inline void kd_openapi_body(struct kd_json *json, const char *schema, size_t size, const char *other)
+{
+    kd_openapi_body_begin(json);
     kd_openapi_media(json, "application/json", schema, size);
     if (other)
         kd_openapi_media(json, other, "", 0);
-    kd_json_end(json);
-    kd_json_end(json);
+    kd_openapi_body_end(json);
 }
 
 #endif

@@ -10,7 +10,7 @@
 
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
 
-#define DECIMAL "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
+#define DECIMAL "-?((0|[1-9][0-9]*)(\\.[0-9]*)?|\\.[0-9]+)([eE][-+]?[0-9]+)?" /* scene/number.h: one that is typed */
 #define RANGE "^" DECIMAL ":" DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 
 static void add_words(struct kd_json *json, const char *text)

@@ -1,0 +1,157 @@
+#include "orbit/schema.h"
+
+#include "orbit/fields.h"
+
+#include <string.h>
+
+static void raw(struct kd_json *json, const char *name, const char *text) { kd_json_raw(json, name, text, strlen(text)); }
+
+static void add_range(struct kd_json *json, const struct kd_orbit_field *f)
+{
+    double least = f->bound == KD_BOUND_RADIUS ? 1 : f->bound == KD_BOUND_POSITIVE ? 0 : f->least;
+    bool above = f->open == KD_OPEN || f->bound == KD_BOUND_RADIUS;
+    kd_json_string(json, "type", f->kind == KD_FIELD_IS_WHOLE ? "integer" : "number");
+    kd_json_number(json, above ? "exclusiveMinimum" : "minimum", least);
+    kd_json_number(json, f->open ? "exclusiveMaximum" : "maximum", f->most);
+    if (f->bound == KD_BOUND_NOT_ONE)
+        raw(json, "not", "{\"const\":1}");
+}
+
+static void add_field(struct kd_json *json, const struct kd_orbit_field *f)
+{
+    kd_json_object(json, f->name);
+    if (f->kind == KD_FIELD_IS_TRUTH) {
+        kd_json_string(json, "type", "boolean");
+    } else if (f->kind == KD_FIELD_IS_WORD) {
+        kd_json_array(json, "enum");
+        for (int i = 0; kd_orbit_field_word(f, i); i++)
+            kd_json_string(json, NULL, kd_orbit_field_word(f, i));
+        kd_json_end(json);
+    } else {
+        add_range(json, f);
+    }
+    kd_json_end(json);
+}
+
+/* Some rows of a table. */
+struct rows {
+    const struct kd_orbit_field *fields;
+    size_t n;
+    enum kd_orbit_form form; /* those of this form, and of any; KD_ORBIT_FORMS: all */
+};
+
+static bool is_of(const struct rows *rows, const struct kd_orbit_field *f)
+{
+    return rows->form == KD_ORBIT_FORMS || f->form == KD_ORBIT_FORMS || f->form == rows->form;
+}
+
+/* The sections below the document, and "" for the document itself, by their first rows. */
+static bool is_first_of_section(const struct rows *rows, const struct kd_orbit_field *f)
+{
+    for (const struct kd_orbit_field *g = rows->fields; g < f; g++)
+        if (is_of(rows, g) && !strcmp(g->section, f->section))
+            return false;
+    return is_of(rows, f);
+}
+
+static bool needs(const struct rows *rows, const char *section)
+{
+    for (size_t i = 0; i < rows->n; i++)
+        if (is_of(rows, &rows->fields[i]) && rows->fields[i].needed && !strcmp(rows->fields[i].section, section))
+            return true;
+    return false;
+}
+
+static void begin_object(struct kd_json *json, const char *name)
+{
+    kd_json_object(json, name);
+    kd_json_string(json, "type", "object");
+    kd_json_bool(json, "additionalProperties", false);
+}
+
+static void add_required(struct kd_json *json, const struct rows *rows, const char *section)
+{
+    if (!needs(rows, section) && *section)
+        return;
+    kd_json_array(json, "required");
+    for (size_t i = 0; i < rows->n; i++) {
+        const struct kd_orbit_field *f = &rows->fields[i];
+        if (!strcmp(f->section, section) && is_of(rows, f) && f->needed)
+            kd_json_string(json, NULL, f->name);
+        else if (!*section && *f->section && is_first_of_section(rows, f) && needs(rows, f->section))
+            kd_json_string(json, NULL, f->section);
+    }
+    kd_json_end(json);
+}
+
+static void add_members(struct kd_json *json, const struct rows *rows, const char *section)
+{
+    for (size_t i = 0; i < rows->n; i++)
+        if (is_of(rows, &rows->fields[i]) && !strcmp(rows->fields[i].section, section))
+            add_field(json, &rows->fields[i]);
+}
+
+/* apart: JSON of what its members may not be together; NULL: all may. */
+static void add_section(struct kd_json *json, const struct rows *rows, const char *section, const char *apart)
+{
+    begin_object(json, section);
+    add_required(json, rows, section);
+    if (apart)
+        raw(json, "not", apart);
+    kd_json_object(json, "properties");
+    add_members(json, rows, section);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_sections(struct kd_json *json, const struct rows *rows, const char *apart)
+{
+    for (size_t i = 0; i < rows->n; i++)
+        if (*rows->fields[i].section && is_first_of_section(rows, &rows->fields[i]))
+            add_section(json, rows, rows->fields[i].section, apart);
+}
+
+void kd_orbit_schema(struct kd_json *json, const char *name)
+{
+    kd_json_object(json, name);
+    kd_json_array(json, "oneOf");
+    for (int form = 0; form < KD_ORBIT_FORMS; form++) {
+        const struct rows rows = { kd_orbit_fields, KD_ORBIT_N_FIELDS, (enum kd_orbit_form)form };
+        begin_object(json, NULL);
+        add_required(json, &rows, "");
+        kd_json_object(json, "properties");
+        add_members(json, &rows, "");
+        add_sections(json, &rows, NULL);
+        kd_json_end(json);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void add_orbits(struct kd_json *json, const char *orbit)
+{
+    raw(json, "orbit", orbit);
+    kd_json_object(json, "orbits");
+    kd_json_string(json, "type", "array");
+    kd_json_number(json, "minItems", 1);
+    kd_json_number(json, "maxItems", KD_ORBITS_MAX);
+    raw(json, "items", orbit);
+    kd_json_end(json);
+}
+
+void kd_orbit_request_schema(struct kd_json *json, const char *name, const char *orbit)
+{
+    const struct rows rows = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, KD_ORBIT_FORMS };
+    begin_object(json, name);
+    /* Of orbit and orbits. No oneOf: generators of clients would make a union of it, and no class with the fields. */
+    raw(json, "if", "{\"required\":[\"orbits\"]}");
+    raw(json, "then", "{\"not\":{\"required\":[\"orbit\"]}}");
+    raw(json, "else", "{\"required\":[\"orbit\"]}");
+    kd_json_object(json, "properties");
+    add_members(json, &rows, "");
+    add_sections(json, &rows, "{\"required\":[\"periods\",\"time\"]}");
+    add_orbits(json, orbit);
+    kd_json_end(json);
+    kd_json_end(json);
+}
