@@ -237,6 +237,28 @@ class Foreign(Case):
         self.assertEqual(self.status(running, server)['state'], 'running')
         server.stop()
 
+    def test_what_a_job_makes_is_in_its_record(self):
+        """As "output"; records of versions before have "curve"; one that is not known here is left alone."""
+        server = self.start()
+        job = self.make({'scene': SCENE, 'output': 'light-curve'}, server=server)
+        self.until(job, 'done', server)
+        rows = server.get(self.at(job, '/result?format=csv')).body
+        self.assertEqual(server.stop(), 0)
+        self.write(job, 'request.json', '{"tomorrow": 1}')  # which says nothing of it
+        record = self.record(job)
+        self.assertEqual(record.pop('output'), 'light-curve')
+        for known in ({'output': 'light-curve'}, {'curve': True}):
+            self.write(job, 'job.json', json.dumps({**record, **known}))
+            server = self.start()
+            self.assertEqual(self.status(job, server)['output'], 'light-curve')
+            self.assertEqual(server.get(self.at(job, '/result?format=csv')).body, rows)
+            self.assertEqual(server.stop(), 0)
+        self.write(job, 'job.json', json.dumps({**record, 'curve': True, 'output': 'visibility'}))
+        server = self.start()
+        self.assertEqual(server.get(self.at(job)).status, 404)
+        self.assertEqual(server.stop(), 0)
+        self.assertEqual(self.record(job)['output'], 'visibility')
+
 
 class Scarce(Case):
     def setUp(self):
