@@ -78,7 +78,7 @@ static void make_powers(void)
 
 __extension__ typedef unsigned __int128 wide;
 
-/* The leading 64 bits of g n / 2^127, the last one set if anything below it is. */
+/* Returns the leading 64 bits of g n / 2^127, the last one set if anything below it is. */
 static uint64_t round_to_odd(struct g g, uint64_t n)
 {
     wide x = (wide)g.low * n, y = (wide)g.high * n + (uint64_t)(x >> 64);
@@ -90,7 +90,7 @@ struct decimal {
     int exponent;
 };
 
-/* Of c 2^q; the names are the paper's. */
+/* Finds the shortest decimal that reads back as c 2^q. The names are the paper's. */
 static struct decimal shortest(uint64_t c, int q, int lower_is_closer)
 {
     uint64_t odd = c & 1;
@@ -141,7 +141,7 @@ static size_t write_digits(char *out, uint64_t digits)
     return n;
 }
 
-/* d.ddde-7: what is far from 1. */
+/* Writes a number far from 1, as d.ddde-7. */
 static size_t write_scientific(char *out, const char *digits, size_t n, int exponent)
 {
     size_t used = 0;

@@ -38,7 +38,7 @@ struct kd_json kd_json_begin_lines(struct kd_buffer *out);
 
 void kd_json_object(struct kd_json *json, const char *name);
 void kd_json_array(struct kd_json *json, const char *name);
-void kd_json_end(struct kd_json *json); /* of the innermost of the two */
+void kd_json_end(struct kd_json *json); /* ends the innermost object or array */
 
 /* The fewest digits that read back the same; null if it is infinite or none. */
 void kd_json_number(struct kd_json *json, const char *name, double value);

@@ -50,7 +50,7 @@ static bool list_holds(char *list, const char *word)
     return false;
 }
 
-/* Of a mountinfo line whose file system is that of the version: which group is mounted there, and where. */
+/* Reads, from a mountinfo line whose file system is that of the version, which group is mounted there, and where. */
 static bool read_mount(char *line, const struct version *version, char *group, char *mount)
 {
     char filesystem[32], options[256];
@@ -60,7 +60,7 @@ static bool read_mount(char *line, const struct version *version, char *group, c
            sscanf(line, "%*s %*s %*s %1023s %1023s", group, mount) == 2;
 }
 
-/* Of a line of /proc/self/cgroup, "4:memory:/group" or, in version 2, "0::/group": the process's group. */
+/* Reads the process's group from a line of /proc/self/cgroup, "4:memory:/group" or, in version 2, "0::/group". */
 static bool read_group(char *line, const struct version *version, char *group)
 {
     char *list = strchr(line, ':'), *path = list ? strchr(list + 1, ':') : NULL;
@@ -80,8 +80,8 @@ static FILE *open_list(const char *root, const char *path)
     return snprintf(name, sizeof name, "%s%s", root, path) < (int)sizeof name ? fopen(name, "re") : NULL;
 }
 
-/* The folder of the process's group, and of how many of its characters the mount is. A mount may show but a part of the tree
- * (containers), of which the path in /proc/self/cgroup then names the whole way, or nothing that is seen here. */
+/* Finds the folder of the process's group, and how many of its characters are the mount's. In a container the mount may show
+ * only a part of the tree; the path in /proc/self/cgroup then names the whole way, or something that is not seen here. */
 static bool find_group(const char *root, const struct version *version, char *folder, size_t size, size_t *mount_length)
 {
     char line[4096], mounted[1024], mount[1024], group[1024];

@@ -94,7 +94,8 @@ bool kd_replace_file_at(int folder, const char *name, const void *data, size_t s
     return good;
 }
 
-/* What others have left half written when they were killed. Whoever is at it has touched it a moment ago. */
+/* Removes what killed processes have left half written. A file that was touched a moment ago is still being written, and
+ * stays. */
 static void remove_stale(int folder, const char *name)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);

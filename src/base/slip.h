@@ -1,4 +1,4 @@
-/* What someone may have meant by a name that does not exist. Pure; any thread. */
+/* These functions guess what was meant by a name that does not exist. Pure; any thread. */
 #ifndef KD_BASE_SLIP_H
 #define KD_BASE_SLIP_H
 

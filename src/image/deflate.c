@@ -82,7 +82,7 @@ static enum kd_status by_libdeflate(struct kd_deflate *deflate, const void *data
 }
 
 #ifdef KD_HAVE_ISAL
-/* Piece by piece: igzip has no bound on the size of what it writes. */
+/* The output grows piece by piece, since igzip has no bound on the size of what it writes. */
 static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size_t size, struct kd_buffer *out)
 {
     struct isal_zstream *stream = &deflate->stream;

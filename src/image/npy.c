@@ -257,7 +257,7 @@ static enum kd_status take_header(struct reader *r)
     return seen[0] && seen[1] && seen[2] ? KD_OK : fail(r, "its header lacks descr, fortran_order or shape");
 }
 
-/* Of the header, and where it starts; 0 when this is no NPY file of a known version. */
+/* Returns the length of the header, and where it starts; 0 when this is no NPY file of a known version. */
 static size_t find_header(const uint8_t *p, size_t size, size_t *length)
 {
     if (size < 10 || memcmp(p, MAGIC, sizeof MAGIC - 1) || p[7] || p[6] < 1 || p[6] > 2 || (p[6] == 2 && size < 12))

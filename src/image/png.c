@@ -279,7 +279,7 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Before libpng sees it: for the sake of a sentence that names what is wrong, and because libpng 1.6
+/* A file is checked before libpng sees it, for the sake of a sentence that names what is wrong, and because libpng 1.6
  * allocates what a text chunk's length field says, up to 2 GiB, before it looks whether that much follows. */
 static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, struct kd_error *error)
 {

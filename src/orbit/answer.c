@@ -114,7 +114,7 @@ static double periastron_advance(const struct kd_orbit_run *run)
     return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;
 }
 
-/* Per radial period; an orbit in the plane of the equator has no node. */
+/* The advance per radial period; an orbit in the plane of the equator has no node. */
 static void advances(struct text *t, const struct kd_orbit_run *run, double p)
 {
     double advance = periastron_advance(run);
@@ -175,7 +175,7 @@ static void drift(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* The end of the path less the closed form there: two methods that share no step. */
+/* The difference between the end of the path and the closed form there: two methods that share no step. */
 static void against_closed(struct text *t, const struct kd_orbit_run *run)
 {
     struct kd_orbit_place got = kd_orbit_path_place(&run->path), want = kd_orbit_bound_at(&run->bound, run->path.mino.value);

@@ -16,7 +16,7 @@
 
 enum kd_orbit_format { KD_ORBIT_JSON, KD_ORBIT_NDJSON, KD_ORBIT_CSV, KD_ORBIT_NPY };
 
-/* One orbit: the parts in their order. */
+/* The parts of the answer for one orbit, in their order. */
 enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out);
 /* first: how many were written before. */
 enum kd_status kd_orbit_answer_samples(enum kd_orbit_format format, const struct kd_orbit_sample *samples, size_t n, size_t first,
@@ -24,7 +24,7 @@ enum kd_status kd_orbit_answer_samples(enum kd_orbit_format format, const struct
 enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct kd_buffer *out); /* NDJSON only */
 enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out);
 
-/* Many, all of them done; not as NDJSON. samples: run->samples of each, or NULL. */
+/* The answer for many orbits, all of them done; not as NDJSON. samples: run->samples of each, or NULL. */
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out);
 

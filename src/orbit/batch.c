@@ -73,7 +73,7 @@ static int by_steps(const void *a, const void *b)
     return (x->steps > y->steps) - (x->steps < y->steps);
 }
 
-/* Those that can go abreast do, with others that take about as long. */
+/* Orbits that can go abreast do so, with others that take about as long. */
 static enum kd_status follow_few(struct kd_orbit_batch *batch, size_t first, size_t last, struct kd_error *error)
 {
     struct kd_orbit_run *all[FEW], *abreast[FEW];

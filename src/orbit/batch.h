@@ -1,4 +1,4 @@
-/* Many orbits, a few at a time by whoever has a thread to spare. */
+/* Many orbits, followed a few at a time by any thread that has time. */
 #ifndef KD_ORBIT_BATCH_H
 #define KD_ORBIT_BATCH_H
 

@@ -1,4 +1,4 @@
-/* From a request to the bytes of its answer, in pieces of some 30 ms: what POST /v1/orbits and `kerrd orbit` share. */
+/* A feed makes the bytes of an answer from its request, in pieces of some 30 ms; POST /v1/orbits and `kerrd orbit` share it. */
 #ifndef KD_ORBIT_FEED_H
 #define KD_ORBIT_FEED_H
 
@@ -24,13 +24,13 @@ enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_or
                                   struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* The next piece, appended to `out`; of many nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before anything is
- * written. */
+/* Appends the next piece to `out`; of many orbits nothing until all are done. KD_EINVAL as kd_orbit_run_prepare, before
+ * anything is written. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
 
-/* Many: help with the batch, on another thread than kd_orbit_feed_more's. False when there is nothing left to begin. */
+/* Helps with a batch of many orbits, on another thread than kd_orbit_feed_more's. False when there is nothing left to begin. */
 bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
 
 #endif

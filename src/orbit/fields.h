@@ -18,7 +18,7 @@ struct kd_orbit_field {
     size_t offset;
     double least, most; /* of numbers */
     enum kd_orbit_words words;
-    enum kd_orbit_form form; /* of an orbit: which it belongs to; KD_ORBIT_FORMS: any */
+    enum kd_orbit_form form; /* the form of an orbit that it belongs to; KD_ORBIT_FORMS: any */
     int needed;
     enum kd_orbit_open open; /* which ends of its range are outside it */
     enum kd_orbit_implied bound;

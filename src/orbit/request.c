@@ -130,7 +130,7 @@ static enum kd_status read_item(struct target *t, const cJSON *item, const char 
 #define FORMS "an orbit is given by %s, by %s, by %s, or by %s"
 #define FORM_TEXTS form_texts[0], form_texts[1], form_texts[2], form_texts[3]
 
-/* A field beside one of another form. */
+/* Refuses a field beside one of another form. */
 static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_orbit_field *field, const char *pointer,
                             struct kd_error *error)
 {
@@ -140,7 +140,7 @@ static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_or
     return kd_error_field(error, pointer, "%s is given beside %s; " FORMS, field->name, kd_orbit_fields[i].name, FORM_TEXTS);
 }
 
-/* One form, and all of it. */
+/* Checks that an orbit is given in one form, and wholly. */
 static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
     unsigned seen = spec->seen;
@@ -238,7 +238,7 @@ static const struct kd_orbit_field *by_name(const struct kd_orbit_field *table, 
     return NULL;
 }
 
-/* "r" of a position too: whichever the orbit is given by. */
+/* Sets a field. "r" is that of a position too, whichever the orbit is given by. */
 static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_orbit_field *field, const struct kd_value *value,
                                 const char *pointer, struct kd_error *error)
 {
@@ -299,7 +299,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     return KD_OK;
 }
 
-/* What rounding of the constants leaves open of a whirl: 4 units of the last place, times kd_orbit_whirl. */
+/* The error that rounding of the constants leaves in a whirl: 4 units of the last place, times kd_orbit_whirl. */
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit, const struct kd_orbit_state *start)
 {
     bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE; /* p and e say exactly where the turning points are */

@@ -75,7 +75,7 @@ enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const cha
 
 /* One parameter or one field of the orbit (request->specs[0], which appears with its first field) by the last part of its name. */
 enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text, struct kd_error *error);
-/* After the last kd_orbit_request_set: is there an orbit, and all of it? */
+/* Checks, after the last kd_orbit_request_set, that there is an orbit, and wholly. */
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
 /* The motion that a spec asks for; KD_EINVAL with the pointer within the request, such as "/orbits/17/p". The azimuth of the

@@ -43,7 +43,7 @@ enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run)
     return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
 }
 
-/* Where t is `time`: t grows steadily. */
+/* The Mino time at which t is `time`; t grows steadily. */
 static double mino_at(const struct kd_orbit_run *run, double time)
 {
     double low = 0, high = time / run->frequencies.mino_t + 2 * run->period;
@@ -69,8 +69,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-/* What is not bound ends at the horizon or far away, or when its time is over: found by following it once, in steps of h. False
- * if it strays, or if it was to be followed to its end and does not come there. */
+/* Finds the end of a path that is not bound, at the horizon, far away, or when its time is over, by following it once in steps
+ * of h. False if it strays, or if it was to be followed to its end and does not come there. */
 static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
@@ -143,7 +143,7 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     return found && isfinite(before) ? KD_OK : no_end(run, error);
 }
 
-/* All but the step. */
+/* Begins a run, all but the choice of its step. */
 static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 {
     if (run->params->way == KD_WAY_CLOSED && !run->closed)
@@ -170,7 +170,7 @@ static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
     return KD_OK;
 }
 
-/* A whirl magnifies what the step does: the end is where it is found in the steps that the run will take. */
+/* A whirl magnifies the error of the step, so the end is searched for in the steps that the run will take. */
 static enum kd_status find_end_again(struct kd_orbit_run *run, struct kd_error *error)
 {
     for (int i = 0; i < 6; i++) {
@@ -273,7 +273,7 @@ static size_t advance_closed(struct kd_orbit_run *run, uint64_t steps, struct kd
     return n;
 }
 
-/* The last step of what is not bound, to where its end was found to be with another step: less than half a step off. */
+/* Takes the last step of a path that is not bound, to the end that was found with another step: less than half a step off. */
 static void step_to_the_end(struct kd_orbit_run *run)
 {
     if (run->end == KD_END_DURATION)

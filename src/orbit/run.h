@@ -29,7 +29,7 @@ struct kd_orbit_run {
     /* after kd_orbit_run_prepare */
     enum kd_orbit_end end;
     double mino_end, h;
-    double aim; /* of what is not bound: 1/r or t of its last place; NAN if it ends when its time is over */
+    double aim; /* of a path that is not bound, 1/r or t of its last place; NAN if it ends when its time is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
     double error_estimate; /* relative, of the place after a period (or the whole path): from half as many steps, or `rounding`
@@ -47,8 +47,8 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
 
 enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run);
 
-/* Find the end, and a step that holds the tolerance: up to a second for one, of many some are tried abreast. KD_EINVAL, pointer
- * "/duration" or "/method", if it cannot be done. */
+/* Finds the end, and a step that holds the tolerance; takes up to a second for one, and tries some of many abreast. KD_EINVAL,
+ * pointer "/duration" or "/method", if it cannot be done. */
 enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error);
 
 /* Up to `steps` steps and `room` samples on; returns how many samples were written. */

@@ -26,9 +26,9 @@ struct trial {
 static struct trial begin(const struct kd_orbit_run *run)
 {
     struct trial t = { .last = INFINITY };
-    /* At the horizon t is infinite: not quite to the end. */
+    /* At the horizon t is infinite, so the trial stops a little before it. */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
-    /* A fall is fast at its end, which little of the span shows, and a whirl magnifies what is not the step's. */
+    /* A fall is fast at its end, of which the span shows little, and a whirl magnifies errors that are not those of the step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;
@@ -64,7 +64,7 @@ static void judge(struct kd_orbit_run *run, struct trial *t)
     t->step = t->span / t->n;
 }
 
-/* Where each is after its span in times * n steps. */
+/* Follows each over its span in times * n steps. */
 static void follow(struct kd_orbit_run *const *runs, struct trial *trials, int n, uint32_t times)
 {
     struct kd_orbit_path paths[KD_ORBIT_LANES];

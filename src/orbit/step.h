@@ -1,4 +1,4 @@
-/* How long a step may be. Private to src/orbit. */
+/* This chooses how long a step may be. Private to src/orbit. */
 #ifndef KD_ORBIT_STEP_H
 #define KD_ORBIT_STEP_H
 
@@ -7,7 +7,8 @@
 /* The fastest phase of the motion per Mino time, roughly: to choose a first step by. */
 double kd_orbit_pace(const struct kd_orbit *orbit);
 
-/* run->h by run->params->tolerance, and run->error_estimate: of one run, or of up to KD_ORBIT_LANES that kd_orbit_lanes_take. */
+/* Sets run->h by run->params->tolerance, and run->error_estimate, of one run or of up to KD_ORBIT_LANES that
+ * kd_orbit_lanes_take. */
 void kd_orbit_choose_steps(struct kd_orbit_run *const *runs, int n);
 
 #endif

@@ -64,8 +64,8 @@ static double beta2_at(const void *curve, double at)
     return label(curve, at).beta2;
 }
 
-/* Seen at an end is the equatorial orbit itself from the equator, else the orbit that has its turning point
- * there. Near the axis that is far from the equatorial one, over sin i. */
+/* An end shows the equatorial orbit itself to an observer in the equator, else the orbit that has its turning point at the
+ * observer's latitude. Near the axis that is far from the equatorial one, over sin i. */
 static double end(const struct kd_critical *c, double equatorial)
 {
     double limit = copysign(1, equatorial);
@@ -132,7 +132,7 @@ static double miss(const void *user, double at)
     return fabs(k) < s ? x * s - sqrt(y2) * k : x * fabs(x) * s * s - y2 * k * fabs(k);
 }
 
-/* 0 <= angle <= pi. */
+/* The point at an angle from 0 to pi. */
 static struct place aim_at(const struct kd_critical *c, double angle)
 {
     if (angle == 0)
@@ -184,8 +184,8 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     return q;
 }
 
-/* Sums over the upper half, the ends weighed by a half; of rho less half the width, so that their squares
- * tell. */
+/* Sums over the upper half, with half the weight at the ends. rho enters less half the width, so that its squares keep their
+ * digits. */
 struct sums {
     double off, off2, area;
 };

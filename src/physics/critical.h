@@ -77,12 +77,13 @@ struct kd_critical_point {
 /* The point seen at `angle`, any real. Some two microseconds. */
 struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double angle);
 
-/* A point of the upper half, the other half is its mirror image: `along` goes from 0 at the left end to 1 at the right one, evenly in
- * nothing that one sees. Ten times as fast, for drawing the curve: no root is sought. At the ends `up` is good to some 1e-8 M. */
+/* A point of the upper half; the other half is its mirror image. `along` goes from 0 at the left end to 1 at the right one,
+ * not evenly in any angle or length. No root is sought: ten times as fast, for drawing the curve. At the ends `up` is good to
+ * some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
-/* By the trapezoidal rule, which converges exponentially; `points` is what it took to 1e-13, or 8192, where near a = 1 the
- * curve's all but sudden bends leave some 1e-10. */
+/* Measures by the trapezoidal rule, which converges exponentially. `points` is how many it took to 1e-13, or 8192: near a = 1
+ * the curve bends all but suddenly, and some 1e-10 is left. */
 struct kd_critical_measures {
     double area, mean_radius, displacement, asymmetry;
     double width, height; /* right - left; twice the largest rho sin(angle) (at a finite radius: in the plane of angles) */

@@ -29,7 +29,7 @@ double kd_inspiral_period_rate(double eta, double a, double e);
 /* The axis when the eccentricity has become e, 0 < e < 1, from (a0, e0) [P 5.11]; 0 for e = 0 < e0. */
 double kd_inspiral_axis(double a0, double e0, double e);
 
-/* Time to coalescence, a = 0 [P 5.10 and 5.14]. Of it a circle spends (6/a)^4 inside a = 6. */
+/* Time to coalescence, a = 0 [P 5.10 and 5.14]. A circle spends (6/a)^4 of it inside a = 6. */
 double kd_inspiral_time(double eta, double a, double e);
 
 /* Frequency of the waves of a circular orbit, twice the orbital one, at time tau before coalescence [Maggiore 4.19]; NaN

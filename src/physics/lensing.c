@@ -11,8 +11,7 @@
  * then good to some 1e-14. */
 #define NEAR 0.03
 
-/* The critical ray, as good as: at this distance a crossing differs from that on the curve by less than
- * rounding. */
+/* At this distance the ray is as good as the critical one: a crossing differs from that on the curve by less than rounding. */
 #define ON_CURVE 1e-40
 
 /* The centre is as far inside as d goes. Exactly there beta = 0, where the first crossing may be a start in
@@ -56,7 +55,7 @@ static double time_to(const struct ray *ray, double source)
     return kd_null_radial_integrals(&ray->radial, &at, false).tau;
 }
 
-/* What a root is sought of, in s = ln|d|. */
+/* The function whose root is sought, in s = ln|d|. */
 struct search {
     const struct kd_critical *curve;
     const struct kd_critical_point *point;
@@ -91,8 +90,7 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* In steps of the exponent from where an edge of this order is expected, to where f changes sign; at most to
- * `end`. */
+/* Goes in steps of the exponent from where an edge of this order is expected to where f changes sign, at most to `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
@@ -118,8 +116,7 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Up to here a ray meets the source twice: on its way in, sooner the farther out it goes, and on its
-         * way out. */
+        /* Up to this distance a ray meets the source twice: on its way in, sooner the farther out it goes, and on its way out. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);

@@ -36,7 +36,7 @@ static struct kd_null_radial_sum add(struct kd_null_radial_sum x, struct kd_null
     return (struct kd_null_radial_sum) { x.tau + y.tau, x.phi + y.phi, x.t + y.t };
 }
 
-/* From the observer to Mino time `tau`, `from` being the place there. */
+/* The motion from the observer to Mino time `tau`; `from` is the place there. */
 static struct kd_null_radial_sum travelled(const struct motion *m, struct kd_null_radial_sum from, double tau)
 {
     double at = m->begin + m->forward * tau;
@@ -260,8 +260,8 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
         return path;
     struct kd_null_motion k = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
-    /* Short against the distance from the critical curve, long against rounding; and away from that curve,
-     * which the ray must not leave on the other side. */
+    /* The step is short against the distance from the critical curve and long against rounding; it leads away from that curve,
+     * so that the ray stays on its side. */
     double step = fmin(fmax(1e-2 * roots.margin, 1e-13), 1e-11);
     if (roots.kind != KD_NULL_FOUR_REAL)
         step = -step;

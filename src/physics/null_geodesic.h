@@ -22,7 +22,7 @@ enum { KD_NULL_ORDERS = 32 };
  * eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2; the sign of the arriving photon's p^theta is that of beta. E > 0. */
 struct kd_null_ray {
     double spin;      /* |spin| < 1                                                                        */
-    double radius;    /* of the observer: outside the horizon; INFINITY                                    */
+    double radius;    /* of the observer; outside the horizon, or INFINITY */
     double cos_theta; /* of the observer: [-1, 1], exact 0 and +-1 included                                */
     double sin_theta; /* 0: taken from cos_theta, which within 1e-5 of the axis knows it to 1e-6 only      */
     double alpha, beta;
@@ -68,7 +68,7 @@ struct kd_null_path {
 /* A status other than OK, IN_PLANE and CRITICAL leaves no crossings and no direction. */
 struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 
-/* Without the errors, which are 0 then: a quarter to a third of the time. */
+/* The same without the errors, which are 0 then; takes a quarter to a third of the time. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 
 #endif

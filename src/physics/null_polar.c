@@ -28,7 +28,7 @@ static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct 
     return sum;
 }
 
-/* Time from the plane to |u|, for an observer all but in it. */
+/* The time from the plane to |u|, for an observer who is all but in the plane. */
 static double from_plane(const struct kd_null_polar *p, double eta, double gap, double weight)
 {
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);

@@ -12,7 +12,7 @@ struct pole {
     double u2, s, q2;
 };
 
-/* What DLMF 19.29 makes of the path from r to the reference. */
+/* The arguments that DLMF 19.29 has for the path from r to the reference. */
 struct span {
     struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
     struct pole plus, minus;   /* at the horizons                                                        */
@@ -28,7 +28,7 @@ enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double 
         return KD_NULL_OUTER;
     if (radius <= roots->r3)
         return KD_NULL_INNER;
-    /* A start at a turning point, off it by rounding. */
+    /* A start at a turning point may be off it by rounding. */
     if (radius >= roots->r4 * (1 - 1e-15))
         return KD_NULL_OUTER;
     return radius <= roots->r3 * (1 + 1e-15) ? KD_NULL_INNER : KD_NULL_FORBIDDEN;

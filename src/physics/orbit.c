@@ -29,8 +29,8 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
     return 2 * o->energy * (1 + o->a * o->a * w * w) - 4 * o->a * (o->momentum - o->a * o->energy) * w * w * w;
 }
 
-/* Of the two roots of the quadratic in u^2 the one that is reached; 1 - z from the product L^2 = (1 - z)(n - a^2 b) or from
- * z n = Q, whichever subtracts nothing. */
+/* z is the root of the quadratic in u^2 that is reached; 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z n =
+ * Q, whichever subtracts nothing. */
 static void set_polar(struct kd_orbit *o)
 {
     double flat = o->a * o->a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;

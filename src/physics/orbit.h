@@ -55,15 +55,15 @@ enum kd_orbit_frame { KD_ORBIT_STATIC, KD_ORBIT_ZAMO };
 enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_orbit_frame frame, const double v[3],
                                    struct kd_orbit *orbit, struct kd_orbit_state *start, struct kd_error *error);
 
-/* From the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r at a turning
- * point, within 1e-14, starts at rest there. The outer end of what comes from infinity has to be given. An unstable circle is left
- * by one step of the number 1/r, inwards. */
+/* Starts at the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r at a
+ * turning point, within 1e-14, starts at rest there. The outer end of what comes from infinity has to be given. An unstable
+ * circle is left by one step of the number 1/r, inwards. */
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, bool outward);
 
-/* By what factor a relative error of the constants comes back in the length of the whirl that this start leads to, along an
- * unstable circle that the constants all but belong to: the terms of W over W itself at its minimum, which the motion passes or
- * turns at after a time that grows as the logarithm of that value. 0 where no such minimum lies ahead, and for a circle itself.
- * *r (may be NULL): where the whirl is. */
+/* The factor by which a relative error of the constants comes back in the length of the whirl that this start leads to, along
+ * an unstable circle that the constants all but belong to: the terms of W over W itself at its minimum, which the motion
+ * passes or turns at after a time that grows as the logarithm of that value. 0 where no such minimum lies ahead, and for a
+ * circle itself. *r (may be NULL): where the whirl is. */
 double kd_orbit_whirl(const struct kd_orbit *orbit, const struct kd_orbit_state *start, double *r);
 
 /* W and its derivative, and how W changes with E at fixed L and Q: to read a residual of W as one of E. */

@@ -64,7 +64,7 @@ static bool through_axis(const struct kd_orbit *o)
     return o->momentum == 0 && o->axis_gap == 0;
 }
 
-/* From the equator. */
+/* Sums the polar integrals from the equator to the phase u whose functions are `at`. */
 static struct kd_orbit_sums polar_sums(const struct kd_orbit_bound *b, double u, struct phase at)
 {
     const struct kd_orbit *o = &b->orbit;

@@ -107,7 +107,8 @@ INLINE void look(struct state *s)
     keep_greater(&s->worst_binet, &radial, &all);
 }
 
-/* So many steps of all; ends early, with what is left, after one in which w ceased to grow in some lane: *turned. */
+/* Takes so many steps of all lanes. It ends early, and returns what is left, after a step in which w ceased to grow in some
+ * lane: *turned. */
 WIDEST static uint64_t go(struct state *s, uint64_t steps, bool looks, bool stops, mask *turned)
 {
     const mask none = { 0 };
@@ -146,7 +147,7 @@ static struct kd_exact get_exact(const struct exact *from, int i)
     return (struct kd_exact) { from->value[i], from->rest[i] };
 }
 
-/* h = 0: a lane that stands still. */
+/* A lane with h = 0 stands still. */
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;

@@ -31,8 +31,8 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* Derivatives of the rates at a place: forces besides those of the springs, then the rates of proper time, t and chi. rest: what w
- * lacks. */
+/* The derivatives of the rates at a place: the forces besides those of the springs, then the rates of proper time, t and chi.
+ * rest: what rounding left out of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -214,8 +214,8 @@ void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const
     enter(p);
 }
 
-/* Half turns that atan2 does not see. Q >= 0: the azimuth grows steadily, and jumps at pi, where y changes sign on its way down. Q
- * < 0: a turning point next to the equator is a jump back by pi. L = 0: the axis is passed where y turns. */
+/* Counts the half turns that atan2 does not see. Q >= 0: the azimuth grows steadily, and jumps at pi, where y changes sign on
+ * its way down. Q < 0: a turning point next to the equator is a jump back by pi. L = 0: the axis is passed where y turns. */
 static void count(struct kd_orbit_path *p, double y, double rate, int way)
 {
     double y_now = p->place[KD_PATH_Y].value, rate_now = p->rate[KD_PATH_Y].value;
@@ -286,7 +286,7 @@ static struct kd_orbit_path moved(const struct kd_orbit_path *path, double h)
     return to;
 }
 
-/* What an event is a zero of. */
+/* The function whose zero is an event. */
 enum event { APSIS, RADIUS, TIME };
 
 static double height(const struct kd_orbit_path *p, enum event event, double aim)

@@ -80,10 +80,10 @@ struct kd_orbit_drift {
 };
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 
-/* From `path`, whose radial velocity changes sign within a step of h, to where it vanishes. */
+/* Moves `path`, whose radial velocity changes sign within a step of h, to where that vanishes. */
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h);
-/* The same to the radius 1/w, the first time where it is passed and then, after a turning point, again, and to the time t: both
- * within the step. */
+/* Moves it to the radius 1/w, the first time where it is passed and then, after a turning point, again, and to the time t:
+ * both within the step. */
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
 struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);
 

@@ -78,7 +78,7 @@ void kd_orbit_factor(const struct kd_orbit *o, double g[3])
     g[0] = o->binding / product;
 }
 
-/* Without a check whether it exists. */
+/* The orbit of a shape, without a check whether it exists. */
 static struct kd_orbit of_shape(double a, double p, double e, double x)
 {
     double l, z = (1 - x) * (1 + x);

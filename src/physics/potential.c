@@ -57,7 +57,7 @@ struct kd_potential_extrema kd_potential_of_matter(double a, double l)
     /* Far out L = sqrt(r): beyond (L + 3)^2 + 16 it is above l, for a = -1 too. */
     e.r_max = circle_of_momentum(a, l, kd_kerr_photon_orbit(a), isco);
     e.r_min = circle_of_momentum(a, l, (l + 3) * (l + 3) + 16, isco);
-    /* Not E of the circular orbit: that is steep towards the photon orbit, V is flat. */
+    /* V is taken here and not E of the circular orbit, which is steep towards the photon orbit where V is flat. */
     e.v_max = kd_potential(a, l, 1, e.r_max);
     e.v_min = kd_potential(a, l, 1, e.r_min);
     return e;

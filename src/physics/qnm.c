@@ -79,7 +79,7 @@ static double complex angular_at(struct problem *p, double complex separation)
 {
     struct recurrence r = angular(p->m, p->c, separation);
     int first = abs(p->m) > -S ? abs(p->m) : -S;
-    /* What is cut off counts as (4c)^k/k!, below 1e-16 at this k. */
+    /* The part that is cut off counts as (4c)^k/k!, below 1e-16 at this k. */
     return fraction(&r, p->l - first, 24 + (int)(14 * cabs(p->c)), 0);
 }
 

@@ -42,13 +42,14 @@ struct kd_qnm_branch {
     struct kd_qnm past[3];
 };
 
-/* At a = 0. False if (l, m, n) is outside the domain. */
+/* Begins a branch at a = 0. False if (l, m, n) is outside the domain. */
 bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n);
 
-/* On to spin a >= 0. False, with the branch where it came to, if a is outside the domain or the iteration fails. */
+/* Moves the branch to spin a >= 0. False, with the branch left where it came to, if a is outside the domain or the iteration
+ * fails. */
 bool kd_qnm_move(struct kd_qnm_branch *branch, double a);
 
-/* Both at once, from a = 0, for a of either sign. On false *mode is NAN. */
+/* Does both, from a = 0, for a of either sign. On false *mode is NAN. */
 bool kd_qnm_find(int l, int m, int n, double a, struct kd_qnm *mode);
 
 #endif

@@ -170,7 +170,7 @@ static double newton(const struct kd_ring_image *ring, double phi, double *chi, 
     if (!isfinite(f))
         return INFINITY;
     double f_rho = slope(ring, *chi, *log_rho, f, &g_rho, here->phi);
-    /* Across, along the image of the ring, r_n hardly changes: step there. */
+    /* Along the image of the ring, across the slope of r_n, r_n hardly changes: one of the two steps goes there. */
     double f_chi = mismatch(ring, *chi + h, *log_rho, &aside) - f, along = isfinite(f_chi) ? f_chi / f_rho : NAN;
     double f_on = (mismatch(ring, *chi + h, *log_rho - along, &aside) - f) / h, g_on = turn(aside.phi - here->phi) / h;
     double determinant = f_on * g_rho - f_rho * g_on;

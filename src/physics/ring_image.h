@@ -39,8 +39,8 @@ struct kd_ring_image_point {
  * rays. */
 bool kd_ring_image_find(const struct kd_ring_image *ring, double phi, struct kd_ring_image_point *point);
 
-/* In the direction (cos(chi), cos(i) sin(chi)) of the image plane, from alpha = beta = 0: each meets the image once. images stays 0;
- * residual: ln of the crossing's radius over the ring's. Some 20 rays. */
+/* Finds the image in the direction (cos(chi), cos(i) sin(chi)) of the image plane from alpha = beta = 0; each direction meets
+ * it once. images stays 0; residual: ln of the crossing's radius over the ring's. Some 20 rays. */
 bool kd_ring_image_seen(const struct kd_ring_image *ring, double chi, struct kd_ring_image_point *point);
 
 #endif

@@ -13,10 +13,10 @@ struct kd_tetrad {
     double root_delta; /* sqrt(r^2 - 2r + a^2) */
 };
 
-/* Of zero angular momentum; r > r+. u = cos(theta), s = sin(theta). */
+/* The frame of an observer of zero angular momentum; r > r+. u = cos(theta), s = sin(theta). */
 struct kd_tetrad kd_tetrad_zamo(double a, double r, double u, double s);
 
-/* At rest with respect to infinity; outside the ergosphere, else NaN. */
+/* The frame of an observer at rest with respect to infinity; outside the ergosphere, else NaN. */
 struct kd_tetrad kd_tetrad_static(double a, double r, double u, double s);
 
 /* Where the photon with the labels alpha, beta of null_geodesic.h is seen that arrives moving outwards: a unit vector, right along

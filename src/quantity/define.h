@@ -38,7 +38,7 @@
         .sources = sources, .approximations = approximations, .evaluate = evaluate, __VA_ARGS__                       \
     };
 
-/* Rows that many share. */
+/* Many quantities share these rows. */
 #define KD_PARAMETER_SPIN(P)                                                                                          \
     P(spin, .unit = "M", .initial = "0.9", .minimum = -1, .maximum = 1, .open = true,                                 \
       .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")

@@ -59,7 +59,7 @@ static void write_values(struct kd_writer *w, const struct kd_quantity_answer *a
     }
 }
 
-/* "name":"unit" of parameters and outputs; none of what has none. */
+/* Writes "name":"unit" for each parameter and output that has a unit. */
 static void write_units(struct kd_writer *w, const struct kd_quantity *quantity)
 {
     const char *separator = "";

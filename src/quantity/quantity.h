@@ -53,11 +53,13 @@ struct kd_quantity {
     const struct kd_output *outputs;
     size_t n_outputs;
     const char *const *sources, *const *approximations; /* sentences, up to a NULL */
-    /* One point. out[] and memory (zeroed at first, memory_size bytes) keep what the last call left; `fresh` when a parameter
-     * that is not `along` has changed since. KD_EINVAL with the parameter's pointer for what lies outside the domain. */
+    /* Evaluates one point. out[] and memory (zeroed at first, memory_size bytes) keep what the last call left; `fresh` when a
+     * parameter that is not `along` has changed since. KD_EINVAL with the parameter's pointer for what lies outside the
+     * domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* Longest time on one core of 2020, in microseconds, with the text of the answer: each point, each fresh one more. */
+    /* The longest time on one core of 2020, in microseconds, with the text of the answer: of each point, and of each fresh one
+     * besides. */
     double point_us, fresh_us;
     bool sound; /* a point of it can be heard: quantity/sound.h */
 };
@@ -106,7 +108,7 @@ enum kd_status kd_quantity_evaluate(const struct kd_quantity_request *request, s
                                     struct kd_error *error);
 void kd_quantity_answer_finish(struct kd_quantity_answer *answer);
 
-/* The same a point at a time, for whoever has to look around meanwhile: begin, then next until point is answer.points. */
+/* Does the same a point at a time, for a caller that has other work in between: begin, then next until point is answer.points. */
 struct kd_quantity_run {
     struct kd_quantity_answer answer;
     size_t point; /* how many there are */

@@ -157,7 +157,7 @@ void kd_quantity_request_init(struct kd_quantity_request *request, const struct 
         kd_quantity_request_set(request, quantity->parameters[i].name, quantity->parameters[i].initial, NULL);
 }
 
-/* Of the parameters that are not `along`, or of all. */
+/* Counts the combinations of the parameters that are not `along`, or of all. */
 static size_t combinations(const struct kd_quantity_request *request, bool all)
 {
     size_t n = 1;

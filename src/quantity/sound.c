@@ -44,7 +44,7 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     return KD_OK;
 }
 
-/* To four digits inwards, so that what the message says is taken. */
+/* Bounds are rounded inwards to four digits, so that a value that the message names is accepted. */
 static double four_digits(double x, bool up)
 {
     double unit = pow(10, floor(log10(x)) - 3);
@@ -71,7 +71,8 @@ static double parameter_of(const struct kd_quantity_answer *answer, const char *
     return answer->request.axes[parameter(answer->request.quantity, name)].first;
 }
 
-/* Unstretched all are: the mode of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e in 4.5 s at 20 Hz. */
+/* Every mode is short enough unstretched: the mode of the greatest quality, 285 (l = m = 4, a = 0.9999), fades by e in 4.5 s
+ * at 20 Hz. */
 static enum kd_status short_enough(const struct kd_quantity_answer *answer, struct kd_error *error)
 {
     double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");
@@ -120,7 +121,7 @@ static sf_count_t get(void *data, sf_count_t size, void *user)
     return 0; /* it is written alone */
 }
 
-/* What it is, as any player shows it. */
+/* Writes what the sound is into the file, where players show it. */
 static void describe(SNDFILE *file, const struct kd_quantity_answer *answer)
 {
     const struct kd_quantity *quantity = answer->request.quantity;

@@ -12,7 +12,8 @@
 #define KD_SOUND_DAMPING_S 5.0           /* at most, in which it fades by e */
 #define KD_SOUND_BYTES ((size_t)6 << 20) /* at most: a minute */
 
-/* Before anything is computed. KD_EINVAL where the quantity makes no sound, or the request is not for one point or names a time. */
+/* Called before anything is computed. KD_EINVAL where the quantity makes no sound, or the request is not for one point or
+ * names a time. */
 enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request, struct kd_error *error);
 /* KD_EINVAL at /mass_msun, naming the frequency and which masses and shifts can be heard; at /stretch, naming the longest. */
 enum kd_status kd_quantity_sound(const struct kd_quantity_answer *answer, struct kd_buffer *out, struct kd_error *error);

@@ -1,4 +1,4 @@
-/* What the forms of an answer share. Private to src/quantity. */
+/* All forms of an answer use these functions. Private to src/quantity. */
 #ifndef KD_QUANTITY_TEXT_H
 #define KD_QUANTITY_TEXT_H
 
