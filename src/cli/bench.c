@@ -58,7 +58,7 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
     return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
 }
 
-/* Speed and median errors over the bulk, and what that and the other sets hold: one line a row. */
+/* Prints a line for each row: speed and median errors over the bulk set, and what that and the other sets hold. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
     enum kd_status status = kd_buffer_printf(out, "%s\n%s\n\n%-10s %-9s %5s %12s %9s %9s %9s %7s %9s\n", t->device,
@@ -155,7 +155,7 @@ static enum kd_status bench(struct arguments *a, struct kd_buffer *said, struct 
     return status;
 }
 
-/* As it was typed, but for quoting. */
+/* The command as it was typed, but for quoting. */
 static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };

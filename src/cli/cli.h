@@ -41,11 +41,11 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 /* Write to stdout and make sure that it arrived, with what was printed before. */
 int kd_cli_print(const void *data, size_t size);
 
-/* What could not be written to stdout, by its errno. A reader that left, as in `kerrd plan | head`, ends the program by SIGPIPE
- * without a word, as it does other tools; all else is said, once. */
+/* Reports, by its errno, that stdout could not be written. A reader that left, as in `kerrd plan | head`, ends the program by
+ * SIGPIPE without a word, as it does other tools; all else is said, once. */
 void kd_cli_stdout_failed(int number);
 
-/* At exit, whatever was printed: help and lists too must have arrived, or the exit code is 1. */
+/* Called at exit, whatever was printed: help and lists too must have arrived, or the exit code is 1. */
 void kd_cli_close_stdout(void);
 
 /* A size from an option's text, as 1536M or 2G (powers of 1024), at least 64M; or a usage error. */

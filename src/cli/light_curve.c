@@ -48,7 +48,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Times as the scene's own is read, with its range and its messages. */
+/* Reads the times as the scene's own time is read, with its range and its messages. */
 static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to, struct kd_error *error)
 {
     const struct kd_spot *on[KD_SPOTS];

@@ -11,7 +11,7 @@
 
 enum { KEY_FIRST = 256 };
 
-/* In the order of the keys: as kd_orbit_request_set calls them, and how --help does. */
+/* The fields in the order of their keys: the names that kd_orbit_request_set and --help have for them. */
 static const struct {
     const char *name, *argument, *help;
 } fields[] = {
@@ -29,7 +29,7 @@ static const struct {
     { "v_r", "V", "components of the velocity, in units of that of light" },
     { "v_theta", "V", NULL },
     { "v_phi", "V", NULL },
-    /* after what tells which of the two it is */
+    /* these two follow the fields that tell which of the two it is */
     { "r", "R", "the radius there; or of a place on the way of an orbit by its constants" },
     { "outward", "true|false", "whether such an orbit moves outwards there" },
     { "periods", "N", "how long: radial periods (10), turns where r is constant" },
@@ -132,7 +132,7 @@ static void *help(void *feed)
     return NULL;
 }
 
-/* Many orbits: on every core before the answer is asked for. */
+/* Follows many orbits on every core before the answer is asked for. */
 static void share(struct kd_orbit_feed *feed)
 {
     pthread_t threads[15];

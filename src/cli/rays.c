@@ -15,7 +15,7 @@
 enum { KEY_SPIN = 256, KEY_R, KEY_INCLINATION, KEY_ORDERS, KEY_PROFILE, KEY_TOLERANCE, KEY_ENGINE, KEY_PRECISION, KEY_STEPS, KEY_END, KEY_TRACE };
 #define N_FIELDS (KEY_END - KEY_SPIN)
 
-/* In the order of the keys: as kd_rays_request_set calls them. */
+/* The fields in the order of their keys, by the names that kd_rays_request_set has for them. */
 static const char *const names[N_FIELDS] = { "spin",      "r",      "inclination_deg", "orders", "profile",
                                              "tolerance", "engine", "precision",       "steps" };
 
@@ -60,7 +60,7 @@ static const char *format_name(const struct arguments *arguments)
     return arguments->format ? arguments->format : dot ? dot + 1 : "";
 }
 
-/* Text is for steps, and arrays are not. */
+/* Refuses text for anything but steps, and arrays for steps. */
 static void check_format(const struct arguments *arguments, const struct argp_state *state)
 {
     const char *format = format_name(arguments);
@@ -124,7 +124,7 @@ static enum kd_status load_file(const char *path, struct kd_rays_request *reques
     return status;
 }
 
-/* The file, then each option over what it said. */
+/* Loads the file, then merges each option over what it said. */
 static enum kd_status load(const struct arguments *arguments, struct kd_rays_request *request, struct kd_error *error)
 {
     enum kd_status status = arguments->input ? load_file(arguments->input, request, error) : KD_OK;

@@ -39,8 +39,8 @@ static void name_formats(char *out, size_t size)
     }
 }
 
-/* By the output's name; the first of all for a name that says nothing. A picture of another kind would be that under a name that says
- * otherwise. */
+/* Finds the format by the output's name; the first of all for a name that says nothing. The name of another kind of picture is
+ * refused. */
 static const struct kd_format *format_of(const char *path, const struct argp_state *state)
 {
     static const char *const others[] = { ".jpg", ".jpeg", ".gif", ".webp", ".tif", ".tiff", ".bmp", ".exr", ".hdr", ".fits", ".pdf", ".svg" };

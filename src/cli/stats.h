@@ -10,7 +10,7 @@ struct kd_stats {
     const struct kd_plan *plan;
     const struct kd_frame *frame;
     double render_ms, encode_ms; /* by the wall clock */
-    size_t bytes;                /* of the file */
+    size_t bytes;                /* of the PNG file */
 };
 
 /* One line of JSON. */

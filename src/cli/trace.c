@@ -35,7 +35,7 @@ static const char *fate_name(const struct kd_rays_steps *steps)
     return names[steps->end.fate];
 }
 
-/* Residuals by their size; the rest to as many digits as the precision has. */
+/* Prints residuals by their size, and all else to as many digits as the precision has. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct column *column, double x, struct kd_buffer *out)
 {
     bool wide = steps->params.precision == KD_PRECISION_F64, residual = column->name[0] == 'r' && column->name[1] == 'e';

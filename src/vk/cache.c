@@ -12,8 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Before the driver's data: drivers trust what they are given more than they should, so damage is found here.
- */
+/* Stands before the driver's data. Drivers trust what they are given more than they should, so damage is found here. */
 struct envelope {
     char magic[8];
     uint64_t bytes, hash;

@@ -22,7 +22,7 @@ struct kd_vk_slot {
     uint64_t submitted_ns;
 };
 
-/* One more than may be under way: the one being recorded. */
+/* One slot more than submissions may be under way, for the one that is being recorded. */
 #define KD_VK_SLOTS (KD_VK_IN_FLIGHT + 1)
 
 struct kd_vk {

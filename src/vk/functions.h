@@ -32,7 +32,7 @@
     X(CreateDevice)                                                                                          \
     X(GetDeviceProcAddr)
 
-/* Of VK_EXT_debug_utils: NULL where the extension is not enabled. */
+/* These belong to VK_EXT_debug_utils and are NULL where the extension is not enabled. */
 #define KD_VK_DEBUG_FUNCTIONS(X)                                                                             \
     X(CreateDebugUtilsMessengerEXT)                                                                          \
     X(DestroyDebugUtilsMessengerEXT)                                                                         \

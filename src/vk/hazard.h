@@ -22,7 +22,7 @@ struct kd_vk_access {
     bool host;                  /* of memory that the host has mapped */
 };
 
-/* More than this many separate ranges without a barrier: one is emitted to start afresh. */
+/* After this many separate ranges without a barrier one is emitted, to start afresh. */
 #define KD_VK_MAX_ACCESSES 128
 
 struct kd_vk_hazards {
@@ -41,8 +41,8 @@ struct kd_vk_barrier {
 bool kd_vk_hazards_add(struct kd_vk_hazards *hazards, const struct kd_vk_access *accesses, size_t n,
                        struct kd_vk_barrier *barrier);
 
-/* At the end of a submission: true if *barrier has to be recorded for the host to see what was written. The
- * other direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
+/* Called at the end of a submission: true if *barrier has to be recorded for the host to see what was written. The other
+ * direction needs none: vkQueueSubmit itself makes earlier host writes visible to the device. */
 bool kd_vk_hazards_to_host(struct kd_vk_hazards *hazards, struct kd_vk_barrier *barrier);
 
 #endif

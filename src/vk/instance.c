@@ -37,7 +37,7 @@ static bool has_layer(const struct kd_vk_functions *fn, const char *name)
     return found;
 }
 
-/* layer NULL: of the loader and the drivers. */
+/* Whether an extension is there: of a layer, or with layer NULL of the loader and the drivers. */
 static bool has_extension(const struct kd_vk_functions *fn, const char *layer, const char *name)
 {
     uint32_t n = 0;

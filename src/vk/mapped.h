@@ -12,9 +12,9 @@ struct kd_vk_buffer;
 /* Enter a new buffer if its memory asks for it; forget it before it is destroyed. */
 void kd_vk_mapped_enter(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 void kd_vk_mapped_forget(struct kd_vk *vk, struct kd_vk_buffer *buffer);
-/* The submission that is being recorded reads it, or writes it and may read it. */
+/* Says that the submission that is being recorded reads the buffer, or writes it and may read it. */
 void kd_vk_mapped_use(struct kd_vk *vk, struct kd_vk_buffer *buffer, bool write);
-/* Before the submission of this number; after the last that kd_vk.done counts; after one was dropped. */
+/* Called before the submission of this number; after the last that kd_vk.done counts; after one was dropped. */
 VkResult kd_vk_mapped_flush(struct kd_vk *vk, uint64_t value);
 VkResult kd_vk_mapped_invalidate(struct kd_vk *vk);
 void kd_vk_mapped_discard(struct kd_vk *vk);

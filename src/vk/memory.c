@@ -10,7 +10,7 @@
 #define COHERENT VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
 #define CACHED VK_MEMORY_PROPERTY_HOST_CACHED_BIT
 
-/* Types that need a feature of their own (AMD's uncached ones, protected, lazily allocated) never do. */
+/* Memory types that need a feature of their own (AMD's uncached ones, protected, lazily allocated) are never used. */
 static bool plain(VkMemoryPropertyFlags flags)
 {
     return !(flags & ~(VkMemoryPropertyFlags)(LOCAL | VISIBLE | COHERENT | CACHED));
@@ -159,7 +159,7 @@ static bool take(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignm
     return false;
 }
 
-/* From a block that has room, else from a new one, of the usual size or only just large enough. */
+/* Takes a slice from a block that has room, else from a new one, of the usual size or only just large enough. */
 static enum kd_status take_or_grow(struct kd_vk *vk, uint32_t type, uint64_t size, uint64_t alignment,
                                    struct kd_vk_slice *out, struct kd_error *error)
 {

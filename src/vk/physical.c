@@ -35,8 +35,8 @@ static void lacks(struct kd_vk_info *info, const char *what)
     snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
 }
 
-/* A family that computes at all; better one with timestamps, then one that does not draw: a desktop's frames and ours do not
- * wait for each other in its queue. Of equals the first. */
+/* A family must compute. One with timestamps is better, then one that does not draw, in whose queue a desktop's frames and
+ * ours do not wait for each other. The first of equals is taken. */
 static int family_points(const VkQueueFamilyProperties *family)
 {
     if (!(family->queueFlags & VK_QUEUE_COMPUTE_BIT) || !family->queueCount)

@@ -5,7 +5,7 @@
 #include "vk/functions.h"
 #include "vk/vk.h"
 
-/* Of vulkan_beta.h, which needs a macro. */
+/* The name is from vulkan_beta.h, which needs a macro to be included. */
 #define KD_VK_PORTABILITY_SUBSET "VK_KHR_portability_subset"
 
 struct kd_vk_physical {

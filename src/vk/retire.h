@@ -7,7 +7,7 @@
 
 struct kd_vk;
 
-/* First member of whatever can be retired. */
+/* The first member of each object that can be retired. */
 struct kd_vk_retired {
     uint64_t ticket; /* last submission that uses it, recorded or under way; 0: none */
     struct kd_vk_retired *next;

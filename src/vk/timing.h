@@ -30,7 +30,7 @@ struct kd_vk_timing {
 };
 
 void kd_vk_timing_begin(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands);
-/* Before each command: it belongs to this pass. */
+/* Called before each command, which belongs to this pass. */
 void kd_vk_timing_pass(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands,
                        const char *pass);
 void kd_vk_timing_end(struct kd_vk *vk, struct kd_vk_stamps *stamps, VkCommandBuffer commands);

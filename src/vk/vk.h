@@ -27,7 +27,7 @@ struct kd_vk_info {
     enum kd_vk_type type;
     uint32_t api_version;       /* VK_MAKE_API_VERSION packing */
     uint64_t heap_bytes;        /* largest device-local heap */
-    uint64_t budget_bytes;      /* of it, what this process may use now (VK_EXT_memory_budget); 0: not told */
+    uint64_t budget_bytes;      /* how much of the heap this process may use now (VK_EXT_memory_budget); 0: not told */
     uint64_t max_binding_bytes; /* largest storage-buffer binding: 128 MiB on lavapipe */
     uint64_t max_uniform_bytes; /* largest uniform-buffer binding: at least 16 KiB, often 64 */
     uint64_t max_texels;        /* of one binding of texels: at least 65536 (SwiftShader), 2^27 on lavapipe */
@@ -69,7 +69,7 @@ char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
 enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory,
                                    const char *name, struct kd_vk_buffer **out, struct kd_error *error);
-/* At any time: what the device still uses, of buffers and of pipelines, is freed once it has finished. */
+/* May be called at any time. Buffers and pipelines that the device still uses are freed once it has finished. */
 void kd_vk_buffer_destroy(struct kd_vk *vk, struct kd_vk_buffer *buffer);
 void *kd_vk_buffer_map(struct kd_vk_buffer *buffer); /* NULL for KD_VK_DEVICE without host access */
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);

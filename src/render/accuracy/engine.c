@@ -86,7 +86,7 @@ static struct kd_setting by_profile(const struct kd_wish *wish, bool float64)
     s.precision = wish->precision >= 0                       ? (enum kd_precision)wish->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
                                                              : KD_PRECISION_F32;
-    /* What nobody named may give way. */
+    /* A precision and an engine that were not named may give way. */
     if (s.precision == KD_PRECISION_F64 && !float64 && wish->precision < 0 && wish->engine < 0 && !wish->steps)
         s.engine = KD_ENGINE_CLOSED;
     s.steps = wish->steps                  ? wish->steps

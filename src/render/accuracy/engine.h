@@ -33,7 +33,7 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
 
 struct kd_accuracy_table;
 
-/* As in accuracy.* of a scene and of a list of rays. */
+/* A wish for accuracy, as in accuracy.* of a scene and of a list of rays. */
 struct kd_wish {
     int profile;      /* enum kd_profile; -1: none is named */
     int engine;       /* enum kd_engine; -1: whichever suits */
@@ -49,14 +49,15 @@ struct kd_setting {
     double holds;    /* relative error of crossing radii that the table says it holds; NaN: none was asked for */
 };
 
-/* What 99 of 100 rays by the closed form are within by their own error (docs/accuracy.md); it does where no row of the table does. */
+/* The tolerance that 99 of 100 rays by the closed form are within by their own error (docs/accuracy.md); the closed form is
+ * used where no row of the table holds a tolerance. */
 #define KD_CLOSED_HOLDS 1e-12
 
 #define KD_WISH_NONE { .profile = -1, .engine = -1, .precision = -1, .tolerance = INFINITY }
 
 struct kd_wish kd_wish_of(const struct kd_scene *scene);
 
-/* False: the closed form will do it, whatever the device. */
+/* Whether the wish depends on the device; false: the closed form fulfils it, whatever the device. */
 bool kd_wish_needs_device(const struct kd_wish *wish);
 
 /* A tolerance gets the fastest row of the table that holds it, among the engines and precisions allowed, and no steps may be

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FORMAT 1 /* of the document; another one is measured anew */
+#define FORMAT 1 /* version of the document; a table of another version is measured anew */
 
 /* Four digits: more would be the weather of the day. */
 static void add_figure(struct kd_json *json, const char *name, double value)

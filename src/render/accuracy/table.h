@@ -44,7 +44,7 @@ struct kd_accuracy_table {
     char skipped[400];              /* what this device cannot do, "" if it can do all */
     uint32_t cores;                 /* that the device computes on, 0 where it is no CPU */
     bool device_clock, quick;
-    double seconds; /* of device time that a speed was measured over, less where a million rays take less */
+    double seconds; /* the device time over which a speed was measured; less where a million rays take less */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };

@@ -12,7 +12,7 @@ enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
 
 struct sample {
     uint32_t rows, columns, width, height; /* of the grid of rays */
-    uint32_t planes;                       /* of the map that are looked at: radii, and the fate */
+    uint32_t planes;                       /* planes of the map that are looked at: radii, and the fate */
     struct kd_vk_buffer *host;             /* the sampled rows, all planes of one row together */
     double *rays;                          /* alpha, beta */
     bool outward[ROWS * COLUMNS];
@@ -37,7 +37,7 @@ static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_
     kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
 }
 
-/* As the map's own rays were made. */
+/* Makes the labels of a pixel's ray as those of the map were made. */
 static void label_of(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y, struct kd_camera_label *out)
 {
     if (plan->ring) {

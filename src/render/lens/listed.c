@@ -61,7 +61,7 @@ enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene
     return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
 }
 
-/* One plane: what its rays have to say, in turn. */
+/* Fills one plane with the radii of its rays, in turn. */
 static void fill_radii(const struct work *w, uint32_t order, float *to)
 {
     for (size_t i = 0; i < w->n; i++) {
@@ -86,7 +86,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
 }
 
-/* Outside the ISCO, where nothing falls, 0. */
+/* Fills a plane with slopes; they are 0 outside the ISCO, where nothing falls. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);

@@ -13,7 +13,7 @@ struct kd_lens_rows {
     uint64_t offset, stride; /* rays before the first one in a plane; rays of a plane */
 };
 
-/* plan->planes planes as lens_map.comp writes them, but -1 instead of a crossing that the engine gave up looking for, delays
+/* Writes plan->planes planes as lens_map.comp does, but -1 instead of a crossing that the engine gave up looking for, delays
  * before the slopes, and for a ring alpha before the sky's. *undecided grows by the rays that it gave up. The upload is
  * submitted and waited for. */
 enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,

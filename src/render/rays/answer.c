@@ -188,7 +188,7 @@ size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
     return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)stream->answer->params.orders));
 }
 
-/* The next ray, or what closes the list, to stream->row. False at the end. */
+/* Writes the next ray, or what closes the list, to stream->row. False at the end. */
 static bool refill(struct kd_rays_stream *stream)
 {
     static const char tail[] = "]}\n";

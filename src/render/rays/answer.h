@@ -1,4 +1,4 @@
-/* What kd_rays_trace found, and how it is written: JSON, NPY or CSV, as a stream of bytes that is made while it is read. A
+/* An answer holds what kd_rays_trace found and is written as JSON, NPY or CSV, as a stream of bytes that is made while it is read. A
  * million rays in JSON are half a gigabyte; nobody holds it. Any thread, one at a time.
  *
  * JSON  {"spin", "observer", "orders", "accuracy": {engine, precision, steps, rays, undecided, tolerance, followed_again, beyond, holds, worst_error, median_error},
@@ -23,7 +23,8 @@ struct kd_rays_answer {
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     size_t undecided; /* these by kd_rays_answer_summarise */
-    size_t followed_again, beyond; /* of a tolerance: for it; not within it by their own error after all, the undecided among them */
+    /* With a tolerance: rays that were followed again for it; those, the undecided among them, that are not within it after all. */
+    size_t followed_again, beyond;
     double worst_error, median_error; /* over the rays that have one; NaN if none has */
 };
 
@@ -55,7 +56,7 @@ enum kd_status kd_rays_stream_init(struct kd_rays_stream *stream, const struct k
 void kd_rays_stream_finish(struct kd_rays_stream *stream);
 /* Up to `size` more bytes; 0 at the end. Cannot fail. */
 size_t kd_rays_stream_read(struct kd_rays_stream *stream, void *to, size_t size);
-/* Of the whole stream, known beforehand for NPY alone; else 0. */
+/* The bytes of the whole stream, which are known beforehand for NPY alone; else 0. */
 size_t kd_rays_stream_size(const struct kd_rays_stream *stream);
 
 #endif

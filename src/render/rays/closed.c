@@ -27,7 +27,7 @@ static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *a
                                   .orders = (int)p->orders };
 }
 
-/* outwards: of the real photon, as it leaves the gas. */
+/* The redshift factor at a crossing. outwards: whether the real photon moves outwards as it leaves the gas. */
 static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
 {
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg);
@@ -82,7 +82,7 @@ struct share {
     _Atomic bool stop;
 };
 
-/* False when there is no more to do. */
+/* Traces the next slice; false when there is no more to do. */
 static bool trace_slice(struct share *share)
 {
     const struct kd_ray_labels *rays = share->rays;
@@ -100,7 +100,7 @@ static void *work(void *user)
     return NULL;
 }
 
-/* Threads beside the calling one that are worth their start. */
+/* How many threads beside the calling one are worth their start. */
 static size_t helpers(size_t n)
 {
     size_t cores = kd_cores(), most = n / (8 * SLICE) + 1;
@@ -128,7 +128,7 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* Which way the photon moves inside the ISCO the closed form says; a ray that set out inwards and falls in never turned. */
+/* The closed form says which way the photon moves inside the ISCO; a ray that set out inwards and falls in has never turned. */
 static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward, const struct kd_ray_end *end,
                             uint32_t crossing)
 {

@@ -5,7 +5,7 @@
 #include "render/rays/rays.h"
 
 /* kd_rays_trace for KD_ENGINE_CLOSED, params checked. Many rays are shared out among the cores; progress is called on the
- * calling thread. Without errors (they are NaN then) and g it takes a third of the time. */
+ * calling thread. Without errors, which are NaN then, and without g it takes a third of the time. */
 enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
                               struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error);

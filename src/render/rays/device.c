@@ -44,7 +44,8 @@ static void put(const struct work *w, void *at, size_t i, double value)
         ((float *)at)[i] = (float)value;
 }
 
-/* alpha and beta as the device is given them. Of two that are both tiny the azimuth knows the ratio: it stays, to rounding. */
+/* Makes alpha and beta as the device is given them. The ratio of two tiny ones is kept to rounding, since the azimuth depends
+ * on it. */
 static void label(const struct work *w, const double *alpha_beta, double out[2])
 {
     double larger = fmax(fabs(alpha_beta[0]), fabs(alpha_beta[1])), least = 1e8 * KD_LEAST_FLOAT;
@@ -64,8 +65,8 @@ static double get(const struct work *w, const void *at, size_t i)
 /* Where a Cartesian ray from infinity starts: far positions cost digits of b, and Tao's method phase. A nearer start would be more
  * exact still, but by leaving the work to Mino time (start.c): at 100 M single precision loses a sixth of what it does here. */
 #define FAR 1e3
-/* Where it has escaped: its momentum has come to its limit within M b/r^2. Single precision knows it no better than from there,
- * and Tao's copies part further out. */
+/* The radius at which a ray counts as escaped: its momentum has come to its limit within M b/r^2. Single precision knows the
+ * direction no better further out, where the copies of Tao's method part. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const struct set *set, const struct kd_ray_labels *rays)
@@ -124,7 +125,7 @@ static enum kd_status send(const struct work *w, const struct set *set, const st
     return status ? status : kd_vk_submit(vk, ticket, w->error);
 }
 
-/* One ray's numbers to its records. */
+/* Unpacks one ray's numbers into its records. */
 static void unpack(const struct work *w, const void *from, size_t i, struct kd_ray_crossing *crossings, struct kd_ray_end *end)
 {
     const struct kd_rays_params *p = w->params;
@@ -197,7 +198,7 @@ static enum kd_status hold_set(struct work *w, int k, uint64_t room)
     return status;
 }
 
-/* What a slice needs of the renderer, which may have been used for other rays since the last one. */
+/* Prepares what a slice needs of the renderer, which may have been used for other rays since the last one. */
 static enum kd_status prepare(struct work *w, size_t n)
 {
     const struct kd_rays_params *p = w->params;
@@ -211,7 +212,7 @@ static enum kd_status prepare(struct work *w, size_t n)
     return status;
 }
 
-/* One slice. Nothing is under way when it returns, unless it failed: what is called between slices may use the device. */
+/* Traces one slice. Nothing is under way when it returns, unless it failed: what is called between slices may use the device. */
 static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                                   struct kd_ray_end *ends)
 {
@@ -230,15 +231,16 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* After m rays that took so long. least_ms: what the smallest slices took. Where one ray alone is slower than TARGET_MS, more of them
- * take a GPU no longer: slices double while that holds, and reach half as long again. */
+/* The size of the next slice, after one of m rays that took so long. least_ms: what the smallest slices took. Where one ray
+ * alone is slower than TARGET_MS, more of them take a GPU no longer: slices double while that holds, and reach half as long
+ * again. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms), n = m * fmin(8, grow);
     return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
 }
 
-/* How a list like the last one begins: half as large as that went on. */
+/* The size of a list's first slice. A list like the last one begins with half the slice that one ended with. */
 static uint32_t first_size(const struct work *w)
 {
     const struct kd_rays_params *p = w->params;

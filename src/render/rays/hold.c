@@ -6,7 +6,8 @@
 #include <string.h>
 
 #define SLICE ((size_t)16384) /* rays that are followed again together: a tenth of a second */
-/* Rays for which the device is asked once more: fewer take the closed form less time than a kernel takes to be compiled. */
+/* The least number of rays for which the device is asked once more: the closed form follows fewer of them in less time than a
+ * kernel takes to be compiled. */
 #define WORTH_A_KERNEL 8192
 #define MORE_STEPS 4 /* times as many: order 6 then loses 4096 times less */
 
@@ -36,7 +37,7 @@ static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays that are followed again", n);
 }
 
-/* From *at on, as many as fit; *at moves on. */
+/* Gathers, from *at on, as many rays as fit; *at moves on. */
 static void gather(struct batch *b, const double *alpha_beta, const struct kd_ray_end *ends, size_t n, double tolerance, size_t *at)
 {
     for (b->n = 0; *at < n && b->n < SLICE; ++*at) {
@@ -47,7 +48,7 @@ static void gather(struct batch *b, const double *alpha_beta, const struct kd_ra
     }
 }
 
-/* A finer setting is believed, but for one that leaves open what another has decided. */
+/* Adopts the results of a finer setting, unless it leaves open what the coarser one has decided. */
 static void adopt(const struct batch *b, uint32_t orders, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
     for (size_t i = 0; i < b->n; i++) {
@@ -90,7 +91,7 @@ static size_t beyond(const struct kd_ray_end *ends, size_t n, double tolerance)
     return count;
 }
 
-/* False: the device has nothing finer to offer. */
+/* Finds a finer setting of the device; false: there is none. */
 static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params, struct kd_rays_params *out)
 {
     enum { FINEST = 128 }; /* beyond them rounding takes over */

@@ -5,12 +5,12 @@
 
 #include "render/rays/rays.h"
 
-/* After kd_rays_trace with this setting; params->tolerance > 0. Replaces crossings and ends of the rays concerned. */
+/* Called after kd_rays_trace with this setting; params->tolerance > 0. Replaces crossings and ends of the rays concerned. */
 enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *alpha_beta, size_t n,
                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress, void *user,
                             struct kd_error *error);
 
-/* Within the tolerance by its own error, and decided. A ray without an error has nothing that could be wrong. */
+/* Whether a ray is decided and within the tolerance by its own error. A ray without an error has nothing that could be wrong. */
 static inline bool kd_rays_held(const struct kd_ray_end *end, double tolerance)
 {
     return end->fate != KD_RAY_UNDECIDED && !(end->error > tolerance);

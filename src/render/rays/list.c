@@ -41,7 +41,7 @@ static size_t skip_string(const char *text, size_t at, size_t length)
     return at < length ? at + 1 : length;
 }
 
-/* Nothing is judged here: whoever reads the rest of the document does that. */
+/* Nothing is judged here; the reader of the rest of the document does that. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start)
 {
     int depth = 0;
@@ -87,7 +87,7 @@ static bool take(struct reader *r, char c)
     return true;
 }
 
-/* What stands there in place of what is wanted, NULL if it is no JSON at all. */
+/* Describes what stands where a number was wanted; NULL if it is no JSON at all. */
 static const char *describe(const struct reader *r)
 {
     static const char *const words[] = { "null", "true", "false" };

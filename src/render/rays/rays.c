@@ -10,13 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Between the directions of two rays that escape. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b)
 {
     const double x[] = { a->theta, a->phi, a->error }, y[] = { b->theta, b->phi, b->error };
     return a->fate == b->fate && a->n_crossings == b->n_crossings && a->again == b->again && !memcmp(x, y, sizeof x);
 }
 
+/* The angle between the directions of two rays that escape. */
 static double angle(const struct kd_ray_end *a, const struct kd_ray_end *b)
 {
     double s = sin((a->theta - b->theta) / 2), t = sin((a->phi - b->phi) / 2);

@@ -54,7 +54,7 @@ struct kd_ray_end {
     bool again;              /* followed again by a finer setting, for the tolerance */
 };
 
-/* Bit for bit, but for what lies between the members. */
+/* Whether two ends are equal bit for bit, but for what lies between the members. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
 /* Trace n rays. With a tolerance each that is not within it by its own error, or undecided, is followed again by more steps in double

@@ -141,7 +141,7 @@ struct document {
     struct kd_error *error;
 };
 
-/* Once each: a second one would silently win. */
+/* Refuses a field that is given twice: the second would silently win. */
 static enum kd_status once(struct document *d, size_t bit, const char *pointer)
 {
     if (d->seen & 1u << bit)

@@ -4,7 +4,7 @@
 
 #include "render/rays/answer.h"
 
-/* Bytes written, without a NUL. In JSON a comma comes before all but the first. */
+/* Writes the row of a ray and returns its bytes, without a NUL. In JSON a comma comes before all but the first. */
 size_t kd_rays_row(const struct kd_rays_answer *answer, enum kd_rays_format format, size_t ray,
                    char out[KD_RAYS_ROW_MAX]);
 

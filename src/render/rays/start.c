@@ -52,10 +52,11 @@ static double share(const struct point *p, const struct point *q, double h)
     return s;
 }
 
-/* From infinity to Mino time t, an eighth of the reciprocal impact parameter at most: less than a half turn. */
+/* Follows a ray from infinity to Mino time t, which is at most an eighth of the reciprocal impact parameter: less than a half
+ * turn. */
 static struct point approach(const struct motion *m, struct point p, double t, struct kd_rays_origin *out)
 {
-    enum { STEPS = 32 }; /* of a 256th of a radian: 1e-13 */
+    enum { STEPS = 32 }; /* each turns by a 256th of a radian at most: good to 1e-13 */
     double h = t / STEPS;
     for (int i = 0; i < STEPS; i++) {
         struct point q = step(m, &p, h);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As kernels put them in front of the records. */
+/* The constants as kernels write them in front of the records. */
 struct constants { double count, momentum, q, energy2, a2, k, d, pad; };
 struct record { double stage, h, y[4], dy[4], chi; };
 _Static_assert(sizeof(struct constants) == KD_TRACE_HEADER * sizeof(double), "the header of interface.h");
@@ -31,7 +31,7 @@ static double radial(const struct constants *c, double w, double dw)
 /* Source minus observer, within half a turn. */
 static double azimuth(double y, double x, double chi) { return 0 + remainder(-(atan2(y, x) + chi), 2 * M_PI); }
 
-/* Mino time: n and w, or on the way to a crossing u and w. */
+/* A record in Mino time holds n and w, or on the way to a crossing u and w. */
 static void mino(const struct constants *c, const struct record *r, struct kd_rays_step *s)
 {
     const double *n = r->y, *v = r->dy;
@@ -72,7 +72,7 @@ static void kerr_schild(double a, double momentum, const struct record *record, 
 
 static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >= KD_ENGINE_KS_EULER; }
 
-/* Stages and numbers of the records, which are in the order of the path; the crossings from the end points. */
+/* Fills in the stages and numbers of the records, which are in the order of the path, and the crossings from the end points. */
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {
     double time = 0, crossed = 0, momentum = 0; /* crossed: when the last crossing was */
@@ -106,7 +106,7 @@ static void tell(struct kd_rays_steps *out, const struct constants *c, const str
     }
 }
 
-/* Once more without telling: the same ends? */
+/* Traces the ray once more by the kernel that tells no steps, and compares the ends. */
 static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps *out, struct kd_error *error)
 {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
@@ -118,7 +118,7 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
     return status;
 }
 
-/* Twice what the longest ray takes, whatever the method. */
+/* Room for twice the records of the longest ray, whatever the method. */
 static size_t room(const struct kd_rays_params *p) { return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64); }
 
 enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, double alpha, double beta,
