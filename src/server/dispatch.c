@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "server/http/library.h"
 #include "server/http/negotiate.h"
+#include "server/http/prompt.h"
 #include "server/answers/orbits.h"
 #include "server/http/reply.h"
 #include "server/render/task.h"
@@ -44,6 +45,8 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         int socket = socket_of(mhd);
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
+        if (kd_connection_is_health(*socket_context))
+            kd_prompt_thread(); /* a daemon's thread has no other beginning that is ours */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;

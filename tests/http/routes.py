@@ -1,7 +1,10 @@
 """Every address, HEAD, and what is said of a wrong method or path."""
+import ctypes
 import gzip
 import json
+import os
 import re
+import struct
 import time
 import unittest
 
@@ -226,6 +229,27 @@ class Held(daemon.Case):
                 self.assertTrue(s.recv(100).startswith(b'HTTP/1.1 200 '))
             for s in crowd:
                 s.close()
+
+
+def slice_ns(thread):
+    """Of a thread's turns, that it has asked the scheduler for; None: this kernel does not say (it does from Linux 6.12 on)."""
+    attributes = ctypes.create_string_buffer(48)
+    known = {'x86_64': 315, 'aarch64': 275}.get(os.uname().machine)  # sched_getattr
+    if not known or ctypes.CDLL(None).syscall(known, thread, attributes, 48, 0):
+        return None
+    return struct.unpack_from('=IIQiIQ', attributes)[5] or None
+
+
+class Prompt(daemon.Case):
+    def test_health_asks_for_short_turns(self):
+        """The front and the thread of the health routes; nobody else does, or it would be worth nothing."""
+        if slice_ns(os.getpid()) is None:
+            self.skipTest('this kernel tells no slices')
+        for path in ('/healthz', '/v1/device', '/v1/render?' + daemon.SMALL, '/readyz'):
+            self.assertEqual(self.daemon.get(path).status, 200)
+        threads = [slice_ns(int(t)) for t in os.listdir(f'/proc/{self.daemon.process.pid}/task')]
+        self.assertEqual(sorted(threads)[:2], [100000, 100000])
+        self.assertEqual(set(sorted(threads)[2:]), {slice_ns(os.getpid())})
 
 
 class SlowDisk(daemon.Case):

@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "server/http/client.h"
 #include "server/http/problem.h"
+#include "server/http/prompt.h"
 #include "server/http/route.h"
 
 #include <errno.h>
@@ -157,6 +158,7 @@ static bool accept_one(struct kd_front *front)
 static void *run(void *user)
 {
     struct kd_front *front = user;
+    kd_prompt_thread();
     for (;;) {
         struct epoll_event events[BATCH];
         int n = epoll_wait(front->epoll, events, BATCH, -1);
