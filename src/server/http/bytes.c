@@ -36,7 +36,7 @@ void kd_bytes_destroy(struct kd_bytes *b)
     free(b);
 }
 
-/* Of a client that has bytes here; NULL: it has none. */
+/* Finds the place of a client; NULL: it has no bytes here. */
 static struct place *find(struct kd_bytes *b, const char *client)
 {
     for (unsigned i = 0; i < b->params.clients; i++)
@@ -56,7 +56,7 @@ static struct place *find_or_make(struct kd_bytes *b, const char *client)
     return place ? place : &b->places[b->params.clients];
 }
 
-/* Locked. */
+/* Called locked. */
 static void add(struct kd_bytes *b, const char *client, size_t n)
 {
     find_or_make(b, client)->bytes += n;

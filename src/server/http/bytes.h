@@ -14,18 +14,19 @@ struct kd_bytes;
 
 /* NULL: out of memory. */
 struct kd_bytes_params {
-    unsigned clients;      /* told apart at once: more than connections there are never; what others have counts as that of one */
+    /* How many clients are told apart at once; there are never more than connections. What further ones have counts as that of one. */
+    unsigned clients;
     size_t max, share;     /* in all; of one client */
     size_t reserve, small; /* beside max, for what has at most `small` bytes; and as large a share of it */
-    bool lone;             /* who has nothing here may have more than a share, and where nobody has anything more than max */
+    bool lone;             /* a client that has nothing here may have more than a share, and more than max where nobody has anything */
 };
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params);
 void kd_bytes_destroy(struct kd_bytes *bytes); /* accepts NULL */
 
-/* n more of what has `size` in the end or will: KD_EBUSY, and nothing is counted, where they are too many in all, or with *quota of
- * this client. n 0: whether any may come. */
+/* Takes n more bytes of something that has, or will have, `size` in all. KD_EBUSY, and nothing is counted, where they are too
+ * many in all, or with *quota too many of this client. n 0 asks whether any may come. */
 enum kd_status kd_bytes_take(struct kd_bytes *bytes, const char *client, size_t n, size_t size, bool *quota);
-/* The same, whether they are too many or not: they are there already. */
+/* Counts bytes that are there already, whether they are too many or not. */
 void kd_bytes_add(struct kd_bytes *bytes, const char *client, size_t n);
 void kd_bytes_give(struct kd_bytes *bytes, const char *client, size_t n);
 size_t kd_bytes_held(const struct kd_bytes *bytes); /* waits for nobody */

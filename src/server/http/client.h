@@ -1,5 +1,6 @@
-/* Who a request is from, for shares and limits: there are no accounts, so that it is where it comes from. An IPv4 address; of an IPv6
- * address the first half, as a host has all of the other. All that comes through a proxy is one client. */
+/* A client is whom a request is from, for shares and limits. There are no accounts, so it is known by where it comes from: an
+ * IPv4 address, or the first half of an IPv6 address, since a host has all of the other half. All that comes through a proxy
+ * is one client. */
 #ifndef KD_SERVER_HTTP_CLIENT_H
 #define KD_SERVER_HTTP_CLIENT_H
 

@@ -125,7 +125,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     return one;
 }
 
-/* Whoever asks for health in earnest has sent it all at once, and has been answered long ago. */
+/* Shuts down the oldest connection to the health routes. A client that asks for health in earnest has sent all at once, and
+ * has been answered long ago. */
 static void cut_oldest_health(struct kd_connections *all)
 {
     struct kd_connection *oldest = NULL;
@@ -140,7 +141,7 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Of the client of one, itself among them. handed_on: without those that have not said anything yet. */
+/* Counts the connections of the client of one, itself among them. handed_on: without those that have not said anything yet. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;

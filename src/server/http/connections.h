@@ -25,24 +25,23 @@ enum kd_stage {
     KD_STAGE_IDLE, /* kept alive between requests */
 };
 
-/* share: of the limit, what one client may have; where it is the limit, no client is refused for what it has. */
+/* share: how many of the limit one client may have; where it is the limit, no client is refused for what it has. */
 struct kd_connections *kd_connections_create(unsigned limit, unsigned share, unsigned header_ms, unsigned body_ms);
 void kd_connections_destroy(struct kd_connections *all);
 
-/* One that has been accepted. NULL when out of memory. */
+/* Enters a connection that has been accepted. NULL when out of memory. */
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client);
-/* It goes to a daemon of libmicrohttpd. health: to that of the health routes; it counts no longer, and where too many are open there
- * the oldest is shut down for it. KD_HANDED_ON, or it must be refused: as many as can be told why are there already, or with KD_OVER_SHARE as
- * many of its client as one may have. */
+/* Hands a connection on to a daemon of libmicrohttpd. health: to that of the health routes; the connection counts no longer,
+ * and where too many are open there the oldest is shut down for it. Unless the answer is KD_HANDED_ON it must be refused: as
+ * many as can be told why are there already, or with KD_OVER_SHARE as many of its client as one may have. */
 enum kd_handed { KD_HANDED_ON, KD_OVER_LIMIT, KD_OVER_SHARE };
 enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health);
-/* The one of an open socket, for the daemon it was handed to. */
+/* Finds the connection of an open socket, for the daemon it was handed to. */
 struct kd_connection *kd_connections_find(struct kd_connections *all, int socket);
 bool kd_connection_is_health(const struct kd_connection *one);
 void kd_connections_remove(struct kd_connections *all, struct kd_connection *one);
-/* Its client is still sending what will not be read. Closed at once, the socket would answer that with a
- * reset, and a reset makes the client lose the refusal it has not read yet; so it is emptied for a while
- * after removal. */
+/* Says that the client is still sending what will not be read. Closed at once, the socket would answer that with a reset, and
+ * a reset makes the client lose the refusal it has not read yet; so it is emptied for a while after removal. */
 void kd_connection_linger(struct kd_connection *one);
 int kd_connection_socket(const struct kd_connection *one);
 
@@ -58,13 +57,14 @@ void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_probl
 bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one);
 /* Whether more are open than can be told so: those that have not said anything yet must go. */
 bool kd_connections_full(struct kd_connections *all);
-/* The most that are handed to the daemon of what is not health, at a limit. */
+/* The most connections that are handed to the daemon of all other routes than health, at a limit. */
 unsigned kd_connections_most(unsigned limit);
 
 /* Shut down what is overdue, with a 408 where a request had begun; empty what lingers. One thread, often. */
 void kd_connections_sweep(struct kd_connections *all);
 
-/* On the way down: shut down those whose clients have not taken a byte for STALL_MS of what is on its way to them. One thread, often. */
+/* Called on the way down: shuts down those whose clients have not taken a byte for STALL_MS of what is on its way to them. One
+ * thread, often. */
 void kd_connections_cut_stalled(struct kd_connections *all);
 
 /* Whether the peer has closed, or half-closed, its end. The socket must be known to be open. */

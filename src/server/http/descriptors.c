@@ -9,7 +9,7 @@
 #define MOST 65536u  /* more is not asked for: each costs the kernel memory */
 #define RESERVE 200u /* the device, files of frames under way, those who linger or wait to say what they want, those who ask for health */
 
-/* Of so many connections: their sockets, and a file that each may be sent. */
+/* Whether descriptors are enough for so many connections: a socket each, and a file that it may be sent. */
 static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
 
 unsigned kd_descriptors_for(unsigned connections)

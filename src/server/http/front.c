@@ -108,7 +108,7 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Edges, because bytes that are only looked at would make a level stay high. */
+/* Watches for edges, because bytes that are only looked at would make a level stay high. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -116,7 +116,8 @@ static void watch(struct kd_front *front, struct guest *guest)
         send_away(front, guest);
 }
 
-/* Every descriptor is in use: who has waited longest without a word goes, else the one that has just come, with a reason. */
+/* Makes room when every descriptor is in use: the guest that has waited longest without a word goes, else the one that has
+ * just come, with a reason. */
 static void make_room(struct kd_front *front)
 {
     if (front->last) {
@@ -133,7 +134,7 @@ static void make_room(struct kd_front *front)
     kd_log(KD_LOG_WARN, "no descriptor is left for another connection");
 }
 
-/* False when nobody waits any more. */
+/* Accepts a connection; false when nobody waits any more. */
 static bool accept_one(struct kd_front *front)
 {
     struct sockaddr_storage address = { 0 };

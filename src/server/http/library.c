@@ -36,7 +36,7 @@ static const struct refusal {
     { 505, KD_PROBLEM_HTTP_VERSION, "the request line names another version of HTTP" },
 };
 
-/* NULL: the line tells of no refusal. */
+/* Finds the refusal that a line of the log tells of; NULL: it tells of none. */
 static const struct refusal *refusal_of(const char *line)
 {
     const char *says = strstr(line, SAYS_STATUS);

@@ -8,10 +8,10 @@
 
 #include <stdarg.h>
 
-/* The calling thread now works on the connection of this socket. In each callback of the library. */
+/* The calling thread now works on the connection of this socket. Called in each callback of the library. */
 void kd_library_works_on(int socket);
 
-/* For MHD_OPTION_EXTERNAL_LOGGER. connections: the struct kd_connections that the sockets are found in. */
+/* The function for MHD_OPTION_EXTERNAL_LOGGER. connections: the struct kd_connections that the sockets are found in. */
 void kd_library_log(void *connections, const char *format, va_list args);
 
 #endif

@@ -25,7 +25,8 @@ void kd_names_free(char **names)
     free(names);
 }
 
-/* "" for what no URL holds: another family, an address that means something on one interface only. */
+/* Writes an address as a URL has it; "" for what no URL holds: another family, an address that means something on one
+ * interface only. */
 static void text_of(const struct sockaddr *address, int family, char out[80])
 {
     char text[INET6_ADDRSTRLEN] = "";

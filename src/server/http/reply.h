@@ -13,13 +13,12 @@
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 /* The same for text, which goes as gzip where the client takes that and it pays. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* One with bytes that outlive it. */
+/* A response with bytes that outlive it. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
-/* One of a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has it, and 304 sends the
- * header alone. */
+/* A response with a file that outlives it, as gzip where the client takes that, with its ETag; *same: the client has it, and
+ * 304 sends the header alone. */
 struct MHD_Response *kd_reply_asset(struct kd_request *request, const struct kd_asset *asset, bool *same);
-/* One for HEAD and 304, where the length of what a GET would give is not known. Closes the
- * connection. */
+/* A response for HEAD and 304, where the length of what a GET would give is not known. Closes the connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 
 /* The name under which this request's answer is saved. A browser shows what is inline and saves what is an attachment. */
@@ -30,11 +29,12 @@ void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, 
 /* Queue the response and give up the reference; NULL: kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 
-/* 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first: without a request even. */
+/* Sends 503 where memory ran out for anything else: it takes none of ours. Closes the connection. The first function needs not
+ * even a request. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
-/* kd_problem_from, sent. */
+/* Sends what kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
 /* Whether kd_target_only holds; if not *refused is the answer. */
 bool kd_reply_only(struct kd_request *request, const char *const *known, enum MHD_Result *refused);

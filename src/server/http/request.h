@@ -20,16 +20,16 @@ struct kd_request {
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;
-    const char *method, *rest; /* rest: of the path, behind a route that ends in "/" */
+    const char *method, *rest; /* rest: the rest of the path, behind a route that ends in "/" */
     bool head, begun, body_announced, close;
     struct kd_buffer body;
-    size_t body_mark; /* how much of it there was when its time was last set */
+    size_t body_mark; /* bytes of it when its deadline was last set */
     const struct kd_format *format; /* that the picture asked for has; NULL: none is asked for, or it may have any */
-    struct kd_render_job *job; /* of a render under way; owned */
-    struct kd_orbits_job *orbits; /* of a request for orbits under way; held */
-    struct kd_particles_job *particles; /* of particles being listed; owned */
-    struct kd_task *task;      /* of what workers compute; owned */
-    struct kd_viewer *viewer;  /* of a request that waits for a session's next frame; owned */
+    struct kd_render_job *job; /* a render under way; owned */
+    struct kd_orbits_job *orbits; /* orbits under way; held */
+    struct kd_particles_job *particles; /* particles being listed; owned */
+    struct kd_task *task;      /* what workers compute; owned */
+    struct kd_viewer *viewer;  /* the wait for a session's next frame; owned */
     char etag[96];
     char file[96]; /* Content-Disposition of an answer of 200, by kd_reply_file */
     size_t reply_bytes; /* of a large reply, for its deadline */

@@ -39,7 +39,7 @@ struct kd_route {
     enum kd_takes takes;
     enum kd_gives gives;
     const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
-    unsigned status[2]; /* of an answer that is none of a problem; { 0 }: 200; what DELETE ends is 204 */
+    unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
 };
 
 /* The table: server/routes.c. */
@@ -50,7 +50,7 @@ extern const size_t kd_n_routes;
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 /* Whether a raw target is one that is answered whatever else is the matter: /healthz, /readyz, /metrics. */
 bool kd_route_is_health(const char *raw);
-/* The same of the first n bytes of a connection, which may end too early to say it. */
+/* Says the same of the first n bytes of a connection, which may end too early to tell. */
 enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
 enum kd_begins kd_route_begins(const char *bytes, size_t n);
 

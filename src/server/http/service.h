@@ -17,13 +17,13 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* of one request, bytes; those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
-#define KD_BODIES_MAX ((size_t)192 << 20)  /* of all requests being received, */
-#define KD_BODIES_SHARE ((size_t)128 << 20) /* of those of one client: it leaves room for the largest one of another, */
-#define KD_BODIES_SMALL ((size_t)16 << 20) /* and beside all these, of bodies of up to KD_BODY_MAX */
-#define KD_REPLIES_MAX (512u << 20) /* answers not yet taken by their clients, of which one may exceed it, */
-#define KD_REPLIES_RESERVE ((size_t)64 << 20) /* and beside these some more ... */
-#define KD_REPLIES_SMALL ((size_t)4 << 20)    /* ... of up to so much */
+#define KD_BODY_MAX KD_SCENE_JSON_MAX      /* bytes of one request; of those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
+#define KD_BODIES_MAX ((size_t)192 << 20)  /* bytes of all requests being received */
+#define KD_BODIES_SHARE ((size_t)128 << 20) /* bytes of those of one client, which leaves room for the largest one of another */
+#define KD_BODIES_SMALL ((size_t)16 << 20) /* bytes beside all these, for bodies of up to KD_BODY_MAX */
+#define KD_REPLIES_MAX (512u << 20) /* bytes of answers that clients have not taken yet; a single answer may exceed it */
+#define KD_REPLIES_RESERVE ((size_t)64 << 20) /* bytes beside these, ... */
+#define KD_REPLIES_SMALL ((size_t)4 << 20)    /* ... for answers of up to so many */
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
 #define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Who may not be served for a while, for want of memory say, falls behind; so far at most may it draw level again at a stretch. */
+/* A client that cannot be served for a while, for want of memory say, falls behind; it may make up so much of that at a
+ * stretch. */
 #define CREDIT_MS 200.0
 
 static const double weights[] = {
@@ -21,8 +22,8 @@ static unsigned hash(const char *name)
     return h;
 }
 
-/* The client's own place; else that of one who has nothing here, of those the one whose payments are longest forgotten; else, where
- * there are too many, one that it shares with others. */
+/* Finds the client's own place; else that of a client that has nothing here, the one whose payments are longest forgotten;
+ * else, where there are too many clients, a place that it shares with others. */
 static struct kd_share_client *place_of(struct kd_shares *shares, const char *name)
 {
     struct kd_share_client *free = NULL;
@@ -69,7 +70,7 @@ void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
     claim->owner->claims--;
 }
 
-/* What counts as paid by one who may have fallen behind the one that was served last. */
+/* What counts as paid by a client that may have fallen behind the one that was served last. */
 static double standing(double paid, double now) { return fmax(paid, now - CREDIT_MS); }
 
 static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *), void *user)
@@ -109,7 +110,7 @@ struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const stru
     return best;
 }
 
-/* Its standing when it was served is what those who come are given; then it pays. */
+/* Makes the standing of the one that is served that of newcomers; then it pays. */
 static void pay(double *paid, double *now, double ms)
 {
     *paid = standing(*paid, *now);

@@ -23,8 +23,8 @@
 #define KD_CLIENT 48         /* room for the name of a client */
 #define KD_SHARE_CLIENTS 64u /* told apart at once; more of them share places */
 
-/* Of work, with their weights inside a client: two living sessions leave a picture of the same client a third, and a job beside
- * both has a thirteenth. */
+/* The classes of work with their weights inside a client: two living sessions leave a picture of the same client a third, and
+ * a job beside both has a thirteenth. */
 #define KD_CLASSES(X) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(REFINEMENT, 2) X(JOB, 1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
@@ -33,7 +33,7 @@ enum kd_class {
     KD_N_CLASSES
 };
 
-/* One who waits, or is being served; embedded in the work. */
+/* A work that waits, or is being served; embedded in its struct. */
 struct kd_claim {
     /* set before kd_shares_add */
     char client[KD_CLIENT];
@@ -64,11 +64,11 @@ struct kd_shares { /* all 0 to begin with */
 void kd_shares_add(struct kd_shares *shares, struct kd_claim *claim);
 void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim);
 
-/* The next to be served among those that `may`; NULL: there is none. It is only looked up: another call says the same, until
- * something is added, removed or charged. */
+/* Finds the next to be served among those that `may`; NULL: there is none. It is only looked up: another call says the same,
+ * until something is added, removed or charged. */
 struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user), void *user);
 
-/* A claim of these has been served for so long. */
+/* Says that a claim has been served for so long. */
 void kd_shares_charge(struct kd_shares *shares, struct kd_claim *claim, double ms);
 
 #endif

@@ -25,13 +25,13 @@ struct kd_target {
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
 void kd_target_finish(struct kd_target *target);
 
-/* KD_EINVAL: the query gives one twice. */
+/* Checks that the query gives no parameter twice; else KD_EINVAL. */
 enum kd_status kd_target_distinct(const struct kd_target *target, struct kd_error *error);
-/* KD_EINVAL: that, or it gives one that is not among the known, which end with a NULL, and is no token either. */
+/* Checks that as well, and that each parameter is among the known, which end with a NULL, or is the token; else KD_EINVAL. */
 enum kd_status kd_target_only(const struct kd_target *target, const char *const *known, struct kd_error *error);
 /* A parameter of the query, NULL: it is not given. */
 const char *kd_target_value(const struct kd_target *target, const char *name);
-/* Decimal digits alone; false: not so, or above most. */
+/* Reads a number of decimal digits alone; false: it is not so, or above most. */
 bool kd_target_number(const char *text, uint64_t most, uint64_t *out);
 /* A parameter as such a number, or what holds without it; false: it is not one, or above most. */
 bool kd_target_whole(const struct kd_target *target, const char *name, uint64_t otherwise, uint64_t most, uint64_t *out);

@@ -85,7 +85,7 @@ static void let_go(struct kd_turns *turns, struct kd_turns_job *job)
     turns->n_accepted--;
 }
 
-/* Locked on entry and exit; the job is the first in the list. */
+/* Takes a turn of the first job in the list. Locked on entry and exit. */
 static void give_turn(struct kd_turns *turns, struct kd_turns_job *job)
 {
     take_out(turns, job);

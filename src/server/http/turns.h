@@ -30,7 +30,7 @@ struct kd_turns;
 
 /* limit: unfinished jobs; share: of these, those of one client. */
 enum kd_status kd_turns_create(unsigned limit, unsigned share, struct kd_turns **out, struct kd_error *error);
-/* Nothing may be unfinished. Accepts NULL. */
+/* No job may be unfinished. Accepts NULL. */
 void kd_turns_destroy(struct kd_turns *turns);
 
 /* Whether one more of this client fits: KD_OK, or KD_EBUSY, with *quota where others would still be let in. The submitting thread. */
@@ -40,8 +40,7 @@ void kd_turns_push(struct kd_turns *turns, struct kd_turns_job *job);
 void kd_turns_wake(struct kd_turns *turns, struct kd_turns_job *job);
 unsigned kd_turns_unfinished(struct kd_turns *turns);
 
-/* From now on kd_turns_cancelled holds, which jobs look at in their turns, and nothing stays parked but what is away. Any
- * thread. */
+/* Makes kd_turns_cancelled true, which jobs look at in their turns; nothing stays parked then but what is away. Any thread. */
 void kd_turns_cancel(struct kd_turns *turns);
 bool kd_turns_cancelled(struct kd_turns *turns);
 

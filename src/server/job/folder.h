@@ -1,4 +1,4 @@
-/* What a job's files are called, and taking them away: these and no others, and through no link. Private to store.c.
+/* This names a job's files, and removes these and no others, through no link. Private to store.c.
  *
  * A folder of jobs holds one folder a job, named by its id, and `lock`. While a job is being written its folder is called ID.new. */
 #ifndef KD_SERVER_JOB_FOLDER_H
@@ -22,7 +22,7 @@ int kd_job_folder_open(int jobs, const char *name);
  * a job's. True when there is nothing left that may be removed. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
-/* All jobs in a folder, and then its lock. */
+/* Removes all jobs in a folder, and then its lock. */
 void kd_job_folder_empty(int jobs);
 
 #endif

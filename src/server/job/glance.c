@@ -1,4 +1,4 @@
-/* The frame of a job that is being rendered, as far as it has come, for who asks. */
+/* This file makes pictures of a job's frame while it is rendered, as far as it has come, for clients that ask. */
 #include "image/png.h"
 #include "base/clock.h"
 #include "server/job/internal.h"
@@ -20,7 +20,7 @@ static bool wanted(void *user)
     return yes;
 }
 
-/* An unfinished picture says that it is one. */
+/* Keeps an unfinished picture, which says that it is one. */
 static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
     unsigned number;

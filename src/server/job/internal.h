@@ -6,14 +6,16 @@
 
 #include <pthread.h>
 
-struct kd_job_render; /* one on its way through the render queue */
+struct kd_job_render; /* a frame on its way through the render queue */
 
-/* What can be seen of it, glance.c. */
+/* The part of a frame that can be seen so far (glance.c). */
 struct kd_job_glance {
     struct kd_buffer png;
     unsigned frame;
     uint32_t rows, height;
-    double until_ms, due_ms, began_ms; /* it is wanted until; not before; the last one was begun */
+    double until_ms; /* until when it is wanted, on kd_clock_ms as the others */
+    double due_ms;   /* before which none is made */
+    double began_ms; /* when the last one was begun */
 };
 
 struct kd_job {
@@ -56,15 +58,15 @@ struct kd_jobs {
     bool closed;
 };
 
-/* All with all->lock held where nothing else is said. */
+/* These are called with all->lock held where nothing else is said. */
 
 double kd_job_now_s(void); /* since 1970 */
 
-/* Being rendered, or waiting for it. */
+/* Whether a job is being rendered, or waits for it. */
 static inline bool kd_job_is_active(const struct kd_job *job) { return job->listed && job->record.state == KD_JOB_ACTIVE; }
 void kd_job_write(struct kd_job *job); /* its record, to disk */
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
-/* Something has run out that may be there again later: its next frame waits, each time for longer. */
+/* Makes a job wait, each time for longer, because something has run out that may be there again later. */
 void kd_job_delay(struct kd_job *job, const char *why);
 /* Takes the job off the list, whose reference is then the caller's; its files go with the last one. */
 void kd_job_unlist(struct kd_job *job);
@@ -75,10 +77,10 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
 /* run.c: hand the next frame to the render queue if it is time for one. */
 void kd_jobs_pump(struct kd_jobs *all);
-/* Of a frame, by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
+/* Finds the job of a frame by what its render job hands to kd_job_glance; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_glance kd_job_glance;
-/* The frame of this job that is being rendered, if there is one, is wanted no more; job NULL: of any. */
+/* Drops the frame of this job that is being rendered, if there is one; job NULL: of any job. */
 void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
 
 #endif

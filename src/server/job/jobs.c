@@ -19,7 +19,7 @@ double kd_job_now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Under the lock too: a few times a job, some milliseconds each. */
+/* Writes a job's record, under the lock as well: a few times a job, some milliseconds each. */
 void kd_job_write(struct kd_job *job)
 {
     struct kd_error error;
@@ -27,7 +27,7 @@ void kd_job_write(struct kd_job *job)
         kd_log(KD_LOG_ERROR, "job %.4s...: %s", job->record.id, error.message);
 }
 
-/* Their places have changed. */
+/* Gives every job a new revision, since their places have changed. */
 static void move_up(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)
@@ -156,7 +156,7 @@ static double age_ms(const struct kd_jobs *all, const struct kd_job_record *reco
     return 1e3 * fmin(fmax(s, 0), most);
 }
 
-/* It may be what has ended the servers, so others go first (kd_job_store_load), and it waits. It is never given up for that. */
+/* Makes a job wait that may be what has ended the servers; others go first (kd_job_store_load). It is never given up for that. */
 static void wait_after_strikes(struct kd_job *job)
 {
     unsigned n = job->record.attempts;
@@ -167,7 +167,7 @@ static void wait_after_strikes(struct kd_job *job)
     kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
 }
 
-/* One that the store knows. */
+/* Goes on with a job that the store knows. */
 static void resume(void *user, const struct kd_job_record *known, struct kd_buffer *request)
 {
     struct kd_jobs *all = user;
@@ -378,7 +378,7 @@ static bool is_next(const struct kd_job *job)
     return other == job;
 }
 
-/* Locked. NAN: it cannot be said. */
+/* Estimates what is left of a job; NAN: it cannot be said. Called locked. */
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - job->finished - job->fraction;

@@ -30,9 +30,9 @@ struct kd_jobs_params {
     uint64_t bytes;             /* of the frames of all jobs */
     double keep_s;              /* that a finished job stays */
 };
-/* With a state folder: goes on with what it holds. params->state need not live on. */
+/* Creates the jobs; with a state folder it goes on with what that holds. params->state need not live on. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);
-/* After kd_jobs_close, and when the render queue has finished. Accepts NULL. */
+/* Called after kd_jobs_close, and when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
 
 /* A job that is asked for: what kd_job_spec_parse makes of the request, and how far its frames have been looked at. One thread at a
@@ -43,10 +43,10 @@ struct kd_job_draft {
     double ms;        /* that they take, by their plans */
     char preset[32];  /* as the spec was parsed with */
 };
-/* Further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
+/* Checks further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
-/* A checked draft, from whose spec it takes what it needs, to a job, of which the caller holds a reference. text: the request;
- * client: its address. KD_EBUSY: as many as may, or with *quota as many of this client. */
+/* Makes a job, of which the caller holds a reference, from a checked draft, from whose spec it takes what it needs. text: the
+ * request; client: its address. KD_EBUSY: there are as many jobs as there may be, or with *quota as many of this client. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
                             bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* a reference, or NULL */
@@ -71,20 +71,20 @@ struct kd_job_status {
 void kd_job_status(struct kd_job *job, struct kd_job_status *out);
 
 struct kd_jobs_counts;
-/* False, and nothing is known, where that takes more than a moment. */
+/* Counts the jobs; false, with nothing known, where that takes more than a moment. */
 bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
-/* As kd_job_store_get. */
+/* Opens a finished frame as kd_job_store_get does. */
 int kd_job_frame(struct kd_job *job, unsigned frame, uint64_t *size);
-/* What there is to see of a job of pictures, which asks for more of it to come: of the frame under way `png`, drawn down to some row,
- * else the last frame that is finished. False: nothing yet. */
+/* Gives what there is to see of a job of pictures, and asks for more of it to come: the frame under way as `png`, drawn down
+ * to some row, else the last frame that is finished. False: nothing yet. */
 struct kd_job_sight {
     unsigned frame;
     bool finished;         /* it is in its file: kd_job_frame */
-    uint32_t rows, height; /* of one under way: drawn, of so many */
+    uint32_t rows, height; /* of a frame under way: rows drawn, and all rows */
 };
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
-/* Nobody finds it any more; its files go with the last reference. */
+/* Deletes a job: it is found no more, and its files go with the last reference. */
 void kd_job_delete(struct kd_job *job);
 
 /* A stream that follows a job. */
@@ -109,7 +109,8 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *watcher);
 
 /* Wake who waits; delete what has been kept long enough. One thread, ten times a second. */
 void kd_jobs_sweep(struct kd_jobs *all);
-/* No new jobs or frames; the running frame is dropped, and rendered again after a restart. All who watch are told that it is over. */
+/* Stops taking jobs and beginning frames. The running frame is dropped, and rendered again after a restart; all watchers are
+ * told that it is over. */
 void kd_jobs_close(struct kd_jobs *all);
 
 #endif

@@ -201,7 +201,7 @@ static enum MHD_Result bad(struct kd_request *request, struct kd_job *job, const
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
 }
 
-/* As a viewer asks again and again. */
+/* Answers with a job's preview; a viewer asks for it again and again. */
 enum MHD_Result kd_handle_job_preview(struct kd_request *request)
 {
     enum MHD_Result refused;

@@ -51,7 +51,7 @@ static void give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
-/* Hand over the next frame of a job. False: there was none. */
+/* Hands over the next frame of a job. False: there was none. */
 static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;

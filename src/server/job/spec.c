@@ -26,7 +26,7 @@ static enum kd_status not_a(struct reader *r, const cJSON *item, const char *poi
     return kd_error_field(r->error, pointer, "%s is %s, allowed is %s", *pointer ? pointer + 1 : "the document", given, allowed);
 }
 
-/* Each known member once. */
+/* A member that is known, and may be given once. */
 struct member {
     const char *name;
     const cJSON **to;
@@ -65,7 +65,7 @@ static enum kd_status whole(struct reader *r, const cJSON *item, const char *poi
     return KD_OK;
 }
 
-/* What is said of a scene, to be said of the request. */
+/* Turns an error about a scene into one about the request. */
 static enum kd_status inside(struct reader *r, enum kd_status status, const char *pointer)
 {
     char joined[2 * sizeof r->error->pointer];

@@ -23,13 +23,14 @@
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
-    char *parent, *name; /* of a temporary one, in TMPDIR */
+    char *parent, *name; /* of a temporary store, in TMPDIR */
     int folder, lock;
 };
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* For a client: no path. The log has it. What may go away by itself is no KD_EIO: KD_EFULL, KD_ENOMEM. */
+/* Makes an error for a client, without a path, which the log has. Failures that may go away by themselves are KD_EFULL and
+ * KD_ENOMEM, not KD_EIO. */
 static enum kd_status failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
@@ -255,7 +256,7 @@ struct found {
 
 enum fate { KEPT, GONE, ASIDE };
 
-/* A document of ours that this version can read? why: else. */
+/* Reads a record of this version; false, with the reason in why, if it is none. */
 static bool parse_record(const struct kd_buffer *text, const char *id, struct kd_job_record *out, const char **why)
 {
     cJSON *o = cJSON_ParseWithLength((const char *)text->data, text->size);
@@ -313,7 +314,7 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
     return fate == KEPT;
 }
 
-/* Those with which servers have ended go last. */
+/* Orders records: those with which servers have ended go last. */
 static int by_age(const void *a, const void *b)
 {
     const struct kd_job_record *x = &((const struct found *)a)->record, *y = &((const struct found *)b)->record;

@@ -20,10 +20,10 @@ struct kd_job_record {
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 until then */
     unsigned attempts;     /* times a server has gone on with it since its latest frame and ended otherwise than by being told to */
-    unsigned frames;       /* of the request; 0 in records of versions that did not say */
+    unsigned frames;       /* that the request asks for; 0 in records of versions that did not say */
     const struct kd_series *series; /* that they make */
     char preset[32];       /* that its scenes are merged over; "": none */
-    char error[480];       /* of a failed one */
+    char error[480];       /* of a failed job */
 };
 
 struct kd_job_store;
@@ -43,7 +43,8 @@ enum kd_status kd_job_store_load(struct kd_job_store *store,
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request, size_t size,
                                    struct kd_error *error);
 enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record, struct kd_error *error);
-/* From now on a restart does not know it; kd_job_store_remove then takes its files, at most so many, and says whether all are gone. */
+/* Makes a job unknown after a restart; kd_job_store_remove then removes its files, at most so many, and says whether all are
+ * gone. */
 void kd_job_store_forget(struct kd_job_store *store, const char *id);
 bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned most);
 

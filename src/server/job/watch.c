@@ -30,7 +30,7 @@ void kd_job_unwatch(struct kd_job_watcher *watcher)
     kd_job_release(job);
 }
 
-/* Locked. */
+/* Says what has become of what a watcher waits for. Called locked. */
 static enum kd_job_news news(const struct kd_job_watcher *w, double now)
 {
     const struct kd_job *job = w->job;

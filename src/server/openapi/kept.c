@@ -13,7 +13,7 @@
 #include <string.h>
 
 struct document {
-    struct kd_asset asset; /* of what follows */
+    struct kd_asset asset; /* points into what follows */
     char path[80], etags[2][24];
     struct kd_buffer plain, gzip;
 };

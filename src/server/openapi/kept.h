@@ -10,7 +10,7 @@ struct kd_kept;
 
 enum kd_status kd_kept_create(struct kd_kept **out, struct kd_error *error);
 void kd_kept_destroy(struct kd_kept *kept); /* accepts NULL */
-/* By the path of its route, "/v1/presets/gargantua"; NULL: there is none. */
+/* Finds a document by the path of its route, "/v1/presets/gargantua"; NULL: there is none. */
 const struct kd_asset *kd_kept_find(const struct kd_kept *kept, const char *path);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* What is known of a body by its media type alone. */
+/* Gives the schema of a body that is known by its media type alone. */
 static inline const char *kd_openapi_schema_of(const char *type)
 {
     if (strstr(type, "json") && !strstr(type, "ndjson"))
@@ -16,7 +16,7 @@ static inline const char *kd_openapi_schema_of(const char *type)
     return text ? "{\"type\":\"string\"}" : "{\"type\":\"string\",\"format\":\"binary\"}";
 }
 
-/* A member of a "content": schema is JSON text; size 0: no more is said than the media type does. */
+/* Writes a member of a "content". schema is JSON text; with size 0 the media type alone says what it is. */
 static inline void kd_openapi_media(struct kd_json *json, const char *type, const char *schema, size_t size)
 {
     const char *plain = kd_openapi_schema_of(type);

@@ -97,7 +97,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
 
-/* What the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
+/* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
 static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },

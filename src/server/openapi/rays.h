@@ -4,7 +4,7 @@
 
 #include "base/json.h"
 
-/* Appended to the operation's list: what goes with an array. */
+/* Appends to the operation's list the parameters that go with an array. */
 void kd_openapi_rays_parameters(struct kd_json *json);
 /* The operation's requestBody; what belongs into the content of its answer. */
 void kd_openapi_rays_body(struct kd_json *json);
