@@ -1,5 +1,6 @@
 /* Frames on the device: what must not change the picture (bands, slices, the cache), what must change it, limits, cancelling. */
 #include "render/render.h"
+#include "render/view/critical_pixels.h"
 
 #include "render_support.h"
 
@@ -83,6 +84,25 @@ static void test_reuse(void **state)
         assert_false(first.lens_reused);
         kd_frame_finish(&first);
     }
+}
+
+/* The critical curve is followed once for a picture, its plan included, and not again while the camera stays. */
+static void test_the_curve_is_followed_once(void **state)
+{
+    (void)state;
+    struct kd_scene scene = small_scene();
+    scene.camera.inclination_deg = 62.75; /* nobody has asked for this one before */
+    uint64_t before = kd_critical_pixels_made();
+    struct kd_frame frame = render(&scene);
+    assert_false(frame.lens_reused);
+    kd_frame_finish(&frame);
+    assert_int_equal(kd_critical_pixels_made() - before, 1);
+    scene.disk.peak_temperature_k = 12000;
+    scene.accuracy.steps = 24; /* another lens map */
+    frame = render(&scene);
+    assert_false(frame.lens_reused);
+    kd_frame_finish(&frame);
+    assert_int_equal(kd_critical_pixels_made() - before, 1);
 }
 
 /* Many bands, with and without a cache, give the bytes of one. Both kernels, supersampled, 16 bits, an odd width. */
@@ -441,7 +461,7 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_reuse),    cmocka_unit_test(test_the_curve_is_followed_once), cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
         cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
         cmocka_unit_test(test_glances), cmocka_unit_test(test_asides), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
     };

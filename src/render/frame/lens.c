@@ -2,6 +2,7 @@
 #include "render/frame/job.h"
 
 #include "render/view/camera.h"
+#include "render/view/critical_kept.h"
 #include "render/lens/listed.h"
 #include "base/clock.h"
 
@@ -271,7 +272,7 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double
     enum kd_status status = KD_OK;
     if (needed) {
         kd_critical_pixels_finish(&j->lens->pixels);
-        status = kd_critical_pixels_of(j->scene, &j->lens->pixels, j->error);
+        status = kd_critical_kept(j->scene, &j->lens->pixels, j->error);
     }
     for (uint32_t k = 0; k < kd_plan_critical_parts(p) && !status; k++) {
         struct part part = part_of(j, k);

@@ -4,7 +4,7 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "render/accuracy/table.h"
-#include "render/view/critical_pixels.h"
+#include "render/view/critical_kept.h"
 #include "render/emit/plunging.h"
 #include "render/emit/sky_noise.h"
 #include "render/plan/photometry.h"
@@ -240,7 +240,7 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
         side = KD_CRITICAL_SIDE;
     if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->sky)) /* the direct image is nowhere thin */
         return KD_OK;
-    enum kd_status status = kd_critical_pixels_of(scene, &list, error);
+    enum kd_status status = kd_critical_kept(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
     kd_critical_pixels_finish(&list);
     if (status || !n)

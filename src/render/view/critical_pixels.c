@@ -4,6 +4,7 @@
 #include "render/view/camera.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 enum { DEEPEST = 14, PIECES = 16, TILE = 64 };
@@ -156,6 +157,10 @@ static enum kd_status mark_and_list(struct work *w, struct kd_critical_pixels *o
     return good ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the pixels at the critical curve of %u x %u", w->width, w->height);
 }
 
+static _Atomic uint64_t made;
+
+uint64_t kd_critical_pixels_made(void) { return atomic_load(&made); }
+
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
 {
     const struct kd_scene camera = kd_critical_camera(scene, 1);
@@ -166,6 +171,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
         .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,
         .frame = scene->camera.observer == KD_OBSERVER_ZAMO ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC,
     };
+    atomic_fetch_add(&made, 1);
     *out = (struct kd_critical_pixels) { 0 };
     w.curve = kd_critical_of(&observer);
     if (w.curve.status) /* not of a valid scene */

@@ -24,6 +24,7 @@ struct kd_critical_pixels {
 
 /* Of a picture of a valid scene, plane or pinhole. KD_ENOMEM. */
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error);
+uint64_t kd_critical_pixels_made(void); /* lists, by this process so far: tests ask */
 void kd_critical_pixels_finish(struct kd_critical_pixels *pixels);
 
 /* How many pixels of the list are above row y. */

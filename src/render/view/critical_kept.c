@@ -1,0 +1,107 @@
+#include "render/view/critical_kept.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the list depends on. The azimuth of the camera is no part of it: nothing is where the hole is but the hole. */
+struct key {
+    struct kd_spacetime spacetime;
+    struct kd_camera camera;
+    int32_t width, height;
+};
+
+static struct kept {
+    struct key key;
+    struct kd_critical_pixels list; /* an empty one too is kept: pixels NULL */
+    uint64_t used;                  /* the larger, the later; 0: there is none here */
+} all[KD_CRITICAL_KEPT];
+static uint64_t now;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all that is above */
+
+static struct key key_of(const struct kd_scene *scene)
+{
+    struct key key;
+    memset(&key, 0, sizeof key); /* it is compared byte by byte */
+    key.spacetime = scene->spacetime;
+    key.camera = scene->camera;
+    key.camera.azimuth_deg = 0;
+    key.width = scene->image.width;
+    key.height = scene->image.height;
+    return key;
+}
+
+static enum kd_status copy(const struct kd_critical_pixels *from, struct kd_critical_pixels *to)
+{
+    *to = (struct kd_critical_pixels) { 0 };
+    if (!from->n)
+        return KD_OK;
+    if (!(to->pixels = malloc(from->n * sizeof *to->pixels)))
+        return KD_ENOMEM;
+    memcpy(to->pixels, from->pixels, from->n * sizeof *to->pixels);
+    to->n = from->n;
+    return KD_OK;
+}
+
+/* Locked, as the next three. NULL: it is not kept. */
+static struct kept *find(const struct key *key)
+{
+    for (size_t i = 0; i < KD_CRITICAL_KEPT; i++)
+        if (all[i].used && !memcmp(&all[i].key, key, sizeof *key))
+            return &all[i];
+    return NULL;
+}
+
+static void drop(struct kept *kept)
+{
+    kd_critical_pixels_finish(&kept->list);
+    kept->used = 0;
+}
+
+/* The place of the list that was used longest ago, after others have made room for one of n pixels. */
+static struct kept *place_for(size_t n)
+{
+    for (;;) {
+        struct kept *oldest = NULL, *place = NULL;
+        size_t bytes = n * sizeof(struct kd_pixel);
+        for (size_t i = 0; i < KD_CRITICAL_KEPT; i++) {
+            bytes += all[i].list.n * sizeof(struct kd_pixel);
+            if (!all[i].used)
+                place = &all[i];
+            else if (!oldest || all[i].used < oldest->used)
+                oldest = &all[i];
+        }
+        if (place && bytes <= KD_CRITICAL_KEPT_BYTES)
+            return place;
+        drop(oldest);
+    }
+}
+
+static void keep(const struct key *key, const struct kd_critical_pixels *list)
+{
+    struct kd_critical_pixels own;
+    if (list->n > KD_CRITICAL_KEPT_BYTES / sizeof(struct kd_pixel) || find(key) || copy(list, &own))
+        return; /* too long, or made by two at once, or without memory: it can be made again */
+    struct kept *place = place_for(own.n);
+    *place = (struct kept) { .key = *key, .list = own, .used = ++now };
+}
+
+enum kd_status kd_critical_kept(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error)
+{
+    const struct key key = key_of(scene);
+    pthread_mutex_lock(&lock);
+    struct kept *kept = find(&key);
+    bool found = kept && !copy(&kept->list, out);
+    if (found)
+        kept->used = ++now;
+    pthread_mutex_unlock(&lock);
+    if (found)
+        return KD_OK;
+    enum kd_status status = kd_critical_pixels_of(scene, out, error);
+    if (status)
+        return status;
+    pthread_mutex_lock(&lock);
+    keep(&key, out);
+    pthread_mutex_unlock(&lock);
+    return KD_OK;
+}
