@@ -20,6 +20,9 @@ struct method { const char *name, *what; struct kd_needs needs; int orders, step
 static const struct method methods[] = {
     { "closed form", "r of 3 crossings", { .disk = true }, 3, 0 },
     { "closed form", "r of 1 crossing", { .disk = true }, 1, 0 },
+    { "closed form", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 0 },
+    { "closed form", "r of 3, sky, fate", { .disk = true, .sky = true }, 3, 0 },
+    { "closed form", "r, phi, sky, fate", { .disk = true, .phi = true, .sky = true }, 3, 0 },
     { "RKN6, 4 steps", "r of 3 crossings", { .disk = true }, 3, 4 },
     { "RKN6, 8 steps", "r of 3 crossings", { .disk = true }, 3, 8 },
     { "RKN6, 12 steps", "r of 3 crossings", { .disk = true }, 3, 12 },

@@ -14,6 +14,9 @@
 struct kd_azimuth {
     float first;  /* psi from the observer to the first crossing */
     float half_;  /* from each crossing to the next */
+    float f0, f1, f2, f3, f4; /* the cosine series */
+    float b, root_c, side;    /* b, sqrt(c), the sign of L */
+    bool uneven;              /* the series does not do */
 };
 
 /* 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
@@ -41,38 +44,48 @@ float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
     return m.momentum * m.energy2 / c * sum * h * (2.0 / 45.0);
 }
 
+/* This is psi from a point of the path to the crossing of the plane less than a half period away, by the series. (cx, sx) is
+ * (cos x, sin x) there, times any number; the angle of (tx, ty) is pi/2 - atan(tan x / sqrt(1 - U+)). */
+float kd_azimuth_part(kd_azimuth o, float cx, float sx, float tx, float ty)
+{
+    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and no more */
+    float sin2 = 2.0 * sx * cx * n, cos2 = (cx * cx - sx * sx) * n, cos4 = 2.0 * cos2 * cos2 - 1.0;
+    float wave = sin2 * (0.5 * o.f1 + cos2 * (0.5 * o.f2 + cos4 * 0.5 * o.f4) +
+                        o.f3 * (0.5 - (2.0 / 3.0) * sin2 * sin2));
+    return o.side * kd_angle_upper(tx, ty) + (o.f0 * kd_angle_upper(sx, cx) - wave);
+}
+
 kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, float s)
 {
     kd_azimuth o;
     float dp = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
     float root = sqrt(polar.b + m.energy2 * u * u);
     float cx = abs(u), sx = -(s * dp) / root;
-    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer may be 1e-16 from the plane, and no more */
     float c = polar.b + m.energy2, sc = sqrt(c);
-    float eu = m.energy2 / n; /* e U+ */
+    float eu = m.energy2 * (cx * cx + sx * sx); /* e U+ */
     /* At x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends count half. */
     float j0 = 0.5 * kd_azimuth_rate(polar.b + eu, sc), j4 = 0.5 * kd_azimuth_rate(polar.b, sc);
     float j1 = kd_azimuth_rate(polar.b + 0.853553391 * eu, sc);
     float j2 = kd_azimuth_rate(polar.b + 0.5 * eu, sc);
     float j3 = kd_azimuth_rate(polar.b + 0.146446609 * eu, sc);
     float le = 0.25 * m.momentum * m.energy2 / sc, tilt = 0.707106781 * (j1 - j3);
-    float f0 = le * (j0 + j1 + j2 + j3 + j4);
-    float f1 = le * 2.0 * (j0 - j4 + tilt);
-    float f2 = le * 2.0 * (j0 - j2 + j4);
-    float f3 = le * 2.0 * (j0 - j4 - tilt);
-    float f4 = le * (j0 - j1 + j2 - j3 + j4);
-    float sin2 = 2.0 * sx * cx * n, cos2 = (cx * cx - sx * sx) * n, cos4 = 2.0 * cos2 * cos2 - 1.0;
-    float wave = sin2 * (0.5 * f1 + cos2 * (0.5 * f2 + cos4 * 0.5 * f4) +
-                        f3 * (0.5 - (2.0 / 3.0) * sin2 * sin2));
-    float side = ray.l < 0.0 ? -1.0 : 1.0;
+    o.f0 = le * (j0 + j1 + j2 + j3 + j4);
+    o.f1 = le * 2.0 * (j0 - j4 + tilt);
+    o.f2 = le * 2.0 * (j0 - j2 + j4);
+    o.f3 = le * 2.0 * (j0 - j4 - tilt);
+    o.f4 = le * (j0 - j1 + j2 - j3 + j4);
+    o.b = polar.b;
+    o.root_c = sc;
+    o.side = ray.l < 0.0 ? -1.0 : 1.0;
+    o.uneven = polar.b < 0.85 * (polar.b + eu); /* (p - q)/(p + q) above 0.04: the fifth term above 1e-7 */
     /* tan x / sqrt(1 - U+) at the observer, free of the sine of the polar angle that both sides share: exact on the axis. */
-    float first = f0 * kd_angle_upper(sx, cx) - wave, half_ = KD_PI * f0;
-    if (polar.b < 0.85 * (polar.b + eu)) { /* (p - q)/(p + q) above 0.04: the fifth term above 1e-7 */
-        first = kd_azimuth_smooth(m, polar.b, u, s * ray.p, polar.first);
-        half_ = kd_azimuth_smooth(m, polar.b, 0.0, sqrt(max(m.q, 0.0)), polar.half_);
+    float tx = -dp / root, ty = cx * abs(ray.l) / sc;
+    o.first = kd_azimuth_part(o, cx, sx, tx, ty);
+    o.half_ = KD_PI * (o.side + o.f0);
+    if (o.uneven) {
+        o.first = o.side * kd_angle_upper(tx, ty) + kd_azimuth_smooth(m, polar.b, u, s * ray.p, polar.first);
+        o.half_ = KD_PI * o.side + kd_azimuth_smooth(m, polar.b, 0.0, sqrt(max(m.q, 0.0)), polar.half_);
     }
-    o.first = side * kd_angle_upper(-dp / root, cx * abs(ray.l) / sc) + first;
-    o.half_ = KD_PI * side + half_;
     return o;
 }
 

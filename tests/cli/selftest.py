@@ -20,7 +20,7 @@ class Selftest(Case):
         self.assertEqual(int(summary[1]), len(rows))
         print(lines[-1])
         for words in ("3 sqrt 3", "ISCO", "deflection", "delay", "brightness", "sRGB", "frame in bands", "mino-rkn6 f32",
-                      "lens_radius"):
+                      "lens_closed"):
             self.assertTrue(any(words in line for line in lines), words)
 
     def test_json(self):

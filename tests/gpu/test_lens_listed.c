@@ -114,7 +114,7 @@ static void test_engines_agree(void **state)
         struct kd_scene scene = scene_of(v);
         scene.accuracy.profile = KD_PROFILE_HIGH;
         struct lens single = trace(&scene);
-        assert_int_equal(single.plan.path, KD_LENS_MAP);
+        assert_int_equal(single.plan.path, isinf(views[v].r) ? KD_LENS_CLOSED : KD_LENS_MAP);
         for (size_t k = 0; k < sizeof engines / sizeof *engines; k++) {
             char what[120];
             bool wide = engines[k].precision == KD_PRECISION_F64 && engines[k].engine != KD_ENGINE_CLOSED;
@@ -261,13 +261,17 @@ static void test_refused(void **state)
     FAILS(KD_EINVAL, "holds 6e-08 and above", kd_plan_make(&scene, &capacity, &plan, &error));
     scene.accuracy.tolerance = 1e-5;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
-    assert_true(plan.setting.holds <= 1e-5 && plan.path == KD_LENS_RADIUS);
+    assert_true(plan.setting.holds <= 1e-5 && plan.path == KD_LENS_CLOSED);
     scene.accuracy.tolerance = INFINITY;
     scene.accuracy.precision = KD_PRECISION_F32 + 1;
     scene.accuracy.engine = KD_ENGINE_CLOSED + 1;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     scene.sky.model = KD_SKY_GRID;
-    FAILS(KD_EINVAL, "radii to an observer at infinity alone", kd_plan_make(&scene, &capacity, &plan, &error));
+    OK(kd_plan_make(&scene, &capacity, &plan, &error));
+    assert_int_equal(plan.path, KD_LENS_CLOSED);
+    scene.camera.r = 20;
+    FAILS(KD_EINVAL, "for an observer at infinity", kd_plan_make(&scene, &capacity, &plan, &error));
+    scene.camera.r = INFINITY;
     scene.accuracy.precision = 0;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_int_equal(plan.path, KD_LENS_LISTED);

@@ -3,8 +3,8 @@
 #include "render/view/layout.h"
 #include "render/emit/tables.h"
 
+#include "lens_closed.spv.h"
 #include "lens_map.spv.h"
-#include "lens_radius.spv.h"
 #include "photometry.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
@@ -178,7 +178,7 @@ static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), partic
 static void camera(void **state)
 {
     (void)state;
-    const struct spirv kernels[] = { SPIRV(lens_radius), SPIRV(lens_map), transfer };
+    const struct spirv kernels[] = { SPIRV(lens_closed), SPIRV(lens_map), transfer };
     for (size_t i = 0; i < COUNT(kernels); i++)
         same(&kernels[i], "Camera", camera_fields, COUNT(camera_fields), 0);
     assert_int_equal(sizeof(struct kd_camera_push),

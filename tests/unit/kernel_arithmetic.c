@@ -3,8 +3,8 @@
  * SignedZeroInfNanPreserve). No test by pictures shows that on a driver that does neither, so the SPIR-V is read. */
 #include <stdint.h>
 
+#include "lens_closed.spv.h"
 #include "lens_map.spv.h"
-#include "lens_radius.spv.h"
 #include "photometry.spv.h"
 #include "rays.spv.h"
 #include "rays_f64.spv.h"
@@ -34,7 +34,7 @@ struct spirv {
 };
 #define SPIRV(name, motion) { #name, kd_spv_##name, sizeof kd_spv_##name / 4, motion }
 static const struct spirv kernels[] = {
-    SPIRV(lens_radius, false), SPIRV(lens_map, true), SPIRV(rays, true), SPIRV(rays_f64, true), SPIRV(rays_kerr_schild, false),
+    SPIRV(lens_closed, false), SPIRV(lens_map, true), SPIRV(rays, true), SPIRV(rays_f64, true), SPIRV(rays_kerr_schild, false),
     SPIRV(rays_kerr_schild_f64, false), SPIRV(transfer, false), SPIRV(photometry, false),
 };
 enum { KERNELS = sizeof kernels / sizeof *kernels };

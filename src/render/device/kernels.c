@@ -4,8 +4,8 @@
 
 #include "density.spv.h"
 #include "expose.spv.h"
+#include "lens_closed.spv.h"
 #include "lens_map.spv.h"
-#include "lens_radius.spv.h"
 #include "photometry.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
@@ -27,7 +27,7 @@ static const struct {
     size_t bytes;
     uint32_t n_buffers, push_bytes;
 } sources[] = {
-    [KD_KERNEL_LENS_RADIUS] = { "lens_radius", kd_spv_lens_radius, sizeof kd_spv_lens_radius, 1, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 2, sizeof(struct kd_camera_push) },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 2, sizeof(struct kd_camera_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },

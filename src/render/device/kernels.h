@@ -5,7 +5,7 @@
 #include "vk/vk.h"
 
 enum kd_kernel {
-    KD_KERNEL_LENS_RADIUS,
+    KD_KERNEL_LENS_CLOSED,
     KD_KERNEL_LENS_MAP,
     KD_KERNEL_RAYS_F32,
     KD_KERNEL_RAYS_F64,

@@ -25,7 +25,7 @@ void kd_frame_learn(struct kd_renderer *renderer, const struct kd_plan *plan, co
     const bool p = renderer->probing;
     pthread_mutex_lock(&renderer->lock);
     if (plan->path != KD_LENS_LISTED)
-        smooth(plan->path == KD_LENS_RADIUS ? &c->ns_per_ray_radius : &c->ns_per_ray_full, p, timing(frame, "trace"), kd_plan_rays(plan));
+        smooth(kd_plan_is_radii(plan) ? &c->ns_per_ray_radius : &c->ns_per_ray_full, p, timing(frame, "trace"), kd_plan_rays(plan));
     smooth(&c->ns_per_sample_transfer, p, timing(frame, "transfer"), kd_plan_rays(plan));
     smooth(&c->ns_per_pixel_post, p, timing(frame, "post"), pixels);
     smooth(&c->ns_per_particle, p, timing(frame, "particles"), plan->particles.count);

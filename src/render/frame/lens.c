@@ -34,9 +34,9 @@ static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_criti
     *out = NULL;
     if (p->path == KD_LENS_LISTED)
         return KD_OK;
-    if (p->path == KD_LENS_RADIUS) {
-        const uint32_t constants[] = { p->orders, l->rays, l->generator, l->shift };
-        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_RADIUS, constants, sizeof constants / 4, out, j->error);
+    if (p->path == KD_LENS_CLOSED) {
+        const uint32_t constants[] = { p->orders, p->phi, p->sky, p->fall, l->rays, l->generator, l->shift };
+        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, constants, sizeof constants / 4, out, j->error);
     }
     const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
     const uint32_t constants[] = {
@@ -101,9 +101,9 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
 {
     if (j->plan->path == KD_LENS_LISTED)
         return list_slice(j, s);
-    struct kd_vk_dispatch d = { "trace", pipeline, { { lens_buffer(j, s->band), 0, 0, true } }, NULL, { 0 } };
-    if (j->plan->path == KD_LENS_MAP)
-        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
+    struct kd_vk_dispatch d = {
+        "trace", pipeline, { { lens_buffer(j, s->band), 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 },
+    };
     return record(j, s, &d, true);
 }
 
@@ -242,9 +242,7 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part
     enum kd_status status = upload_pixels(j, part);
     if (status || j->plan->path == KD_LENS_LISTED)
         return status ? status : list_part(j, part);
-    struct kd_vk_dispatch d = { "trace", NULL, { { part->lens, 0, 0, true } }, NULL, { 0 } };
-    if (j->plan->path == KD_LENS_MAP)
-        d.bindings[1] = (struct kd_vk_binding) { j->store->undecided, 0, 0, true };
+    const struct kd_vk_dispatch d = { "trace", NULL, { { part->lens, 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 } };
     return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
 }
 
@@ -286,7 +284,7 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double
 
 static enum kd_status forget_undecided(struct kd_frame_job *j)
 {
-    return j->plan->path == KD_LENS_MAP ? kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error) : KD_OK;
+    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error) : KD_OK;
 }
 
 enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
@@ -310,7 +308,7 @@ enum kd_status kd_frame_undecided(struct kd_frame_job *j, uint64_t *out)
     struct kd_store *s = j->store;
     struct kd_vk *vk = j->r->vk;
     *out = j->undecided;
-    if (j->plan->path != KD_LENS_MAP || !j->plan->sky)
+    if (j->plan->path == KD_LENS_LISTED || !j->plan->sky)
         return KD_OK;
     enum kd_status status = kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error);
     if (!status)

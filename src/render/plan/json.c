@@ -26,7 +26,7 @@ static void add_constants(struct kd_json *json, const struct kd_plan *plan)
     kd_json_number(json, "orders", plan->orders);
     kd_json_number(json, "steps", plan->setting.steps);
     kd_json_number(json, "samples", plan->side);
-    kd_json_bool(json, "radius_only", plan->path == KD_LENS_RADIUS);
+    kd_json_bool(json, "radius_only", kd_plan_is_radii(plan));
     kd_json_bool(json, "phi", plan->phi);
     kd_json_bool(json, "sky", plan->sky);
     kd_json_end(json);

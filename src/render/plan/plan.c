@@ -108,7 +108,7 @@ static void add_pass(struct kd_plan *plan, const char *name, const char *kernel,
 static const char *kernel_of(const struct kd_plan *plan)
 {
     switch (plan->path) {
-    case KD_LENS_RADIUS: return "lens_radius.comp";
+    case KD_LENS_CLOSED: return "lens_closed.comp";
     case KD_LENS_MAP: return "lens_map.comp";
     case KD_LENS_LISTED: break;
     }
@@ -125,7 +125,7 @@ static double ns_per_ray(const struct kd_plan *plan, const struct kd_capacity *c
 {
     const struct kd_setting *by = &plan->setting;
     if (plan->path != KD_LENS_LISTED)
-        return plan->path == KD_LENS_RADIUS ? c->ns_per_ray_radius : c->ns_per_ray_full;
+        return kd_plan_is_radii(plan) ? c->ns_per_ray_radius : c->ns_per_ray_full;
     if (by->engine == KD_ENGINE_CLOSED)
         return NS_PER_CLOSED / (c->cores ? c->cores : 1);
     for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
@@ -311,7 +311,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool radii = isinf(scene->camera.r) && !plan->phi && !plan->fall && !plan->sky;
+    bool closed_form = isinf(scene->camera.r) && !plan->delay; /* lens_closed.comp can do it */
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
@@ -326,11 +326,11 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         return kd_error_field(error, "/accuracy/tolerance",
                               "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
                               "\"profile\"", wish.tolerance);
-    if (closed32 && !radii)
-        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 gives radii to an observer at infinity alone, "
-                              "and this scene needs more: allowed is f64");
-    if (radii && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
-        plan->path = KD_LENS_RADIUS;
+    if (closed32 && !closed_form)
+        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 is for an observer at infinity and knows no delay of "
+                              "light, and this scene needs more: allowed is f64");
+    if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
+        plan->path = KD_LENS_CLOSED;
         by->engine = KD_ENGINE_CLOSED;
         by->steps = 0;
         return KD_OK;

@@ -47,8 +47,8 @@ struct kd_plan {
     uint64_t critical_pixels;       /* how many they are */
     uint64_t critical_part;         /* how many one buffer holds the lens map of */
     enum kd_lens_path {
-        KD_LENS_RADIUS, /* lens_radius.comp: nothing in the scene needs more than the crossing radii, from infinity */
-        KD_LENS_MAP,    /* lens_map.comp */
+        KD_LENS_CLOSED, /* lens_closed.comp: closed forms, from infinity */
+        KD_LENS_MAP,    /* lens_map.comp: by steps */
         KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine, in either precision */
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
@@ -93,6 +93,12 @@ static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
 static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
 {
     return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
+}
+
+/* Whether the lens map is one of crossing radii alone, by the closed form: the cheapest there is. */
+static inline bool kd_plan_is_radii(const struct kd_plan *plan)
+{
+    return plan->path == KD_LENS_CLOSED && !plan->phi && !plan->fall && !plan->sky;
 }
 
 /* All that are followed. */

@@ -76,12 +76,14 @@ static void judge_angles(const struct kd_selftest_ray *ray, const float *planes,
         kd_selftest_compare(sky, hypot(acos(end[0]) - ray->theta, sin(ray->theta) * turn(end[1] - ray->phi)), allowed);
 }
 
-/* From infinity: radii in closed form, then everything by steps. */
+/* From infinity: everything in closed form, then by steps. */
 static enum kd_status far(const struct kd_selftest *test)
 {
     static const char taylor[] = "equations of motion by Taylor series, 38 digits";
-    struct kd_selftest_row closed, r, phi, sky;
-    kd_selftest_begin(&closed, taylor, "lens_radius f32", "lens map: r (relative)");
+    struct kd_selftest_row closed, closed_phi, closed_sky, r, phi, sky;
+    kd_selftest_begin(&closed, taylor, "lens_closed f32", "lens map: r (relative)");
+    kd_selftest_begin(&closed_phi, taylor, "lens_closed f32", "lens map: phi (rad)");
+    kd_selftest_begin(&closed_sky, taylor, "lens_closed f32", "lens map: fate, direction (rad)");
     kd_selftest_begin(&r, taylor, "lens_map f32", "lens map: r (relative)");
     kd_selftest_begin(&phi, taylor, "lens_map f32", "lens map: phi (rad)");
     kd_selftest_begin(&sky, taylor, "lens_map f32", "lens map: fate, direction (rad)");
@@ -91,10 +93,11 @@ static enum kd_status far(const struct kd_selftest *test)
         float planes[PLANES];
         if (!isinf(ray->radius))
             continue;
-        enum kd_status status = trace(test, &scene, &(struct kd_needs) { .disk = true }, planes);
+        enum kd_status status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, planes);
         if (status)
             return status;
         judge_radii(ray, planes, &closed);
+        judge_angles(ray, planes, &closed_phi, &closed_sky);
         scene.accuracy.steps = STEPS;
         status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, planes);
         if (status)
@@ -103,6 +106,8 @@ static enum kd_status far(const struct kd_selftest *test)
         judge_angles(ray, planes, &phi, &sky);
     }
     enum kd_status status = kd_selftest_end(test, &closed);
+    status = status ? status : kd_selftest_end(test, &closed_phi);
+    status = status ? status : kd_selftest_end(test, &closed_sky);
     status = status ? status : kd_selftest_end(test, &r);
     status = status ? status : kd_selftest_end(test, &phi);
     return status ? status : kd_selftest_end(test, &sky);

@@ -1,0 +1,154 @@
+/* The lens map in closed form, for an observer at infinity: radii of the crossings, and as the scene requires their azimuths,
+ * radial slopes, the direction in which a ray escapes and its fate. Planes as those of lens_map.comp.
+ *
+ * When a ray crosses the plane is known (polar.glsl), and where it then is (arc.glsl). The azimuth by which the hole drags it is
+ * an integral over each half period, by Gauss and Legendre's rule: its places are reached from the crossings at both ends, and
+ * the times that they lie from there are the same for all half periods but the first. The ray escapes when w vanishes, and that
+ * is known from w and w' at its last crossing. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/interface.h"
+#include "ray/kerr_ray.glsl"
+#include "ray/polar.glsl"
+#include "ray/polar_azimuth.glsl"
+#include "ray/arc.glsl"
+#include "ray/arc_drag.glsl"
+#include "ray/arc_escape.glsl"
+
+layout(constant_id = 0) const uint ORDERS = 3;
+layout(constant_id = 1) const bool PHI = false;
+layout(constant_id = 2) const bool SKY = false;
+layout(constant_id = 3) const bool FALL = false;
+layout(constant_id = 4) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
+layout(constant_id = 5) const uint GENERATOR = 1; /* of the lattice that they are on */
+layout(constant_id = 6) const uint SHIFT = 0;
+layout(local_size_x = KD_GROUP_SIZE) in;
+const bool FINITE = false;
+
+#define F(name) float name;
+#define U(name) uint name;
+layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
+layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
+layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
+#include "ray/camera.glsl"
+#include "ray/place.glsl"
+
+const float EPSILON = 6e-8; /* unit roundoff */
+const uint MORE = 12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
+const uint SLOPES = PHI ? 2 * ORDERS : ORDERS, PLANES = SLOPES + (FALL ? ORDERS : 0);
+
+/* Where a ray is between two crossings. */
+struct kd_leg {
+    kd_centre last;    /* the last crossing, or the start        */
+    kd_state next;     /* where the plane is crossed next, if it */
+    bool alive;        /* still is outside then                  */
+    float psi, chi;    /* azimuth there, but for the drag since `last`; the drag up to `last`, */
+    float drag;        /* and since                                      */
+    float tau;         /* time there                                     */
+    float side;        /* 1: it leaves the last crossing upwards; -1: downwards */
+    bool crossed;      /* the start is no longer `last`                  */
+};
+
+/* Keep crossing n; zeros for none. */
+void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
+{
+    float w = any ? leg.next.w * drag.unit : 0.0;
+    at += n * cam.stride;
+    lens[at] = w;
+    if (PHI)
+        lens[at + ORDERS * cam.stride] = any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
+    if (FALL)
+        lens[at + SLOPES * cam.stride] = any ? leg.next.dw : 0.0;
+}
+
+/* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the start, if it
+ * is the start that the leg begins with. */
+void keep_end(uint at, kd_geodesic m, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg, kd_arc middle, float leg_z,
+              float before, bool decided)
+{
+    kd_state far_away;
+    far_away.w = 0.0;
+    far_away.dw = -drag.e;
+    float z = kd_arc_escape_time(a, leg.last, middle, leg.next, leg_z, drag.e);
+    kd_direction end = kd_arc_direction(m, a, azimuth, z * a.unit + before);
+    float chi = leg.chi + kd_drag_between(drag, leg.last, kd_centre_of(a, far_away), kd_nodes_of(a.l, z), z);
+    float phi = leg.psi - azimuth.half_ + end.psi + chi, fate = drag.falls ? KD_FATE_CAPTURED : KD_FATE_ESCAPED;
+    if (!decided || (!drag.falls && (leg.alive || !kd_is_finite(phi))))
+        fate = KD_FATE_UNDECIDED;
+    bool escapes = fate == KD_FATE_ESCAPED;
+    at += PLANES * cam.stride;
+    lens[at] = escapes ? leg.side * end.u : 0.0;
+    lens[at + cam.stride] = escapes ? -phi : 0.0;
+    lens[at + 2 * cam.stride] = fate;
+    if (fate == KD_FATE_UNDECIDED)
+        atomicAdd(undecided, 1);
+}
+
+void main()
+{
+    uvec2 step_;
+    uint at;
+    if (!kd_this_ray(step_, at))
+        return;
+    kd_ray ray = kd_camera_ray(step_.x, step_.y);
+    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
+    kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
+    kd_arcs a = kd_arcs_of(m, ray.e);
+    kd_ray tilted = ray; /* in the plane the azimuth has no start: a little beside it */
+    tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
+    kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
+    kd_state start;
+    start.w = ray.w;
+    start.dw = ray.dw;
+    kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
+    kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_flies_out(barrier, start));
+    /* The closed form goes on beyond the horizon, turns inside and comes back out: a ray that falls must still be falling, and
+     * within the time that it can take at most. One that escapes comes back from infinity on the other side, where w < 0. */
+    float edge = cam.horizon * a.scale, limit = cam.horizon / sqrt(clamp(barrier.r, 1e-6, 1.0));
+
+    float z1 = polar.first * a.scale, zh = polar.half_ * a.scale;
+    kd_nodes n1 = kd_nodes_of(a.l, z1), nh = kd_nodes_of(a.l, zh);
+    kd_arc end1 = kd_arc_twice(a.l, n1.middle), endh = kd_arc_twice(a.l, nh.middle);
+
+    kd_leg leg;
+    leg.last = kd_centre_of(a, start);
+    leg.next = kd_ahead(a, leg.last, end1);
+    kd_centre next = kd_centre_of(a, leg.next);
+    leg.tau = polar.first;
+    leg.psi = azimuth.first;
+    leg.chi = 0.0;
+    leg.drag = kd_drag_between(drag, leg.last, next, n1, z1);
+    leg.alive = leg.next.w > 0.0 && leg.next.w < edge && (!drag.falls || (leg.next.dw > 0.0 && leg.tau < limit));
+    leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
+    leg.crossed = leg.alive;
+    keep(at, 0, leg.alive && polar.crosses, leg, drag);
+    uint n = 1;
+    for (; n < ORDERS + (SKY ? MORE : 0); n++) {
+        if (!leg.alive || (n >= ORDERS && drag.falls))
+            break;
+        leg.last = next;
+        leg.chi += leg.drag;
+        leg.side = -leg.side;
+        leg.next = kd_ahead(a, leg.last, endh);
+        next = kd_centre_of(a, leg.next);
+        leg.drag = kd_drag_between(drag, leg.last, next, nh, zh);
+        leg.tau += polar.half_;
+        leg.psi += azimuth.half_;
+        bool goes_on = drag.falls ? leg.next.dw > 0.0 && leg.tau < limit : leg.last.dv > 0.0 || leg.next.dw <= 0.0;
+        leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on;
+        if (n < ORDERS)
+            keep(at, n, leg.alive && polar.crosses, leg, drag);
+    }
+    for (; n < ORDERS; n++)
+        keep(at, n, false, leg, drag);
+    if (SKY) {
+        kd_arc middle = nh.middle;
+        float z = zh, before = 0.0;
+        if (!leg.crossed) {
+            middle = n1.middle;
+            z = z1;
+            before = polar.half_ - polar.first;
+        }
+        keep_end(at, m, a, azimuth, drag, leg, middle, z, before, kd_is_decided(barrier, start, EPSILON));
+    }
+}

@@ -1,0 +1,68 @@
+/* This is the end of a ray that escapes: when w vanishes, and in which direction it then flies. */
+#ifndef KD_ARC_ESCAPE_GLSL
+#define KD_ARC_ESCAPE_GLSL
+
+#include "ray/arc.glsl"
+#include "ray/polar_azimuth.glsl"
+
+/* This is g of the time from here to w = 0, or back to there, which Biermann's formula gives with v = 0 at the other end. A point
+ * that still moves inwards is taken to be far from it. */
+float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
+
+/* The inverse of g, to second order. */
+float kd_arc_time(kd_lattice l, float g)
+{
+    return sqrt(g) * (1.0 + g * (l.a * (-1.0 / 24.0) + g * (l.a * l.a * (3.0 / 640.0) - l.d * (1.0 / 40.0))));
+}
+
+/* This is the scaled time from `last` to infinity, for a ray that gets there before `next`, z later; `middle` is the arc of z/2. The
+ * nearest of the three points tells the time to 1e-3, and what is left there of w tells the rest, as w'' = 0 at w = 0. */
+float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
+{
+    kd_state y, half_ = kd_ahead(a, last, middle);
+    y.w = last.v;
+    y.dw = last.dv;
+    float g = kd_arc_to_infinity(y, e), t = 0.0;
+    float gh = kd_arc_to_infinity(half_, e), gn = kd_arc_to_infinity(next, e);
+    if (gh < g) {
+        g = gh;
+        t = 0.5 * z;
+        y = half_;
+    }
+    if (gn < g) {
+        g = gn;
+        t = z;
+        y = next;
+    }
+    float way = kd_arc_time(a.l, g);
+    way = y.w < 0.0 ? -way : way;
+    kd_centre c = kd_centre_of(a, y);
+    float left = kd_around(c, kd_arc_short(a.l, way)).x;
+    return t + (way + left / e);
+}
+
+struct kd_direction { float u, psi; };
+
+/* This is where a ray stands after that time since a crossing of the plane, which it left upwards; psi is counted from there. */
+kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, float time)
+{
+    kd_direction o;
+    float unit2 = a.unit * a.unit, d = m.energy2 * unit2 * (max(m.q, 0.0) * unit2);
+    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d); /* that of u'^2 = Q + A u^2 - e u^4 */
+    kd_arc z = kd_arc_twice(l, kd_arc_short(l, 0.5 * time * a.scale));
+    /* u and u' over sqrt(Q), which may vanish. */
+    float inv = 1.0 / (1.0 + 0.25 * d * z.g * z.g), rise = 0.5 * z.dg * inv;
+    float u = rise * a.unit, du = (0.5 * kd_arc_bend(l, z.g) - 0.5 * rise * d * z.g * z.dg) * inv;
+    float root_q = sqrt(max(m.q, 0.0));
+    o.u = clamp(u * root_q, -1.0, 1.0);
+    float root = sqrt(azimuth.b + m.energy2 * o.u * o.u);
+    du /= root;
+    u = max(u, 0.0);
+    float ty = u * abs(m.momentum) / azimuth.root_c;
+    o.psi = kd_azimuth_part(azimuth, u, du, du, ty);
+    if (azimuth.uneven)
+        o.psi = azimuth.side * kd_angle_upper(du, ty) + kd_azimuth_smooth(m, azimuth.b, 0.0, root_q, time);
+    return o;
+}
+
+#endif
