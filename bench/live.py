@@ -131,12 +131,17 @@ def dragged_together(server, n, seconds=9, settle=3):
     """A process each, so that they wait for the server and not for one another."""
     begin = time.monotonic() + 1 + n / 4
     with concurrent.futures.ProcessPoolExecutor(n, mp_context=multiprocessing.get_context('fork')) as pool:
-        each = [f.result() for f in [pool.submit(drag, server.port, k, begin, seconds, settle) for k in range(n)]]
+        running = [pool.submit(drag, server.port, k, begin, seconds, settle) for k in range(n)]
+        time.sleep(max(0, begin + settle - time.monotonic()))
+        cpu = server.cpu()
+        time.sleep(max(0, begin + seconds - time.monotonic()))
+        cpu = server.cpu() - cpu
+        each = [f.result() for f in running]
     fps, sizes = sorted(row['fps'] for row in each), sorted((row['last'] for row in each), key=lambda size: int(size.split('x')[0]))
     return {'sessions': n, 'fps_least': fps[0], 'fps_median': statistics.median(fps), 'fps_most': fps[-1],
             'latency_ms': statistics.median(row['latency_ms'] for row in each), 'latency_p95_ms': max(row['latency_p95_ms'] for row in each),
             'smallest': sizes[0], 'largest': sizes[-1], 'device_busy': round(sum(row['device'] for row in each), 2),
-            'passes_ms': each[0]['passes_ms']}
+            'cpu_ms_a_frame': round(1e3 * cpu / sum(row['frames'] for row in each), 2), 'passes_ms': each[0]['passes_ms']}
 
 
 def watch(session, seconds):
@@ -234,12 +239,13 @@ def compare(programs, rounds=3):
     return device, out
 
 
-TOGETHER = ['frames/s each: least, median, most', 'input to picture, ms: median / worst 95 %', 'size at last: smallest, largest', 'device busy']
+TOGETHER = ['frames/s each: least, median, most', 'input to picture, ms: median / worst 95 %', 'size at last: smallest, largest', 'device busy',
+            'processor a frame, ms']
 
 
 def together_row(row):
     return [f"{row['fps_least']:g}, {row['fps_median']:g}, {row['fps_most']:g}", f"{row['latency_ms']:g} / {row['latency_p95_ms']:g}",
-            f"{row['smallest']}, {row['largest']}", f"{100 * row['device_busy']:.0f} %"]
+            f"{row['smallest']}, {row['largest']}", f"{100 * row['device_busy']:.0f} %", f"{row['cpu_ms_a_frame']:g}"]
 
 
 def write_compared(arguments, device, load, out):
