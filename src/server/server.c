@@ -102,7 +102,7 @@ static enum kd_status start_keeper(struct kd_server *server, struct kd_error *er
     return KD_OK;
 }
 
-/* What one client may have of a limit: one at least. */
+/* How many of a limit one client may have: one at least. */
 static unsigned share_of(const struct kd_server_params *params, unsigned limit)
 {
     unsigned percent = or_default(params->client_share, 75);
@@ -133,7 +133,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     enum kd_status status = collect_hosts(server, address, params->hosts, error);
     if (!status)
         status = kd_kept_create(&server->kept, error);
-    /* The socket first: opening a device takes long, and "address in use" is the commonest failure. */
+    /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
     if (!status)
         status = kd_listen_open(address, &server->port, &fd, error);
     if (!status)

@@ -20,10 +20,10 @@ struct kd_server_params {
     unsigned client_share;    /* percent of connections, renders that wait, sessions and jobs that one client may have; default 75 */
     unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
     bool cross_site;          /* take requests that pages of other sites make */
-    unsigned jobs_kib;        /* of the frames of all jobs, default 16 GiB */
+    unsigned jobs_kib;        /* bytes of the frames of all jobs, default 16 GiB */
     const char *state;        /* a folder in which jobs survive a restart; NULL: none */
-    unsigned drain_ms;        /* of serving on after a stop request, with /readyz failing; default 1000 */
-    unsigned connections;     /* at once; one more is answered 503, all but the health routes; default 512 */
+    unsigned drain_ms;        /* how long it goes on serving after a stop request, with /readyz failing; default 1000 */
+    unsigned connections;     /* connections at once; one more is answered 503, but on the health routes; default 512 */
     unsigned header_ms;       /* a request's header must be complete by then; default 10 000 */
     unsigned body_ms;         /* and its body so long after that; default 30 000 */
     unsigned longest_s; /* a render estimated to take longer than this is refused with 422; default 600 */
@@ -35,14 +35,15 @@ struct kd_server_params {
 enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out,
                                 struct kd_error *error);
 uint16_t kd_server_port(const struct kd_server *server);
-/* Where it listens on every address: those of this machine and its name, by which it is reached, NULL-terminated; else NULL. */
+/* The addresses of this machine and its name, by which a server that listens on every address is reached, NULL-terminated;
+ * else NULL. */
 const char *const *kd_server_own_names(const struct kd_server *server);
 /* Begin to stop: /readyz fails at once, running and queued renders finish. Async-signal-safe. */
 void kd_server_stop(struct kd_server *server);
 /* Block until stopped and drained. KD_EDEVICE when the device was lost: exit the process soon, without
  * kd_server_destroy or with it (it then leaves the renderer alone: a lost device cannot be torn down). */
 enum kd_status kd_server_wait(struct kd_server *server, struct kd_error *error);
-/* Without a stop before it, cuts short: no drain, running renders are cancelled. Accepts NULL. */
+/* Destroys the server. Without a stop before it, running renders are cancelled and nothing is drained. Accepts NULL. */
 void kd_server_destroy(struct kd_server *server);
 
 #endif

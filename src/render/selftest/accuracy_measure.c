@@ -80,7 +80,7 @@ static void end_in_closed_form(const struct kd_null_ray *ray, double s, struct k
     }
 }
 
-/* Where rays end, as far as can be known. *s: time of one core. */
+/* Finds where rays end, as far as can be known. *s: the time of one core. */
 static void reference_of(const struct kd_accuracy_view *view, const double *rays, size_t n, struct kd_ray_crossing *crossings,
                          struct kd_ray_end *ends, double *s)
 {
@@ -298,7 +298,7 @@ enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd
     list_rows(out, kd_vk_info(renderer->vk)->float64);
     enum kd_status status = prepare(&b);
     for (uint32_t i = 0; i < out->n && !status; i++) {
-        double s; /* of compiling, which does not count */
+        double s; /* this run compiles, which does not count */
         const struct truth *first = &b.truths[KD_ACCURACY_BULK][0];
         status = trace(&b, &out->rows[i], &first->view, first->rays, WARM_UP, &s);
         for (int set = 0; set < KD_ACCURACY_SETS && !status; set++) {

@@ -7,8 +7,8 @@
 
 struct kd_accuracy_params {
     bool quick;          /* fewer rays, shorter timing */
-    double seconds;      /* of device time for each speed, less where a million rays take less; 0: 0.5, quick 0.02 */
-    const char *command; /* that asked for it, kept with the table; NULL: none */
+    double seconds;      /* the device time for each speed; less where a million rays take less; 0: 0.5, quick 0.02 */
+    const char *command; /* the command that asked for it, kept with the table; NULL: none */
 };
 
 /* KD_ECANCELLED when progress says so; what the device cannot do is left out and named in out->skipped. */

@@ -1,4 +1,4 @@
-/* The self-test of a device, of a version of its driver or of kerrd, that kerrd has not met before. */
+/* A device, or a version of its driver or of kerrd, that has not been met before is tested when it is first started. */
 #ifndef KD_RENDER_SELFTEST_FIRST_START_H
 #define KD_RENDER_SELFTEST_FIRST_START_H
 

@@ -103,8 +103,8 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
     return status;
 }
 
-/* In steps of 1/65535: half a step of rounding, and Vulkan's pow, which may be wrong by 16 units in the last place of log2 and
- * as many of exp2 (4e-6 near 1, a quarter of a step). */
+/* The bound in steps of 1/65535: half a step of rounding, and Vulkan's pow, which may be wrong by 16 units in the last place
+ * of log2 and as many of exp2 (4e-6 near 1, a quarter of a step). */
 static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance, struct kd_vk_buffer *words)
 {
     struct kd_selftest_row row;

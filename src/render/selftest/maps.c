@@ -10,8 +10,8 @@
 #define STEPS 16
 #define PLANES (2 * ORDERS + 3)
 
-/* As in rays.c: roundoff, and what 16 steps of order 6 lose. The camera adds the operations from pixel to ray; the
- * azimuth comes from a series that is good to 1e-7 a half turn (polar_azimuth.glsl). */
+/* The bounds are those of rays.c: roundoff, and what 16 steps of order 6 lose. The camera adds the operations from pixel to
+ * ray; the azimuth comes from a series that is good to 1e-7 a half turn (polar_azimuth.glsl). */
 static double unit_of(void) { return KD_SELFTEST_OPERATIONS * (double)(FLT_EPSILON / 2) + 1e-3 * pow(M_PI / STEPS, 6); }
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
@@ -76,7 +76,7 @@ static void judge_angles(const struct kd_selftest_ray *ray, const float *planes,
         kd_selftest_compare(sky, hypot(acos(end[0]) - ray->theta, sin(ray->theta) * turn(end[1] - ray->phi)), allowed);
 }
 
-/* From infinity: everything in closed form, then by steps. */
+/* Compares rays from infinity: everything in closed form, then by steps. */
 static enum kd_status far(const struct kd_selftest *test)
 {
     static const char taylor[] = "equations of motion by Taylor series, 38 digits";

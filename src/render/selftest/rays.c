@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define ORDERS 3
-#define COPIES 192 /* of each ray, so that more than one workgroup computes it */
+#define COPIES 192 /* copies of each ray, so that more than one workgroup computes it */
 
 struct engine {
     enum kd_engine engine;
@@ -140,7 +140,7 @@ static enum kd_status ends(const struct kd_selftest *test, const struct engine *
     return status ? status : kd_selftest_end(test, &same);
 }
 
-/* In the equatorial plane: the azimuth of the direction of escape. */
+/* Compares the azimuth of the direction of escape in the equatorial plane. */
 static enum kd_status deflection(const struct kd_selftest *test, const struct engine *e)
 {
     struct kd_selftest_row row;

@@ -1,4 +1,4 @@
-/* What the self-test judges a device by. The numbers are in reference.c, made by tests/oracle/selftest_reference.py:
+/* The self-test judges a device by these numbers. The numbers are in reference.c, made by tests/oracle/selftest_reference.py:
  * from the metric, by quadrature, by Taylor series in 38 digits; no formula of src/ or shaders/ is in them.
  *
  * A gain is the sum of |x df/dx| over the spin, the inclination, the radius and the two coordinates of a ray, of r and g in
@@ -15,7 +15,7 @@ struct kd_selftest_ray {
     double spin, inclination_deg, radius, alpha, beta;
     int captured;
     double theta, phi, sky_gain; /* direction of escape, NaN if captured */
-    int n_crossings;             /* of orders 0 to 2 */
+    int n_crossings;             /* radii of the crossings of orders 0 to 2 */
     struct kd_selftest_crossing crossing[3];
 };
 

@@ -1,4 +1,4 @@
-/* What must not change a picture: doing it again, and doing it in pieces. */
+/* A picture must not change when it is made again, or in pieces. */
 #include "render/selftest/parts.h"
 
 #include "render/device/internal.h"
@@ -34,7 +34,7 @@ static enum kd_status draw(const struct kd_selftest *test, const struct kd_capac
     return status;
 }
 
-/* Pixels that differ. */
+/* Counts the pixels that differ. */
 static double differing(const struct kd_frame *a, const struct kd_frame *b)
 {
     const unsigned char *x = kd_frame_pixels(a), *y = kd_frame_pixels(b);

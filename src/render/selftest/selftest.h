@@ -12,7 +12,7 @@
 /* One line of the table: many comparisons, of which the one nearest to its bound, or furthest beyond, is shown. */
 struct kd_selftest_row {
     char what[64], by[32]; /* "rays, bulk: r (relative)", "mino-rkn6 f32" */
-    const char *source;    /* of the reference, in few words */
+    const char *source;    /* the reference, in few words */
     unsigned compared;
     double error, bound;   /* the error is INFINITY where a number was missing or NaN */
     bool ok;               /* every comparison within its bound, and there was one */
@@ -24,8 +24,8 @@ void kd_selftest_compare(struct kd_selftest_row *row, double error, double bound
 /* Called with each finished row; false stops the test: KD_ECANCELLED. */
 typedef bool (*kd_selftest_fn)(void *user, const struct kd_selftest_row *row);
 
-/* Everything, in double precision too where the device has it. KD_OK also when rows failed; an error only where the test could
- * not be made. Render thread. */
+/* Runs the whole test, in double precision too where the device has it. KD_OK also when rows failed; an error only where the
+ * test could not be made. Render thread. */
 enum kd_status kd_selftest_run(struct kd_renderer *renderer, const struct kd_selftest_reference *reference, kd_selftest_fn row,
                                void *user, struct kd_error *error);
 

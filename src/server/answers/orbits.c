@@ -14,7 +14,7 @@
 
 #define OFFERED "application/json, application/x-ndjson, text/csv, " KD_NPY_TYPE
 #define FULL (1u << 20)      /* bytes of a stream that wait for their client; no more are made until a quarter is left */
-#define BYTES_PER_SAMPLE 220 /* of text, to reckon with */
+#define BYTES_PER_SAMPLE 220 /* bytes of text, to reckon with */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
@@ -22,7 +22,7 @@ static const char *const types[] = { [KD_ORBIT_JSON] = "application/json",
                                      [KD_ORBIT_CSV] = "text/csv",
                                      [KD_ORBIT_NPY] = KD_NPY_TYPE };
 
-/* Held by the request and by the queue; whoever lets go last frees it. */
+/* A job is held by the request and by the queue; the one that lets go last frees it. */
 struct kd_orbits_job {
     struct kd_turns_job turns; /* first */
     struct kd_server *server;
@@ -200,7 +200,7 @@ static void done(struct kd_turns_job *turns)
     let_go(job);
 }
 
-/* A stream has no other place for what goes wrong after it has begun. With the lock. */
+/* Writes into the stream what has gone wrong after it has begun, for which it has no other place. With the lock. */
 static void say_in_stream(struct kd_orbits_job *job)
 {
     struct kd_problem problem = kd_problem_from(&job->error);

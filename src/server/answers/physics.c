@@ -1,5 +1,5 @@
-/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). What takes a moment is computed here, all
- * else by the workers, in turns. */
+/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). An answer that takes a moment is computed here, others by
+ * the workers, in turns. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -15,7 +15,7 @@
 #define JSON_TYPE "application/json"
 #define CSV_TYPE "text/csv"
 #define WAV_TYPE "audio/wav"
-#define MOMENT_MS 2.       /* of this thread, which serves everybody */
+#define MOMENT_MS 2.       /* time of this thread, which serves everybody */
 #define BYTES_PER_NUMBER 26 /* as text at its longest */
 
 enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
@@ -105,7 +105,7 @@ static enum kd_status write_answer(struct job *job, struct kd_error *error)
     return status ? kd_error_set(error, status, "out of memory for %zu points", answer->points) : KD_OK;
 }
 
-/* Points until it is time, then the text. */
+/* Computes points until it is time, then makes the text. */
 static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct job *job = (struct job *)task;

@@ -10,7 +10,7 @@
 
 #define JSON_TYPE "application/json"
 #define OFFERED JSON_TYPE ", " KD_NPY_TYPE
-#define BLOCK (64u << 10) /* of the answer made at a time, some tenths of a millisecond */
+#define BLOCK (64u << 10) /* bytes of the answer that are made at a time, in some tenths of a millisecond */
 #define TEXT_PER_RAY 180  /* bytes, without its crossings; a guess for the deadline of taking the answer */
 #define TEXT_PER_CROSSING 110
 
@@ -58,7 +58,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     return NULL;
 }
 
-/* What the JSON form says in its first members, for readers of either. */
+/* Says in headers what the JSON form says in its first members, for readers of either form. */
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };

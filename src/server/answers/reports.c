@@ -1,4 +1,4 @@
-/* What the server says of itself: health, device, and the documents that are kept. */
+/* The server reports on itself: health, device, and the documents that are kept. */
 #include "server/openapi/kept.h"
 #include "server/http/reply.h"
 #include "server/http/request.h"
