@@ -11,12 +11,13 @@
 
 #define PICTURE_MAX ((size_t)1 << 30)
 
-enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000 };
+enum { KEY_PRESET = 'p', KEY_SET = 's', KEY_FROM = 'f', KEY_SIZE = 0x2000, KEY_ASSET };
 
 static const struct argp_option options_table[] = {
     { "preset", KEY_PRESET, "NAME", 0, "start from a preset (`kerrd presets` lists them)", 0 },
     { "set", KEY_SET, "PATH=VALUE", 0, "set one field, as in camera.inclination_deg=60; may be repeated", 0 },
     { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the picture, as in 1920x1080: --set image.width and image.height in one", 0 },
+    { "asset", KEY_ASSET, "NAME=FILE", 0, "a PNG that a field of the scene names so; may be repeated. No field names one yet", 0 },
     { "from", KEY_FROM, "PICTURE.png", 0, "take the scene from inside a picture that kerrd made", 0 },
     { 0 },
 };
@@ -42,6 +43,13 @@ static void add_size(struct kd_scene_options *options, const char *text, struct 
     add_set(options, options->height, state);
 }
 
+static void add_asset(struct kd_scene_options *options, const char *text, struct argp_state *state)
+{
+    struct kd_error error;
+    if (kd_asset_options_add(&options->assets, text, &error))
+        argp_error(state, "%s", error.message);
+}
+
 static void check_sources(const struct kd_scene_options *options, struct argp_state *state)
 {
     if (options->from && (options->document || options->preset))
@@ -56,6 +64,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_PRESET: options->preset = text; return 0;
     case KEY_FROM: options->from = text; return 0;
     case KEY_SIZE: add_size(options, text, state); return 0;
+    case KEY_ASSET: add_asset(options, text, state); return 0;
     case KEY_SET:
         if (!strchr(text, '=') || text[0] == '=')
             argp_error(state, "--set %s: it takes PATH=VALUE, as in camera.inclination_deg=60", text);
@@ -129,11 +138,14 @@ enum kd_status kd_scene_options_load(const struct kd_scene_options *options, str
         status = take_picture(options->from, out, error);
     for (size_t i = 0; i < options->n_set && !status; i++)
         status = apply_set(options->set[i], out, error);
+    if (!status)
+        status = kd_asset_options_resolve(&options->assets, out, error);
     return status ? status : kd_scene_validate(out, error);
 }
 
 void kd_scene_options_finish(struct kd_scene_options *options)
 {
     free(options->set);
+    kd_asset_options_finish(&options->assets);
     *options = (struct kd_scene_options) { 0 };
 }

@@ -1,10 +1,11 @@
 /* The options that choose a scene, the same for render, plan and scene. Main thread only.
  *
  * Merged in this order, each over what came before: the defaults or --preset; the document SCENE, or
- * the one inside the picture of --from; every --set and --size as given. */
+ * the one inside the picture of --from; every --set and --size as given. Then names of assets are resolved by --asset. */
 #ifndef KD_CLI_SCENE_OPTIONS_H
 #define KD_CLI_SCENE_OPTIONS_H
 
+#include "cli/asset_options.h"
 #include "scene/scene.h"
 
 #include <argp.h>
@@ -14,6 +15,7 @@ struct kd_scene_options {
     const char *preset, *from;
     const char **set; /* "path=value" */
     size_t n_set;
+    struct kd_asset_options assets;
     char width[32], height[32]; /* what --size is in that list */
 };
 

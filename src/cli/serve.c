@@ -28,7 +28,7 @@ static const struct argp_option table[] = {
     { "client-share", 'C', "PERCENT", 0, "of each of these that one client, an address, may have (default 75)", 0 },
     { "jobs-per-client", 'J', "N", 0, "unfinished jobs of one client (default: by --client-share)", 0 },
     { "allow-cross-site", 'X', NULL, 0, "take requests that pages of other sites make, as by an <img>", 0 },
-    { "state", 'S', "DIR", 0, "keep jobs and their frames there, so that they survive a restart", 0 },
+    { "state", 'S', "DIR", 0, "keep jobs and their frames, and assets, there, so that they survive a restart", 0 },
     KD_CLI_MEMORY,
     { "host", 'H', "NAME", 0, "answer requests for this host name too; may be repeated", 0 },
     { 0 },

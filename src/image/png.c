@@ -219,6 +219,14 @@ static enum kd_status take_text(struct job *job)
     return KD_OK;
 }
 
+/* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused before it costs memory. */
+static void check_promise(struct job *job, uint32_t height)
+{
+    uint64_t packed = (uint64_t)png_get_rowbytes(job->png, job->info) * height;
+    if (packed / 1032 > job->size)
+        png_error(job->png, "the file is too short for its width and height");
+}
+
 /* Ask libpng for RGB of 8 or 16 bits whatever the file holds. Alpha is dropped, not blended. */
 static int set_transforms(struct job *job)
 {
@@ -235,11 +243,7 @@ static int set_transforms(struct job *job)
 static void read_pixels(struct job *job)
 {
     struct kd_png *picture = job->picture;
-    /* Deflate expands by 1032 at most: a header that promises more pixels than the file can hold is refused
-     * before it costs memory. */
-    uint64_t packed = (uint64_t)png_get_rowbytes(job->png, job->info) * picture->height;
-    if (packed / 1032 > job->size)
-        png_error(job->png, "the file is too short for its width and height");
+    check_promise(job, picture->height);
     int passes = set_transforms(job);
     picture->bit_depth = png_get_bit_depth(job->png, job->info);
     size_t stride = (size_t)picture->width * 3 * ((size_t)picture->bit_depth / 8);
@@ -257,16 +261,21 @@ static void read_pixels(struct job *job)
             png_read_row(job->png, (png_bytep)picture->pixels + y * stride, NULL);
 }
 
-static bool decode(struct job *job)
+static void read_info(struct job *job)
 {
-    if (setjmp(png_jmpbuf(job->png)))
-        return false;
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
     png_set_chunk_malloc_max(job->png, MAX_TEXT + 128); /* with its key */
     png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1); /* libpng takes two fewer */
     png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text is damage too */
     png_read_info(job->png, job->info);
+}
+
+static bool decode(struct job *job)
+{
+    if (setjmp(png_jmpbuf(job->png)))
+        return false;
+    read_info(job);
     job->picture->width = png_get_image_width(job->png, job->info);
     job->picture->height = png_get_image_height(job->png, job->info);
     read_pixels(job);
@@ -281,7 +290,7 @@ static uint32_t big_endian(const uint8_t *p)
 
 /* A file is checked before libpng sees it, for the sake of a sentence that names what is wrong, and because libpng 1.6
  * allocates what a text chunk's length field says, up to 2 GiB, before it looks whether that much follows. */
-static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, struct kd_error *error)
+static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, size_t *end, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
     if (size < sizeof signature || memcmp(data, signature, sizeof signature))
@@ -298,8 +307,10 @@ static enum kd_status check_header(const uint8_t *data, size_t size, size_t *tex
         if (room < 12 || big_endian(data + at) > room - 12)
             return kd_error_set(error, KD_EINVAL,
                                 "damaged PNG file: the chunk at byte %zu ends past the file", at);
-        if (memcmp(data + at + 4, "IEND", 4) == 0)
+        if (memcmp(data + at + 4, "IEND", 4) == 0) {
+            *end = at + 12 + big_endian(data + at);
             break;
+        }
         *texts += memcmp(data + at + 4, "tEXt", 4) == 0 || memcmp(data + at + 4, "zTXt", 4) == 0 || memcmp(data + at + 4, "iTXt", 4) == 0;
         at += 12 + (size_t)big_endian(data + at);
     }
@@ -310,7 +321,8 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
 {
     *out = (struct kd_png) { 0 };
     struct job job = { .source = data, .left = size, .size = size, .picture = out };
-    enum kd_status status = check_header(data, size, &job.texts, error);
+    size_t end = 0;
+    enum kd_status status = check_header(data, size, &job.texts, &end, error);
     if (status)
         return status;
     job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
@@ -330,6 +342,42 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
     png_destroy_read_struct(&job.png, &job.info, NULL);
     if (status)
         kd_png_finish(out);
+    return status;
+}
+
+static bool look(struct job *job, struct kd_png_about *out)
+{
+    if (setjmp(png_jmpbuf(job->png)))
+        return false;
+    read_info(job);
+    out->width = png_get_image_width(job->png, job->info);
+    out->height = png_get_image_height(job->png, job->info);
+    out->bit_depth = png_get_bit_depth(job->png, job->info);
+    out->channels = png_get_channels(job->png, job->info);
+    check_promise(job, out->height);
+    return true;
+}
+
+enum kd_status kd_png_look(const void *data, size_t size, struct kd_png_about *out, struct kd_error *error)
+{
+    struct job job = { .source = data, .left = size, .size = size };
+    size_t end = 0;
+    enum kd_status status = check_header(data, size, &job.texts, &end, error);
+    *out = (struct kd_png_about) { 0 };
+    if (!status && !end)
+        status = kd_error_set(error, KD_EINVAL, "damaged PNG file: its end is missing");
+    if (!status && end < size)
+        status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %zu bytes follow its end", size - end);
+    if (status)
+        return status;
+    job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
+    job.info = job.png ? png_create_info_struct(job.png) : NULL;
+    bool done = job.info && look(&job, out);
+    if (!job.info || job.no_memory)
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the header of a PNG");
+    else if (!done)
+        status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %s", job.message);
+    png_destroy_read_struct(&job.png, &job.info, NULL);
     return status;
 }
 

@@ -31,6 +31,15 @@ struct kd_png {
     size_t n_text;
 };
 enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error);
+
+/* What a PNG file says of itself, its pixels not decoded. It is a PNG file if its chunks are whole and end with the file, libpng takes
+ * the header, and its bytes may hold as many pixels as it promises; else KD_EINVAL. Whether its pixels are sound only decoding tells. */
+struct kd_png_about {
+    uint32_t width, height;
+    int bit_depth, channels; /* as in the file: 1, 2, 4, 8 or 16; 1 to 4, and 1 for a palette */
+};
+enum kd_status kd_png_look(const void *data, size_t size, struct kd_png_about *out, struct kd_error *error);
+
 const char *kd_png_text_find(const struct kd_png *png, const char *key); /* NULL if there is none */
 void kd_png_finish(struct kd_png *png);
 

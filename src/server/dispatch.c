@@ -8,6 +8,7 @@
 #include "server/http/negotiate.h"
 #include "server/http/prompt.h"
 #include "server/answers/orbits.h"
+#include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/task.h"
 #include "server/job/jobs.h"
@@ -20,6 +21,7 @@
 #define BODY_TOO_LARGE "a body may hold 1048576 bytes"
 #define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
 #define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
+#define ASSET_TOO_LARGE "an asset may hold 33554432 bytes"
 #define JOB_TOO_LARGE "a body of a job may hold 4194304 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
@@ -154,6 +156,7 @@ static size_t body_max(const struct kd_request *request)
     case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
     case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
     case KD_TAKES_JOB: return KD_JOB_BODY_MAX;
+    case KD_TAKES_ASSET: return KD_ASSET_BYTES;
     default: return KD_BODY_MAX;
     }
 }
@@ -164,6 +167,7 @@ static const char *too_large(const struct kd_request *request)
     case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
     case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
     case KD_TAKES_JOB: return JOB_TOO_LARGE;
+    case KD_TAKES_ASSET: return ASSET_TOO_LARGE;
     default: return BODY_TOO_LARGE;
     }
 }
@@ -174,19 +178,21 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
 #define OR(other) { other, "application/json, " other, SAY " or " other }
     static const struct { const char *other, *offered, *detail; } all[] = {
         { "application/json", "application/json", SAY }, OR(KD_NPY_TYPE), OR(KD_PATCH_TYPE),
+        { KD_ASSET_TYPE, KD_ASSET_TYPE, "an asset must say Content-Type: " KD_ASSET_TYPE },
     };
 #undef OR
 #undef SAY
-    size_t i = patch ? 2 : request->route->takes == KD_TAKES_RAYS;
+    const bool asset = request->route->takes == KD_TAKES_ASSET;
+    size_t i = asset ? 3 : patch ? 2 : request->route->takes == KD_TAKES_RAYS;
     const char *type = request->header.content_type;
     *problem = (struct kd_problem) { .type = KD_PROBLEM_MEDIA_TYPE, .offered = all[i].offered, .detail = all[i].detail };
-    return !kd_media_type_is(type, "application/json") && !kd_media_type_is(type, all[i].other);
+    return (asset || !kd_media_type_is(type, "application/json")) && !kd_media_type_is(type, all[i].other);
 }
 
 static bool body_fault(const struct kd_request *request, struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
-    if (!patch && strcmp(request->method, "POST")) {
+    if (!patch && strcmp(request->method, "POST") && strcmp(request->method, "PUT")) {
         *problem =
             (struct kd_problem) { .type = KD_PROBLEM_BAD_REQUEST, .detail = "this method takes no body" };
         return request->body_announced;

@@ -1,6 +1,7 @@
 #include "server/server.h"
 
 #include "base/log.h"
+#include "server/asset/store.h"
 #include "server/http/descriptors.h"
 #include "server/keeper.h"
 #include "server/http/library.h"
@@ -110,6 +111,12 @@ static unsigned share_of(const struct kd_server_params *params, unsigned limit)
     return share ? share : 1;
 }
 
+static uint64_t bytes_share_of(const struct kd_server_params *params, uint64_t bytes)
+{
+    unsigned percent = or_default(params->client_share, 75);
+    return bytes / 100 * (percent > 100 ? 100 : percent);
+}
+
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
                             struct kd_error *error)
 {
@@ -170,6 +177,15 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,
     };
     status = kd_jobs_create(&jobs, &server->jobs, error);
+    if (status) {
+        close(fd);
+        return status;
+    }
+    const unsigned assets = or_default(params->assets, KD_ASSETS);
+    const uint64_t asset_bytes = params->assets_kib ? (uint64_t)params->assets_kib << 10 : KD_ASSETS_BYTES;
+    const struct kd_asset_limits asset_limits = { assets, share_of(params, assets), asset_bytes, bytes_share_of(params, asset_bytes),
+                                                  params->asset_keep_s ? params->asset_keep_s : KD_ASSET_KEEP_S };
+    status = kd_asset_store_open(params->state, &asset_limits, &server->assets, error); /* behind the jobs, who have the folder's lock */
     if (status) {
         close(fd);
         return status;
@@ -249,6 +265,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_render_queue_destroy(server->renders);
     kd_sessions_destroy(server->sessions); /* the queue's last frames were theirs */
     kd_jobs_destroy(server->jobs);
+    kd_asset_store_close(server->assets);
     kd_connections_destroy(server->connections);
     kd_bytes_destroy(server->bodies);
     kd_bytes_destroy(server->replies);

@@ -21,7 +21,9 @@ struct kd_server_params {
     unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */
     bool cross_site;          /* take requests that pages of other sites make */
     unsigned jobs_kib;        /* bytes of the frames of all jobs, default 16 GiB */
-    const char *state;        /* a folder in which jobs survive a restart; NULL: none */
+    unsigned assets, assets_kib; /* assets at once, and the size of all of them; default 64 and 256 MiB */
+    unsigned asset_keep_s;    /* how long an asset stays that nobody asks for, if others want its room; default a day */
+    const char *state;        /* a folder in which jobs and assets survive a restart; NULL: none */
     unsigned drain_ms;        /* how long it goes on serving after a stop request, with /readyz failing; default 1000 */
     unsigned connections;     /* connections at once; one more is answered 503, but on the health routes; default 512 */
     unsigned header_ms;       /* a request's header must be complete by then; default 10 000 */

@@ -2,6 +2,8 @@
 import json
 import os
 import signal
+import struct
+import zlib
 
 from support import Case, main, run
 
@@ -42,6 +44,19 @@ class Usage(Case):
         for size in "1920", "x", "1920x", "x1080", "1920x1080x2", "1920 x 1080", "-1x5", "1920*1080":
             self.bad(2, "as in 1920x1080", "scene", "--size", size)
         self.bad(2, "image.width", "scene", "--size", "0x1080")
+
+    def test_assets(self):
+        """No field of kerrd's scene is one so far, so that each is one too many; tests/unit/scene_table.c has those that are named."""
+        picture = self.path("a.png")
+        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        with open(picture, "wb") as file:
+            file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(b"\0\0")) + chunk(b"IEND", b""))
+        self.bad(2, "--asset sky: no field of the scene names it", "scene", "--asset", "sky=" + picture)
+        self.bad(2, "not a PNG file", "scene", "--asset", "sky=" + self.write("b.png", "text"))
+        self.bad(2, "No such file", "scene", "--asset", "sky=" + self.path("none.png"))
+        self.bad(2, "this name is given twice", "scene", "--asset", "sky=a", "--asset", "sky=b")
+        for text in "sky", "sky=", "=a.png", "2=a.png", "a/b=a.png", "a" * 64 + "=a.png":
+            self.bad(2, "it takes NAME=FILE", "scene", "--asset", text)
 
     def test_places_in_a_document(self):
         self.bad(2, "line 3, column 10", "scene", self.write("a.json", '{\n  "camera": {\n    "r": nil\n  }\n}'))

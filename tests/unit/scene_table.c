@@ -1,5 +1,8 @@
 /* The scene's machinery over another table of fields (table/scene/fields.h): what it does for spots it does for any list, and assets are
  * names until they are resolved. */
+#include "cli/asset_options.h"
+#include "cli/cli.h"
+#include "image/png.h"
 #include "scene/asset.h"
 #include "scene/presets.h"
 #include "scene/rules.h"
@@ -136,6 +139,61 @@ static void assets_are_resolved(void **state)
     assert_memory_equal(&scene, &same, sizeof scene);
 }
 
+/* The rest of src/cli knows the other scene. */
+enum kd_status kd_cli_prefix(struct kd_error *error, const char *name) { return (void)name, error->status; }
+void kd_cli_stdout_failed(int number) { (void)number; }
+
+static void write_file(const char *path, const struct kd_buffer *bytes)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes->data, 1, bytes->size, file), bytes->size);
+    fclose(file);
+}
+
+/* --asset NAME=FILE */
+static void assets_on_a_command_line(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/kerrd-asset-XXXXXX", texts[3][64], hash[65];
+    const uint8_t pixels[3 * 4] = { 1, 2, 3 };
+    struct kd_buffer png = { 0 };
+    struct kd_asset_options options = { 0 };
+    struct kd_error error;
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    fclose(fdopen(fd, "wb"));
+    assert_int_equal(kd_png_encode(&(struct kd_png_params) { .width = 2, .height = 2, .bit_depth = 8, .pixels = pixels }, &png, &error), KD_OK);
+    write_file(path, &png);
+    kd_sha256(png.data, png.size, hash);
+    snprintf(texts[0], sizeof texts[0], "sky=%s", path);
+    snprintf(texts[1], sizeof texts[1], "ground=%s", path);
+    assert_int_equal(kd_asset_options_add(&options, texts[0], &error), KD_OK);
+    struct kd_scene scene = of("{\"place\":{\"map\":\"sky\"},\"bodies\":[{},{\"texture\":\"sky\"}]}");
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_OK);
+    assert_string_equal(scene.place.map, hash);
+    assert_string_equal(scene.bodies.at[1].texture, hash);
+    assert_string_equal(scene.bodies.at[0].texture, "");
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_OK); /* by its hash */
+    assert_int_equal(kd_asset_options_add(&options, texts[1], &error), KD_OK);
+    scene = of("{\"film\":\"sky\"}");
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
+    assert_string_equal(error.message, "--asset ground: no field of the scene names it");
+    scene = of("{\"film\":\"sky\",\"stops\":[{\"sound\":\"wind\"}]}");
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/stops/0/sound");
+    png.data[20] ^= 1;
+    write_file(path, &png);
+    scene = of("{\"film\":\"sky\"}");
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
+    assert_string_equal(scene.top.film, "sky");
+    remove(path);
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "No such file"));
+    kd_asset_options_finish(&options);
+    kd_buffer_finish(&png);
+}
+
 static void assets_have_names(void **state)
 {
     (void)state;
@@ -202,7 +260,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(canonical_form),    cmocka_unit_test(lists_of_any_kind),    cmocka_unit_test(assets_are_resolved),
-        cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference), cmocka_unit_test(sha256),
+        cmocka_unit_test(assets_on_a_command_line), cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference), cmocka_unit_test(sha256),
     };
     return cmocka_run_group_tests_name("scene table", tests, NULL, NULL);
 }

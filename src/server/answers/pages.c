@@ -1,14 +1,14 @@
-#include "server/http/assets.h"
+#include "server/http/served.h"
 #include "server/http/reply.h"
 #include "server/http/route.h"
 
 #include <string.h>
 
-static const struct kd_asset *find(const char *name)
+static const struct kd_served *find(const char *name)
 {
-    for (size_t i = 0; i < kd_n_assets; i++)
-        if (!strcmp(kd_assets[i].name, name))
-            return &kd_assets[i];
+    for (size_t i = 0; i < kd_n_page_files; i++)
+        if (!strcmp(kd_page_files[i].name, name))
+            return &kd_page_files[i];
     return NULL;
 }
 
@@ -16,11 +16,11 @@ static const struct kd_asset *find(const char *name)
  * 304 says that it has not. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
-    const struct kd_asset *asset = find(strcmp(request->route->path, "/") ? request->target.text + strlen("/web/") : "index.html");
-    if (!asset)
+    const struct kd_served *file = find(strcmp(request->route->path, "/") ? request->target.text + strlen("/web/") : "index.html");
+    if (!file)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND });
     bool same;
-    struct MHD_Response *response = kd_reply_asset(request, asset, &same);
+    struct MHD_Response *response = kd_reply_served(request, file, &same);
     if (!response)
         return kd_reply_no_memory(request);
     /* blob: is how a picture whose headers were read gets into an <img>. */

@@ -37,12 +37,12 @@ enum MHD_Result kd_handle_device(struct kd_request *request)
 
 enum MHD_Result kd_handle_kept(struct kd_request *request)
 {
-    const struct kd_asset *document = kd_kept_find(request->server->kept, request->target.path);
+    const struct kd_served *document = kd_kept_find(request->server->kept, request->target.path);
     struct kd_scene scene;
     struct kd_error error = { 0 };
     bool same;
     if (document) {
-        struct MHD_Response *response = kd_reply_asset(request, document, &same);
+        struct MHD_Response *response = kd_reply_served(request, document, &same);
         return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
     }
     kd_scene_preset(&scene, request->rest, &error); /* it says which there are */

@@ -7,7 +7,7 @@ import sys
 TYPES = {'.html': 'text/html; charset=utf-8', '.js': 'text/javascript; charset=utf-8',
          '.css': 'text/css; charset=utf-8', '.svg': 'image/svg+xml', '': 'text/plain; charset=utf-8'}
 output, files = pathlib.Path(sys.argv[1]), [pathlib.Path(f) for f in sys.argv[2:]]
-lines = ['#include "server/http/assets.h"', '']
+lines = ['#include "server/http/served.h"', '']
 rows = []
 
 
@@ -22,6 +22,6 @@ for i, file in enumerate(files):
     data = file.read_bytes()
     rows.append(f'    {{ "{file.relative_to(files[0].parent).as_posix()}", "{TYPES[file.suffix]}", {form(f"plain_{i}", data)},\n'
                 f'      {form(f"gzip_{i}", gzip.compress(data, 9, mtime=0))} }},')
-lines += ['const struct kd_asset kd_assets[] = {', *rows, '};',
-          'const size_t kd_n_assets = sizeof kd_assets / sizeof *kd_assets;']
+lines += ['const struct kd_served kd_page_files[] = {', *rows, '};',
+          'const size_t kd_n_page_files = sizeof kd_page_files / sizeof *kd_page_files;']
 output.write_text('\n'.join(lines) + '\n')

@@ -29,6 +29,7 @@
     X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid")                             \
     X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid")                            \
     X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid")                                 \
+    X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken")                             \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(QUOTA, 429, "quota", "This client has as much as one may")                                              \
     X(HEADER_TOO_LARGE, 431, "header-too-large", "The header is too large")                                  \
@@ -39,6 +40,7 @@
     X(CROWDED, 503, "too-many-connections", "Too many connections are open")                                 \
     X(STOPPING, 503, "stopping", "The server is stopping")                                                   \
     X(DISK_FULL, 507, "disk-full", "There is no room on the disk")                                            \
+    X(ASSETS_FULL, 507, "assets-full", "There is no room for more assets")                                   \
     X(HTTP_VERSION, 505, "http-version", "Only HTTP/1.1 and HTTP/1.0 are spoken here")
 
 enum kd_problem_type {

@@ -49,17 +49,17 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     return response;
 }
 
-struct MHD_Response *kd_reply_asset(struct kd_request *request, const struct kd_asset *asset, bool *same)
+struct MHD_Response *kd_reply_served(struct kd_request *request, const struct kd_served *file, bool *same)
 {
     struct kd_buffer encodings = kd_reply_header_list(request, "Accept-Encoding");
     struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
-    bool gzip = asset->gzip.data && kd_accepts_coding((const char *)encodings.data, "gzip");
-    const struct kd_asset_form *form = gzip ? &asset->gzip : &asset->plain;
+    bool gzip = file->gzip.data && kd_accepts_coding((const char *)encodings.data, "gzip");
+    const struct kd_served_form *form = gzip ? &file->gzip : &file->plain;
     *same = kd_etag_listed((const char *)known.data, form->etag);
     kd_buffer_finish(&encodings);
     kd_buffer_finish(&known);
 
-    struct MHD_Response *response = kd_reply_static(form->data, form->size, asset->type);
+    struct MHD_Response *response = kd_reply_static(form->data, form->size, file->type);
     if (!response)
         return NULL;
     if (gzip)

@@ -27,7 +27,7 @@ static bool matches(const struct kd_route *route, char *path, const char **rest)
 static bool permits(const struct kd_route *route, const char *method)
 {
     static const struct { const char *name; unsigned bit; } methods[] = {
-        { "GET", KD_GET }, { "HEAD", KD_GET }, { "POST", KD_POST }, { "PATCH", KD_PATCH }, { "DELETE", KD_DELETE },
+        { "GET", KD_GET }, { "HEAD", KD_GET }, { "POST", KD_POST }, { "PATCH", KD_PATCH }, { "DELETE", KD_DELETE }, { "PUT", KD_PUT },
     };
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
         if (!strcmp(methods[i].name, method))
@@ -41,6 +41,7 @@ static const char *allow(unsigned methods)
     case KD_GET: return "GET, HEAD";
     case KD_POST: return "POST";
     case KD_GET | KD_POST: return "GET, HEAD, POST";
+    case KD_GET | KD_PUT: return "GET, HEAD, PUT";
     case KD_GET | KD_DELETE: return "GET, HEAD, DELETE";
     default: return "GET, HEAD, PATCH, DELETE";
     }

@@ -10,7 +10,7 @@
 
 struct kd_request;
 
-enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8 }; /* HEAD goes with GET */
+enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD goes with GET */
 
 enum kd_takes {
     KD_TAKES_NOTHING,
@@ -18,6 +18,7 @@ enum kd_takes {
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
     KD_TAKES_ORBITS,
     KD_TAKES_JOB,
+    KD_TAKES_ASSET,
     KD_TAKES_STRIKE,    /* in the body, or none */
     KD_TAKES_PARTICLES, /* which and what of them, in the query */
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
@@ -66,6 +67,8 @@ enum MHD_Result kd_handle_render(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */
 enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* answers/accuracy.c */
+enum MHD_Result kd_handle_assets(struct kd_request *request); /* answers/assets.c */
+enum MHD_Result kd_handle_asset(struct kd_request *request);
 enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session/routes.c */
 enum MHD_Result kd_handle_session(struct kd_request *request);
 enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);

@@ -31,6 +31,9 @@
 #define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
 #define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */
 #define KD_JOB_BYTES ((uint64_t)16 << 30)  /* on disk, of all jobs */
+#define KD_ASSETS 64u                      /* at once, */
+#define KD_ASSETS_BYTES ((uint64_t)256 << 20) /* of so many bytes */
+#define KD_ASSET_KEEP_S (24 * 3600.0)      /* one that nobody asks for, if others want its room */
 
 #define KD_STATUS_CLASSES 6
 
@@ -43,6 +46,7 @@ enum kd_phase {
     KD_STOPPED,
 };
 
+struct kd_asset_store;
 struct kd_jobs;
 struct kd_kept;
 struct kd_render_queue;
@@ -61,6 +65,7 @@ struct kd_server {
     struct kd_turns *turns; /* orbits, long quantities, jobs being checked */
     struct kd_sessions *sessions;
     struct kd_jobs *jobs;
+    struct kd_asset_store *assets;
     struct kd_kept *kept;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */
 

@@ -13,7 +13,7 @@
 #include <string.h>
 
 struct document {
-    struct kd_asset asset; /* points into what follows */
+    struct kd_served served; /* points into what follows */
     char path[80], etags[2][24];
     struct kd_buffer plain, gzip;
 };
@@ -63,9 +63,9 @@ static enum kd_status finish(struct document *d, const char *type)
     bool packed = kd_gzip(&d->gzip);
     tag(&d->plain, d->etags[0]);
     tag(&d->gzip, d->etags[1]);
-    d->asset = (struct kd_asset) { d->path, type, { d->etags[0], d->plain.data, d->plain.size }, { 0 } };
+    d->served = (struct kd_served) { d->path, type, { d->etags[0], d->plain.data, d->plain.size }, { 0 } };
     if (packed)
-        d->asset.gzip = (struct kd_asset_form) { d->etags[1], d->gzip.data, d->gzip.size };
+        d->served.gzip = (struct kd_served_form) { d->etags[1], d->gzip.data, d->gzip.size };
     return KD_OK;
 }
 
@@ -114,10 +114,10 @@ void kd_kept_destroy(struct kd_kept *kept)
     free(kept);
 }
 
-const struct kd_asset *kd_kept_find(const struct kd_kept *kept, const char *path)
+const struct kd_served *kd_kept_find(const struct kd_kept *kept, const char *path)
 {
     for (size_t i = 0; i < kept->n; i++)
         if (!strcmp(kept->documents[i].path, path))
-            return &kept->documents[i].asset;
+            return &kept->documents[i].served;
     return NULL;
 }

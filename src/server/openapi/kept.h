@@ -4,13 +4,13 @@
 #define KD_SERVER_OPENAPI_KEPT_H
 
 #include "base/error.h"
-#include "server/http/assets.h"
+#include "server/http/served.h"
 
 struct kd_kept;
 
 enum kd_status kd_kept_create(struct kd_kept **out, struct kd_error *error);
 void kd_kept_destroy(struct kd_kept *kept); /* accepts NULL */
 /* Finds a document by the path of its route, "/v1/presets/gargantua"; NULL: there is none. */
-const struct kd_asset *kd_kept_find(const struct kd_kept *kept, const char *path);
+const struct kd_served *kd_kept_find(const struct kd_kept *kept, const char *path);
 
 #endif

@@ -2,8 +2,9 @@
  * table. */
 #include "server/openapi/openapi.h"
 #include "render/output/format.h"
-#include "server/http/assets.h"
+#include "server/http/served.h"
 #include "server/job/formats.h"
+#include "server/openapi/assets.h"
 #include "server/openapi/jobs.h"
 #include "server/openapi/media.h"
 #include "server/openapi/orbits.h"
@@ -71,9 +72,9 @@ static void add_file_schema(struct kd_json *json, const char *path)
     kd_json_object(json, "schema");
     kd_json_string(json, "type", "string");
     kd_json_array(json, "enum");
-    for (size_t i = 0; i < kd_n_assets; i++)
-        if (!strncmp(kd_assets[i].name, path + skip, n) && !strchr(kd_assets[i].name + n, '/'))
-            kd_json_string(json, NULL, kd_assets[i].name + n);
+    for (size_t i = 0; i < kd_n_page_files; i++)
+        if (!strncmp(kd_page_files[i].name, path + skip, n) && !strchr(kd_page_files[i].name + n, '/'))
+            kd_json_string(json, NULL, kd_page_files[i].name + n);
     kd_json_end(json);
     kd_json_end(json);
 }
@@ -81,6 +82,7 @@ static void add_file_schema(struct kd_json *json, const char *path)
 static void add_path_parameter(struct kd_json *json, const char *path)
 {
     static const char id[] = "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{16}$\"}";
+    static const char hash[] = "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{64}$\"}";
     const char *brace = strchr(path, '{');
     char name[20];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(brace + 1, "}"), brace + 1);
@@ -88,6 +90,8 @@ static void add_path_parameter(struct kd_json *json, const char *path)
     kd_json_bool(json, "required", true);
     if (!strcmp(name, "id"))
         kd_json_raw(json, "schema", id, sizeof id - 1);
+    else if (!strcmp(name, "sha256"))
+        kd_json_raw(json, "schema", hash, sizeof hash - 1);
     else if (!strncmp(path, "/web/", 5))
         add_file_schema(json, path);
     else
@@ -231,6 +235,10 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
     case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
+    case KD_TAKES_ASSET:
+        if (method == KD_PUT)
+            kd_openapi_asset_body(json);
+        break;
     default: break;
     }
 }
@@ -253,7 +261,7 @@ static void add_formats(struct kd_json *json, enum kd_gives gives)
         kd_openapi_media(json, format.media_type, "", 0);
 }
 
-static void add_typed(struct kd_json *json, const struct kd_route *route)
+static void add_typed(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     char type[64];
     snprintf(type, sizeof type, "%.*s", (int)strcspn(route->answer, ";"), route->answer);
@@ -261,6 +269,7 @@ static void add_typed(struct kd_json *json, const struct kd_route *route)
     case KD_TAKES_RAYS: kd_openapi_rays_answer(json); break;
     case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_answer(json); break;
+    case KD_TAKES_ASSET: kd_openapi_asset_answer(json, method); break;
     default: kd_openapi_media(json, type, "", 0);
     }
     for (const char *also = route->also; also && *also; also += strspn(also, " ")) {
@@ -270,11 +279,11 @@ static void add_typed(struct kd_json *json, const struct kd_route *route)
     }
 }
 
-static void add_answer(struct kd_json *json, const struct kd_route *route)
+static void add_answer(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     kd_json_object(json, "content");
     if (route->gives == KD_GIVES_ITS_ANSWER)
-        add_typed(json, route);
+        add_typed(json, route, method);
     else
         add_formats(json, route->gives);
     kd_json_end(json);
@@ -285,10 +294,13 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, un
     kd_json_object(json, "responses");
     begin_response(json, method == KD_DELETE ? 204 : route->status[0] ? route->status[0] : 200, route->summary);
     if (method != KD_DELETE)
-        add_answer(json, route);
+        add_answer(json, route, method);
     kd_json_end(json);
-    if (method != KD_DELETE && route->status[1]) {
-        begin_response(json, route->status[1], route->status[1] == 304 ? "What If-None-Match names" : route->summary);
+    const unsigned also = method == KD_DELETE || (route->status[1] == 201 && method != KD_PUT) ? 0 : route->status[1];
+    if (also) {
+        begin_response(json, also, also == 304 ? "What If-None-Match names" : route->summary);
+        if (also == 201)
+            add_answer(json, route, method);
         kd_json_end(json);
     }
     add_reference(json, "default", "#/components/responses/Problem");
@@ -329,12 +341,13 @@ static void add_problem_schema(struct kd_json *json)
 
 static void add_components(struct kd_json *json, const struct kd_buffer *schema)
 {
-    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session or job\"}}";
+    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session, job or asset\"}}";
     kd_json_object(json, "components");
     kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
     kd_openapi_orbits_schema(json);
+    kd_openapi_asset_schema(json);
     add_problem_schema(json);
     kd_json_end(json);
     kd_json_object(json, "responses");
@@ -352,6 +365,7 @@ static void add_path(struct kd_json *json, const struct kd_route *route, const c
 {
     static const struct { const char *name; unsigned bit; } methods[] = {
         { "get", KD_GET }, { "post", KD_POST }, { "patch", KD_PATCH }, { "delete", KD_DELETE },
+        { "put", KD_PUT },
     };
     kd_json_object(json, route->path);
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)

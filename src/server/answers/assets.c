@@ -1,0 +1,207 @@
+#include "base/json.h"
+#include "server/asset/store.h"
+#include "server/http/negotiate.h"
+#include "server/http/reply.h"
+#include "server/http/request.h"
+#include "server/render/task.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+
+/* {"sha256", "type", "width", "height", "bit_depth", "channels", "bytes", "created"}, and for who has just put it here the token. */
+static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "sha256", about->hash);
+    if (token)
+        kd_json_string(&json, "token", about->token);
+    kd_json_string(&json, "type", KD_ASSET_TYPE);
+    kd_json_number(&json, "width", about->width);
+    kd_json_number(&json, "height", about->height);
+    kd_json_number(&json, "bit_depth", about->bit_depth);
+    kd_json_number(&json, "channels", about->channels);
+    kd_json_number(&json, "bytes", (double)about->size);
+    kd_json_number(&json, "created", about->created);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+/* A request that puts one here: hashed and written by the workers. */
+struct putting {
+    struct kd_task task; /* first */
+    struct kd_asset_put put;
+};
+
+static void destroy(struct kd_task *task)
+{
+    struct putting *p = (struct putting *)task;
+    struct kd_asset_store *store = task->request->server->assets;
+    if (p->put.created && task->request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
+        kd_asset_store_remove(store, p->put.asset);
+    if (p->put.asset)
+        kd_asset_release(store, p->put.asset);
+    free(p);
+}
+
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
+{
+    struct putting *p = (struct putting *)task;
+    const struct kd_buffer *body = &task->request->body;
+    struct kd_error error = { 0 };
+    (void)until_ms;
+    kd_task_fail(task, kd_asset_store_put(task->request->server->assets, body->data ? body->data : (const uint8_t *)"", body->size,
+                                          task->request->client, &p->put, &error), &error);
+    return KD_TURN_LAST;
+}
+
+static enum MHD_Result refuse(struct kd_request *request, const struct putting *p)
+{
+    struct kd_problem problem = kd_problem_from(&p->task.error);
+    if (p->task.status == KD_EINVAL)
+        problem.type = KD_PROBLEM_INVALID_ASSET;
+    if (p->put.quota)
+        problem.type = KD_PROBLEM_QUOTA;
+    if (p->put.full)
+        problem.type = KD_PROBLEM_ASSETS_FULL;
+    return kd_reply_problem(request, &problem);
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    const struct putting *p = (const struct putting *)request->task;
+    struct kd_buffer json = { 0 };
+    if (p->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (p->task.status)
+        return refuse(request, p);
+    const struct kd_asset_about *about = kd_asset_about(p->put.asset);
+    enum kd_status status = to_json(about, p->put.created, &json);
+    if (status || !p->put.created)
+        return kd_reply_json(request, status, &json, JSON_TYPE);
+    char location[90];
+    snprintf(location, sizeof location, "/v1/assets/%s", about->hash);
+    struct MHD_Response *response = kd_reply_take(&json, JSON_TYPE);
+    if (response)
+        MHD_add_response_header(response, "Location", location);
+    return kd_reply_send(request, MHD_HTTP_CREATED, response);
+}
+
+static enum MHD_Result put(struct kd_request *request)
+{
+    enum MHD_Result refused;
+    if (request->task)
+        return deliver(request);
+    if (!kd_task_admit(request, request->server->turns, "assets", &refused))
+        return refused;
+    struct putting *p = calloc(1, sizeof *p);
+    if (!p)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    kd_task_init(&p->task, request, request->server->turns);
+    p->task.work = work;
+    p->task.free = destroy;
+    request->task = &p->task;
+    return kd_task_submit(&p->task);
+}
+
+/* How much is kept, and what may be; no hashes: who knows one may have the bytes. */
+enum MHD_Result kd_handle_assets(struct kd_request *request)
+{
+    enum MHD_Result refused;
+    if (!kd_reply_only(request, (const char *const[]) { NULL }, &refused))
+        return refused;
+    if (!strcmp(request->method, "PUT"))
+        return put(request);
+    const struct kd_asset_limits *limits = kd_asset_store_limits(request->server->assets);
+    struct kd_buffer text = { 0 };
+    unsigned assets;
+    uint64_t bytes;
+    kd_asset_store_count(request->server->assets, &assets, &bytes);
+    struct kd_json json = kd_json_begin(&text);
+    kd_json_object(&json, NULL);
+    kd_json_number(&json, "assets", assets);
+    kd_json_number(&json, "bytes", (double)bytes);
+    kd_json_object(&json, "limits");
+    kd_json_number(&json, "assets", limits->most);
+    kd_json_number(&json, "bytes", (double)limits->bytes);
+    kd_json_number(&json, "asset_bytes", (double)KD_ASSET_BYTES);
+    kd_json_number(&json, "asset_pixels", (double)KD_ASSET_PIXELS);
+    kd_json_end(&json);
+    kd_json_array(&json, "types");
+    kd_json_string(&json, NULL, KD_ASSET_TYPE);
+    kd_json_end(&json);
+    kd_json_end(&json);
+    return kd_reply_json(request, kd_json_finish_line(&json), &text, JSON_TYPE);
+}
+
+/* An answer that reads the bytes where they lie, and holds the asset. */
+struct sending {
+    struct kd_asset_store *store;
+    struct kd_asset *asset;
+};
+
+static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
+{
+    const struct sending *s = cls;
+    const struct kd_asset_about *about = kd_asset_about(s->asset);
+    size_t left = position < about->size ? about->size - (size_t)position : 0, n = left < size ? left : size;
+    if (!n)
+        return MHD_CONTENT_READER_END_OF_STREAM;
+    memcpy(to, about->data + position, n);
+    return (ssize_t)n;
+}
+
+static void release(void *cls)
+{
+    struct sending *s = cls;
+    kd_asset_release(s->store, s->asset);
+    free(s);
+}
+
+/* Takes the reference over. The bytes under this address never change. */
+static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *asset)
+{
+    const struct kd_asset_about *about = kd_asset_about(asset);
+    struct kd_buffer known = kd_reply_header_list(request, "If-None-Match");
+    snprintf(request->etag, sizeof request->etag, "\"%s\"", about->hash);
+    bool same = kd_etag_listed((const char *)known.data, request->etag);
+    kd_buffer_finish(&known);
+    struct sending *s = malloc(sizeof *s);
+    if (!s) {
+        kd_asset_release(request->server->assets, asset);
+        return kd_reply_no_memory(request);
+    }
+    *s = (struct sending) { request->server->assets, asset };
+    request->reply_bytes = about->size;
+    kd_reply_file(request, KD_INLINE, "kerrd-asset-%.8s.png", about->hash);
+    struct MHD_Response *response = MHD_create_response_from_callback(about->size, 256 << 10, produce, s, release);
+    if (!response) {
+        release(s);
+        return kd_reply_no_memory(request);
+    }
+    MHD_add_response_header(response, "Content-Type", KD_ASSET_TYPE);
+    MHD_add_response_header(response, "ETag", request->etag);
+    MHD_add_response_header(response, "Cache-Control", "private, max-age=31536000, immutable");
+    return kd_reply_send(request, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK, response);
+}
+
+enum MHD_Result kd_handle_asset(struct kd_request *request)
+{
+    struct kd_asset_store *store = request->server->assets;
+    struct kd_asset *asset = kd_asset_store_find(store, request->rest);
+    if (!asset)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND,
+                                                                .detail = "there is no asset of this SHA-256, or no longer" });
+    if (strcmp(request->method, "DELETE"))
+        return send_bytes(request, asset);
+    bool may = kd_secret_equal(kd_asset_about(asset)->token, kd_token_of(request));
+    if (may)
+        kd_asset_store_remove(store, asset);
+    kd_asset_release(store, asset);
+    return may ? kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE))
+               : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
+                                                                  .detail = "deleting an asset takes its token: Authorization: Bearer TOKEN" });
+}

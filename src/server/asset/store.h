@@ -1,0 +1,61 @@
+/* Assets: bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a folder too if the server has
+ * one: DIRECTORY/assets/HASH.png with HASH.json beside it, each written as a whole, the latter last. Any thread.
+ *
+ * Errors name no path: clients see them. */
+#ifndef KD_SERVER_ASSET_STORE_H
+#define KD_SERVER_ASSET_STORE_H
+
+#include "scene/scene.h"
+#include "server/http/secret.h"
+#include "server/http/shares.h"
+
+#include <stdint.h>
+
+struct kd_asset_store;
+struct kd_asset;
+
+#define KD_ASSET_TYPE "image/png" /* all that is taken so far */
+#define KD_ASSET_BYTES ((size_t)32 << 20) /* of one */
+#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* of one */
+
+struct kd_asset_limits {
+    unsigned most, client_most;       /* assets; of one client */
+    uint64_t bytes, client_bytes;     /* of all; of those of one client */
+    double keep_s;                    /* that one stays though nobody asks for it and others want its room */
+};
+/* state: NULL, or the server's folder, of which this process holds the lock (job/store.h). What it holds is read; what cannot be read is
+ * logged and left alone. */
+enum kd_status kd_asset_store_open(const char *state, const struct kd_asset_limits *limits, struct kd_asset_store **out,
+                                   struct kd_error *error);
+/* When nobody holds a reference any more. Accepts NULL. */
+void kd_asset_store_close(struct kd_asset_store *store);
+const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);
+
+/* Keeps a copy of the bytes; put->asset: a reference, put->created: they were not here before. KD_EINVAL: they are no picture that is
+ * taken; KD_EBUSY: somebody else is writing them, or with put->quota the client has its share; KD_EFULL: the disk is full, or with put->full
+ * as many are kept as may. It may write for long. */
+struct kd_asset_put {
+    struct kd_asset *asset;
+    bool created, quota, full;
+};
+enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client, struct kd_asset_put *put,
+                                  struct kd_error *error);
+/* By its hash: a reference, or NULL. Who asks for an asset keeps it from giving way. */
+struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *hash);
+/* Nobody finds it any more; its bytes go with the last reference, its files at once. */
+void kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
+void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
+void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
+
+/* Constant as long as it is held. */
+struct kd_asset_about {
+    char hash[KD_ASSET_NAME], token[KD_SECRET_TOKEN];
+    uint32_t width, height;
+    int bit_depth, channels;
+    double created; /* seconds since 1970 */
+    size_t size;
+    const uint8_t *data;
+};
+const struct kd_asset_about *kd_asset_about(const struct kd_asset *asset);
+
+#endif

@@ -1,0 +1,13 @@
+/* What openapi.json says of /v1/assets. */
+#ifndef KD_SERVER_OPENAPI_ASSETS_H
+#define KD_SERVER_OPENAPI_ASSETS_H
+
+#include "base/json.h"
+
+/* Asset, a member of components.schemas. */
+void kd_openapi_asset_schema(struct kd_json *json);
+void kd_openapi_asset_body(struct kd_json *json);
+/* Members of a "content"; method: KD_GET or KD_PUT. */
+void kd_openapi_asset_answer(struct kd_json *json, unsigned method);
+
+#endif
