@@ -239,15 +239,8 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 /* The format that Accept would rather have, JSON if it does not care; -1: none. */
 static int choose_format(struct kd_request *request)
 {
-    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    int best = -1, most = 0;
-    for (int i = 0; i < 4; i++) {
-        int weight = kd_accept_weight((const char *)accept.data, types[i]);
-        if (weight > most)
-            best = i, most = weight;
-    }
-    kd_buffer_finish(&accept);
-    return best;
+    size_t best = kd_reply_accepted(request, 4, kd_accept_string, types);
+    return best < 4 ? (int)best : -1;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed, bool quota)

@@ -42,14 +42,9 @@ static const char *offered(const struct kd_quantity *quantity)
 
 static enum form accepted(struct kd_request *request, const struct kd_quantity *quantity)
 {
-    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    int json = kd_accept_weight((const char *)accept.data, JSON_TYPE);
-    int csv = kd_accept_weight((const char *)accept.data, CSV_TYPE);
-    int wav = quantity->sound ? kd_accept_weight((const char *)accept.data, WAV_TYPE) : 0;
-    kd_buffer_finish(&accept);
-    if (wav > json && wav > csv)
-        return FORM_WAV;
-    return csv > json ? FORM_CSV : json ? FORM_JSON : FORM_NONE;
+    static const char *const types[] = { [FORM_JSON] = JSON_TYPE, [FORM_CSV] = CSV_TYPE, [FORM_WAV] = WAV_TYPE };
+    size_t n = quantity->sound ? 3 : 2, best = kd_reply_accepted(request, n, kd_accept_string, types);
+    return best < n ? (enum form)best : FORM_NONE;
 }
 
 /* What the query says; `format` is ours, for links that cannot say Accept. */

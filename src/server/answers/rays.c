@@ -89,11 +89,9 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
 /* The format that Accept would rather have, JSON if it does not care; -1: neither. */
 static int choose_format(struct kd_request *request)
 {
-    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    int json = kd_accept_weight((const char *)accept.data, JSON_TYPE);
-    int npy = kd_accept_weight((const char *)accept.data, KD_NPY_TYPE);
-    kd_buffer_finish(&accept);
-    return npy > json ? KD_RAYS_NPY : json ? KD_RAYS_JSON : -1;
+    static const char *const types[] = { JSON_TYPE, KD_NPY_TYPE };
+    static const int formats[] = { KD_RAYS_JSON, KD_RAYS_NPY, -1 };
+    return formats[kd_reply_accepted(request, 2, kd_accept_string, types)];
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error, bool malformed, bool quota)

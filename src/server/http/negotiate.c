@@ -80,7 +80,8 @@ static int entry_weight(const char *parameters)
     return q;
 }
 
-int kd_accept_weight(const char *accept, const char *type)
+/* In thousandths; 0: it is not admitted. */
+static int type_weight(const char *accept, const char *type)
 {
     int best = 0, best_weight = 0;
 
@@ -103,20 +104,17 @@ int kd_accept_weight(const char *accept, const char *type)
     return best ? best_weight : 0;
 }
 
-bool kd_accepts(const char *accept, const char *type)
-{
-    return kd_accept_weight(accept, type) > 0;
-}
+const char *kd_accept_string(size_t i, const void *list) { return ((const char *const *)list)[i]; }
 
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list)
 {
     size_t best = n;
     int most = 0;
     for (size_t i = 0; i < n; i++) {
-        int weight = kd_accept_weight(accept, type(i, list));
-        if (weight > most) {
+        int wanted = type_weight(accept, type(i, list));
+        if (wanted > most) {
             best = i;
-            most = weight;
+            most = wanted;
         }
     }
     return best;

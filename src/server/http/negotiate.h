@@ -5,13 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether an Accept value (RFC 9110, 12.5.1) admits the type: the most specific range that matches it
- * decides, by a weight above zero. Malformed entries match nothing; NULL or a blank value admits all. */
-bool kd_accepts(const char *accept, const char *type);
-/* That weight in thousandths, 0 when the type is not admitted: to choose between several. */
-int kd_accept_weight(const char *accept, const char *type);
-/* The admitted type of most weight among n, of several the first; n: none is. type(i, list) names them. */
+/* How much an Accept value (RFC 9110, 12.5.1) wants a type is said by the most specific range that matches it. Malformed entries match
+ * nothing; NULL or a blank value admits all. Which of n types, named by type(i, list), it wants most: of several the first; n: none. */
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
+const char *kd_accept_string(size_t i, const void *list); /* where list is of strings, const char *[] */
 
 /* Whether an Accept-Encoding value (RFC 9110, 12.5.3) names the coding, or "*", by a weight above zero. NULL: no. */
 bool kd_accepts_coding(const char *accept_encoding, const char *coding);

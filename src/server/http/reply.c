@@ -217,6 +217,14 @@ struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *na
     return all.text;
 }
 
+size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list), const void *list)
+{
+    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
+    size_t best = kd_accept_best((const char *)accept.data, n, type, list);
+    kd_buffer_finish(&accept);
+    return best;
+}
+
 enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
 {
     enum kd_status status = kd_buffer_printf(out, "%s\"", out->size ? ", " : "");

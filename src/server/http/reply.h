@@ -41,6 +41,8 @@ bool kd_reply_only(struct kd_request *request, const char *const *known, enum MH
 
 /* All values of a request header that is a list, joined by commas; empty when it is absent or memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
+/* kd_accept_best of what the request accepts. */
+size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
 /* Append a sentence to a header that lists them: percent-encoded inside quotes, so that any client can split at the commas
  * between them. */
 enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text);

@@ -1,7 +1,6 @@
 /* GET /v1/jobs/{id}/result: a frame as a file, all of them as ZIP, or as they come; a table of their rows. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"
-#include "server/http/negotiate.h"
 #include "server/http/reply.h"
 #include "server/job/jobs.h"
 
@@ -267,9 +266,7 @@ static const char *type_of(size_t i, const void *tables) { return ((const struct
 /* What Accept would rather have, the first if it does not care; NULL: none. */
 static const struct kd_table_format *accepted(struct kd_request *request, const struct kd_series *series)
 {
-    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    size_t best = kd_accept_best((const char *)accept.data, series->n_tables, type_of, series->tables);
-    kd_buffer_finish(&accept);
+    size_t best = kd_reply_accepted(request, series->n_tables, type_of, series->tables);
     return best < series->n_tables ? &series->tables[best] : NULL;
 }
 

@@ -23,9 +23,7 @@ static const char *type_of(size_t i, const void *formats) { return ((const struc
 /* The format that Accept would rather have; NULL: none. */
 static const struct kd_format *accepted(struct kd_request *request)
 {
-    struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    size_t best = kd_accept_best((const char *)accept.data, kd_n_formats, type_of, kd_formats);
-    kd_buffer_finish(&accept);
+    size_t best = kd_reply_accepted(request, kd_n_formats, type_of, kd_formats);
     return best < kd_n_formats ? kd_formats[best] : NULL;
 }
 
