@@ -30,6 +30,16 @@ def pixels(png):
     return zlib.decompress(b''.join(data for kind, data in chunks(png) if kind == b'IDAT'))
 
 
+class Sites(unittest.TestCase):
+    def test_other_sites_are_let_in_by_an_option(self):
+        for options, status, policy in (((), 403, 'same-site'), (('--allow-cross-site',), 200, 'cross-origin')):
+            server = daemon.Daemon(*options)
+            self.addCleanup(server.process.kill)
+            answer = server.get('/v1/device', Sec_Fetch_Site='cross-site')
+            self.assertEqual((answer.status, answer.header('Cross-Origin-Resource-Policy')), (status, policy))
+            self.assertEqual(server.stop(), 0)
+
+
 class Hangup(unittest.TestCase):
     def test_a_terminal_that_closes_stops_it(self):
         for ignored in (False, True):  # as nohup has it
