@@ -18,20 +18,20 @@ struct options { const char *device, *json; int size, repeat, sample; double spi
 
 struct method { const char *name, *what; struct kd_needs needs; int orders, steps; };
 static const struct method methods[] = {
-    { "closed form", "r of 3 crossings", { .disk = true }, 3, 0 },
-    { "closed form", "r of 1 crossing", { .disk = true }, 1, 0 },
-    { "closed form", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 0 },
-    { "closed form", "r of 3, sky, fate", { .disk = true, .sky = true }, 3, 0 },
-    { "closed form", "r, phi, sky, fate", { .disk = true, .phi = true, .sky = true }, 3, 0 },
-    { "RKN6, 4 steps", "r of 3 crossings", { .disk = true }, 3, 4 },
-    { "RKN6, 8 steps", "r of 3 crossings", { .disk = true }, 3, 8 },
-    { "RKN6, 12 steps", "r of 3 crossings", { .disk = true }, 3, 12 },
-    { "RKN6, 16 steps", "r of 3 crossings", { .disk = true }, 3, 16 },
-    { "RKN6, 4 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 4 },
-    { "RKN6, 8 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 8 },
-    { "RKN6, 12 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 12 },
-    { "RKN6, 16 steps", "r, phi of 3 crossings", { .disk = true, .phi = true }, 3, 16 },
-    { "RKN6, 8 steps", "r, phi, sky, fate", { .disk = true, .phi = true, .sky = true }, 3, 8 },
+    { "closed form", "r of 3 crossings", { .quantities = KD_LENS_W }, 3, 0 },
+    { "closed form", "r of 1 crossing", { .quantities = KD_LENS_W }, 1, 0 },
+    { "closed form", "r, phi of 3 crossings", { .quantities = KD_LENS_W | KD_LENS_PHI }, 3, 0 },
+    { "closed form", "r of 3, sky, fate", { .quantities = KD_LENS_W | KD_LENS_SKY }, 3, 0 },
+    { "closed form", "r, phi, sky, fate", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 3, 0 },
+    { "RKN6, 4 steps", "r of 3 crossings", { .quantities = KD_LENS_W }, 3, 4 },
+    { "RKN6, 8 steps", "r of 3 crossings", { .quantities = KD_LENS_W }, 3, 8 },
+    { "RKN6, 12 steps", "r of 3 crossings", { .quantities = KD_LENS_W }, 3, 12 },
+    { "RKN6, 16 steps", "r of 3 crossings", { .quantities = KD_LENS_W }, 3, 16 },
+    { "RKN6, 4 steps", "r, phi of 3 crossings", { .quantities = KD_LENS_W | KD_LENS_PHI }, 3, 4 },
+    { "RKN6, 8 steps", "r, phi of 3 crossings", { .quantities = KD_LENS_W | KD_LENS_PHI }, 3, 8 },
+    { "RKN6, 12 steps", "r, phi of 3 crossings", { .quantities = KD_LENS_W | KD_LENS_PHI }, 3, 12 },
+    { "RKN6, 16 steps", "r, phi of 3 crossings", { .quantities = KD_LENS_W | KD_LENS_PHI }, 3, 16 },
+    { "RKN6, 8 steps", "r, phi, sky, fate", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 3, 8 },
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
@@ -81,7 +81,7 @@ static void judge(const struct options *o, const struct kd_scene *scene, const s
                     continue;
                 r_error[k][count[k]] = fabs(1 / (double)w / path.r[k] - 1);
                 phi_error[k][count[k]++] =
-                    plan->phi ? turn(planes[(size_t)(k + (int)plan->orders) * plan->rays + at] - path.phi[k]) : NAN;
+                    kd_plan_holds(plan, KD_LENS_PHI) ? turn(planes[(size_t)(k + (int)plan->orders) * plan->rays + at] - path.phi[k]) : NAN;
             }
         }
     }

@@ -1,5 +1,5 @@
 /* The lens map in closed form, for an observer at infinity: radii of the crossings, and as the scene requires their azimuths,
- * radial slopes, the direction in which a ray escapes and its fate. Planes as those of lens_map.comp.
+ * radial slopes, the direction in which a ray escapes and its fate. Planes: shared/lens.h, all but the delay and alpha.
  *
  * When a ray crosses the plane is known (polar.glsl), and where it then is (arc.glsl). The azimuth by which the hole drags it is
  * an integral over each half period, by Gauss and Legendre's rule: its places are reached from the crossings at both ends, and
@@ -8,6 +8,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_LENS_CLOSED(KD_SPEC_U_, KD_SPEC_B_)
+#include "ray/planes.glsl"
+const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_FATE) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u;
 #include "ray/kerr_ray.glsl"
 #include "ray/polar.glsl"
 #include "ray/polar_azimuth.glsl"
@@ -15,13 +19,6 @@
 #include "ray/arc_drag.glsl"
 #include "ray/arc_escape.glsl"
 
-layout(constant_id = 0) const uint ORDERS = 3;
-layout(constant_id = 1) const bool PHI = false;
-layout(constant_id = 2) const bool SKY = false;
-layout(constant_id = 3) const bool FALL = false;
-layout(constant_id = 4) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
-layout(constant_id = 5) const uint GENERATOR = 1; /* of the lattice that they are on */
-layout(constant_id = 6) const uint SHIFT = 0;
 layout(local_size_x = KD_GROUP_SIZE) in;
 const bool FINITE = false;
 
@@ -35,7 +32,6 @@ layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up 
 
 const float EPSILON = 6e-8; /* unit roundoff */
 const uint MORE = 12; /* half periods after the last order: beyond them only rays within 1e-13 of the critical curve circle */
-const uint SLOPES = PHI ? 2 * ORDERS : ORDERS, PLANES = SLOPES + (FALL ? ORDERS : 0);
 
 /* Where a ray is between two crossings. */
 struct kd_leg {
@@ -56,9 +52,9 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
     at += n * cam.stride;
     lens[at] = w;
     if (PHI)
-        lens[at + ORDERS * cam.stride] = any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
-    if (FALL)
-        lens[at + SLOPES * cam.stride] = any ? leg.next.dw : 0.0;
+        lens[at + kd_plane(KD_LENS_PHI) * cam.stride] = any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
+    if (SLOPE)
+        lens[at + kd_plane(KD_LENS_SLOPE) * cam.stride] = any ? leg.next.dw : 0.0;
 }
 
 /* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the start, if it
@@ -76,10 +72,9 @@ void keep_end(uint at, kd_geodesic m, kd_arcs a, kd_azimuth azimuth, kd_drag_ter
     if (!decided || (!drag.falls && (leg.alive || !kd_is_finite(phi))))
         fate = KD_FATE_UNDECIDED;
     bool escapes = fate == KD_FATE_ESCAPED;
-    at += PLANES * cam.stride;
-    lens[at] = escapes ? leg.side * end.u : 0.0;
-    lens[at + cam.stride] = escapes ? -phi : 0.0;
-    lens[at + 2 * cam.stride] = fate;
+    lens[at + kd_plane(KD_LENS_SKY_U) * cam.stride] = escapes ? leg.side * end.u : 0.0;
+    lens[at + kd_plane(KD_LENS_SKY_PHI) * cam.stride] = escapes ? -phi : 0.0;
+    lens[at + kd_plane(KD_LENS_FATE) * cam.stride] = fate;
     if (fate == KD_FATE_UNDECIDED)
         atomicAdd(undecided, 1);
 }

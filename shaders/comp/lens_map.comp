@@ -5,28 +5,21 @@
  * period is STEPS equal steps of the radial equation, the same for every ray, without a search and without divergence.
  * From the last crossing before it escapes, a ray goes on with the full vector equation of the angles.
  *
- * Planes: w of each order (0: none); with PHI the azimuth of each; with FALL w' of each; with SKY cos(theta) and phi of the
- * escape, and the fate. Azimuths are source minus observer. */
+ * Planes: shared/lens.h, all but the delay and alpha. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_LENS_MAP(KD_SPEC_U_, KD_SPEC_B_)
+#include "ray/planes.glsl"
+const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_FATE) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u;
 
-layout(constant_id = 5) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
 #define KD_NYSTROEM_ORDER METHOD
 #include "ray/kerr_ray.glsl"
 #include "ray/polar.glsl"
 #include "ray/polar_azimuth.glsl"
 #include "ray/radial_step.glsl"
 
-layout(constant_id = 0) const uint ORDERS = 3;
-layout(constant_id = 1) const uint STEPS = 8; /* a half period; a multiple of 4 for the quadrature */
-layout(constant_id = 2) const bool FINITE = false;
-layout(constant_id = 3) const bool PHI = false;
-layout(constant_id = 4) const bool SKY = false;
-layout(constant_id = 6) const bool FALL = false;
-layout(constant_id = 7) const uint CRITICAL = 0; /* rays of each listed pixel; 0: the picture's grid */
-layout(constant_id = 8) const uint GENERATOR = 1; /* of the lattice that they are on */
-layout(constant_id = 9) const uint SHIFT = 0;
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
@@ -68,8 +61,7 @@ void main()
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     bool alive = polar.crosses;
     float h = polar.first * (1.0 / float(STEPS));
-    const uint falls = PHI ? 2 * ORDERS : ORDERS, planes = falls + (FALL ? ORDERS : 0);
-    for (uint n = 0; n < planes; n++)
+    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* those of crossings come first, without gaps */
         lens[at + n * cam.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
@@ -99,9 +91,9 @@ void main()
             float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
             lens[at + n * cam.stride] = y.w;
             if (PHI)
-                lens[at + (ORDERS + n) * cam.stride] = -(psi + chi + fall);
-            if (FALL)
-                lens[at + (falls + n) * cam.stride] = y.dw;
+                lens[at + (kd_plane(KD_LENS_PHI) + n) * cam.stride] = -(psi + chi + fall);
+            if (SLOPE)
+                lens[at + (kd_plane(KD_LENS_SLOPE) + n) * cam.stride] = y.dw;
             if (SKY) {
                 above = -above;
                 last = kd_path_crossing(m, y, psi, chi + fall, above);
@@ -115,10 +107,9 @@ void main()
         kd_escape end = kd_path_escape(m, ray, last);
         if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
             end.fate = KD_FATE_UNDECIDED;
-        at += planes * cam.stride;
-        lens[at] = end.u;
-        lens[at + cam.stride] = -end.phi;
-        lens[at + 2 * cam.stride] = end.fate;
+        lens[at + kd_plane(KD_LENS_SKY_U) * cam.stride] = end.u;
+        lens[at + kd_plane(KD_LENS_SKY_PHI) * cam.stride] = -end.phi;
+        lens[at + kd_plane(KD_LENS_FATE) * cam.stride] = end.fate;
         if (end.fate == KD_FATE_UNDECIDED)
             atomicAdd(undecided, 1);
     }

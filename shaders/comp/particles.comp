@@ -6,12 +6,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_PARTICLES(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/math.glsl"
 #include "shared/hash.glsl"
 
-layout(constant_id = 0) const bool SWING = true; /* there are epicycles */
-layout(constant_id = 1) const bool LIST = false;
-layout(constant_id = 2) const bool PLUNGE = false; /* those at hand fall; of a list those with low numbers */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;

@@ -7,9 +7,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_PHOTOMETRY(KD_SPEC_U_, KD_SPEC_B_)
 
-layout(constant_id = 0) const bool SPOTS = false;
-layout(constant_id = 1) const bool FINITE = false;
 layout(local_size_x = KD_GROUP_SIZE) in;
 #define F(name) float name;
 #define U(name) uint name;

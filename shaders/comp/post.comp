@@ -3,9 +3,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_POST(KD_SPEC_U_, KD_SPEC_B_)
 
-layout(constant_id = 0) const bool ACES = true;
-layout(constant_id = 1) const bool WIDE = false; /* 16 bits a channel */
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;

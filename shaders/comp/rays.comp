@@ -19,10 +19,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_RAYS(KD_SPEC_U_, KD_SPEC_B_)
 
-layout(constant_id = 0) const uint ORDERS = 3;
-layout(constant_id = 1) const uint STEPS = 16; /* a half period; a multiple of 4 */
-layout(constant_id = 2) const uint METHOD = 6; /* order of the Nystroem method, 4 or 6 */
 #define KD_NYSTROEM_ORDER METHOD
 #include "ray/kerr_ray.glsl"
 #define KD_POLAR_LISTED

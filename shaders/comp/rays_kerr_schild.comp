@@ -13,11 +13,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_RAYS(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/math.glsl"
 
-layout(constant_id = 0) const uint ORDERS = 3;
-layout(constant_id = 1) const uint STEPS = 64; /* about that many a half turn near the photon orbit */
-layout(constant_id = 2) const uint METHOD = 1;
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 layout(push_constant) uniform Push { uint first, count; } push;

@@ -1,43 +1,65 @@
-/* Light of gas that plunges from the ISCO with its energy E and angular momentum L: src/render/emit/plunging.h for the parcels it
- * comes in.
+/* Gas that plunges from the ISCO with its energy E and angular momentum L: src/render/emit/plunging.h for the parcels it comes in.
  *
  * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|) times the
  * particles over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D = Delta/r^2, J = L - aE,
  *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
- * the primed ones and w', which is positive where a ray traced back goes in and the light comes out, the light's. Part of
- * transfer.comp. */
-#ifndef KD_PLUNGE_GLSL
-#define KD_PLUNGE_GLSL
+ * the primed ones and w', which is positive where a ray traced back goes in and the light comes out, the light's. */
+#ifndef KD_BLOCK_plunge
+#define KD_PLUNGE_TABLE 512
+#define KD_BLOCK_plunge(F, U, A)                                                                                \
+    F(first) F(last)       /* w at the start and at the end of the plunge */                                   \
+    F(energy) F(j)         /* of its gas: E, and L - aE */                                                     \
+    F(temperature)         /* over the disk's largest */                                                       \
+    F(depth)               /* optical depth where r |u^r| is 1, of as many particles as expected */            \
+    F(log_first) F(step_)  /* of the table: its first place, and entries per unit */                           \
+    F(laps) F(turns)       /* per M: from start to end; of the orbit at the ISCO */                            \
+    U(at)                  /* where its grid lies behind the other particles' */                               \
+    U(rows) U(columns)                                                                                         \
+    U(lap_rows) U(lead_rows) /* from start to end; before the start */
+#define KD_TABLES_plunge(T)                                                                                    \
+    T(vec2, plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
+#endif
 
+#ifdef KD_EMIT_CODE
 /* On the grid of phases and azimuths at the ISCO: what is here now, or was a time `ago`. */
-kd_place plunge_place(float w, float turn, float ago)
+kd_place kd_plunge_place(kd_sample s, float turn)
 {
-    float way = (log2((tr.r_isco * w - 1.0) / (1.0 - w / cam.horizon)) - tr.plunge_log) * tr.plunge_step;
+    float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
+    way = (way - emission.plunge.log_first) * emission.plunge.step_;
     uint k = min(uint(max(way, 0.0)), KD_PLUNGE_TABLE - 2);
-    vec2 at = mix(tables.plunge_table[k], tables.plunge_table[k + 1], clamp(way - float(k), 0.0, 1.0));
-    float row = (at.x + ago * tr.plunge_laps) * float(tr.lap_rows) + float(tr.lead_rows);
-    turn += ago * tr.plunge_turns - at.y;
-    return kd_place(tr.plunge_at, tr.plunge_rows, tr.plunge_columns, clamp(row, 0.0, float(tr.plunge_rows)), turn, turn);
+    vec2 at = mix(tables.plunge[k], tables.plunge[k + 1], clamp(way - float(k), 0.0, 1.0));
+    float row = (at.x + s.ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
+    turn += s.ago * emission.plunge.turns - at.y;
+    row = clamp(row, 0.0, float(emission.plunge.rows));
+    return kd_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
 }
 
-/* Seen at w = 1/r by a ray that goes on with dw = w', where there is this number of particles over that expected. */
-kd_gas plunge_gas(float w, float dw, float energy, float momentum, float number)
+/* Seen where there is this number of particles over that expected. */
+kd_gas kd_plunge_gas(kd_sample s, float number)
 {
-    float a = cam.spin, w2 = w * w, d = kd_delta(w, cam.root);
-    float gap = max(tr.r_isco * w - 1.0, 1e-12), ur = -sqrt(gap * (2.0 / 3.0) / tr.r_isco) * gap;
-    float own = tr.plunge_energy - a * tr.plunge_j * w2, g = 1.0;
-    if (DOPPLER) {
-        float j = momentum - a * energy;
-        g = 1.0 / max(((energy - a * j * w2) * own - dw * ur) / d - j * tr.plunge_j * w2, 1e-20);
+    bool doppler = (TRAITS_plunge & KD_TRAIT_DOPPLER) != 0u, redshift = (TRAITS_plunge & KD_TRAIT_REDSHIFT) != 0u;
+    float a = cam.spin, r0 = emission.frame.r_isco, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);
+    float gap = max(r0 * s.w - 1.0, 1e-12), ur = -sqrt(gap * (2.0 / 3.0) / r0) * gap;
+    float own = emission.plunge.energy - a * emission.plunge.j * w2, g = 1.0;
+    if (doppler) {
+        float j = s.momentum - a * s.energy;
+        g = 1.0 / max(((s.energy - a * j * w2) * own - s.slope * ur) / d - j * emission.plunge.j * w2, 1e-20);
     } else if (FINITE) {
-        g = 1.0 / energy;
+        g = 1.0 / s.energy;
     }
-    if (DOPPLER != REDSHIFT) { /* one factor without the other */
-        float ut = (1.0 + a * a * w2) * own / d + a * tr.plunge_j * w2;
-        g *= REDSHIFT ? 1.0 / ut : ut;
+    if (doppler != redshift) { /* one factor without the other */
+        float ut = (1.0 + a * a * w2) * own / d + a * emission.plunge.j * w2;
+        g *= redshift ? 1.0 / ut : ut;
     }
-    return kd_gas(tr.plunge_temperature * g, tr.opacity * (1.0 - exp(tr.plunge_depth * w * number / ur)));
+    return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(emission.plunge.depth * s.w * number / ur)));
 }
 
+kd_glow kd_plunge_glow(kd_sample s)
+{
+    if (s.w < emission.plunge.first || s.w > emission.plunge.last)
+        return kd_glow(vec3(0.0), 0.0, 0.0);
+    kd_gas gas = kd_plunge_gas(s, kd_density_at(kd_plunge_place(s, kd_sample_turn(s))));
+    return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_plunge), gas.alpha, 0.0);
+}
 #endif

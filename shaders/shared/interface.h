@@ -26,47 +26,6 @@
     U(list)                 /* of listed pixels, where it begins in the lens map. Of these, row0 is the first of a slice, rows \
                                how many, band0 the first row of pixels of the band that light is written to */
 
-/* What the transfer kernel needs beside the camera, in a storage buffer followed by the tables. */
-#define KD_TRANSFER_FIELDS_(F, U)                                                                              \
-    F(r_isco) F(r_in) F(r_out) F(taper_r) /* M; taper_r: where the outer fade begins */                        \
-    F(opacity)                                                                                                 \
-    F(log_t_peak)                         /* log2 of the peak effective temperature times the hardening, K */  \
-    F(sky_brightness) F(sky_grid)         /* sky; grid spacing in radians */                                   \
-    F(azimuth)                            /* of the observer, radians */                                       \
-    F(one_minus_a)                        /* 1 - spin, which a float of the spin has lost near 1 */            \
-    U(pixels_x)                           /* pixels a row */                                                      \
-    U(rows) U(columns)                    /* of the grid of particles */                                          \
-    F(rows_octave)                        /* rows that r doubles in */                                            \
-    F(delay)                              /* of the light that shows the grid as it is */                         \
-    F(ringing)                            /* what light of image orders 1 and up is multiplied by */                    \
-    F(plunge_first) F(plunge_last)        /* w at the start and at the end of the plunge */                       \
-    F(plunge_energy) F(plunge_j)          /* of its gas: E, and L - aE */                                         \
-    F(plunge_temperature)                 /* over the disk's largest */                                           \
-    F(plunge_depth)                       /* optical depth where r |u^r| is 1, of as many particles as expected */ \
-    F(plunge_log) F(plunge_step)          /* of the table: its first place, and entries per unit */               \
-    F(plunge_laps) F(plunge_turns)        /* per M: from start to end; of the orbit at the ISCO */                \
-    U(plunge_at)                          /* the grid of the plunging particles behind the other one's */         \
-    U(plunge_rows) U(plunge_columns)                                                                              \
-    U(lap_rows) U(lead_rows)              /* from start to end; before the start */                               \
-    U(band_pixels)                        /* whose light one buffer holds; behind it is that of the spots */
-
-/* A hot spot, KD_SPOT_MAX of them behind the header. */
-#define KD_SPOT_FIELDS_(F, U)                                                                                  \
-    F(r) F(phi)              /* of its centre; its azimuth less the observer's at the time that the picture shows, radians */ \
-    F(omega)                 /* by which phi was less for each M that light was longer on its way */            \
-    F(sharp) F(reach)        /* log2(e)/(2 size^2); the square of the distance beyond which there is none of it */ \
-    F(brightness) F(power)   /* at the centre; that of g */                                                    \
-    F(log_t)                 /* log2 K */
-#define KD_SPOT_MAX 16
-
-/* Tables behind the transfer parameters, in floats. */
-#define KD_TRANSFER_HEADER 36
-#define KD_DISK_TABLE 1024    /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
-#define KD_COLOUR_TABLE 1024  /* linear sRGB of luminance 1 and brightness, against log2 T */
-#define KD_COLOUR_LOG_MIN 6.0 /* 64 K */
-#define KD_COLOUR_LOG_MAX 30.0
-#define KD_PLUNGE_TABLE 512   /* phase and azimuth of the plunge, in turns, against log2 (r_isco - r)/(r - r+) */
-
 /* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
 #define KD_GUIDE_FIELDS_(F, U)                                                                                 \
     U(phi) U(radial) U(vertical)                                                                               \

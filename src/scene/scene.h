@@ -75,11 +75,10 @@ bool kd_scene_same_path(const char *a, const char *b);
  * radius, disk edges in order and outside the ISCO, bit depth 8 or 16, ... */
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
 
-/* What goes on by itself in a live session, azimuth and time, after so many seconds; and whether any of it can be seen. */
+/* What goes on by itself in a live session, azimuth and time, after so many seconds; whether time does. Whether any of it can be seen
+ * is for the emitters to say (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
-bool kd_scene_moves(const struct kd_scene *scene);
-/* Whether all that can be seen to go on is a smooth disk that rings: nothing moves, light alone changes. */
-bool kd_scene_only_rings(const struct kd_scene *scene);
+bool kd_scene_time_goes_on(const struct kd_scene *scene);
 
 /* The spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);

@@ -26,10 +26,10 @@ struct kernel {
 
 /* What docs/accuracy.md says of them; the closed form's series starts at an eighth of the time and loses a digit at order 7. */
 static const struct kernel kernels[] = {
-    { "lens_closed", { .disk = true }, 0, 5e-6, INFINITY },
-    { "lens_closed", { .disk = true, .phi = true, .sky = true }, 0, 5e-6, 2e-6 },
-    { "lens_map 8", { .disk = true, .sky = true }, 8, 5e-6, INFINITY },
-    { "lens_map 16", { .disk = true, .phi = true, .sky = true }, 16, 5e-6, 2e-6 },
+    { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
+    { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
+    { "lens_map 8", { .quantities = KD_LENS_W | KD_LENS_SKY }, 8, 5e-6, INFINITY },
+    { "lens_map 16", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 16, 5e-6, 2e-6 },
 };
 
 struct camera { const char *what; double spin, inclination, r, field, beta, yaw; };
@@ -104,12 +104,12 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         row->unsure++;
         return;
     }
-    row->broken += found != p.crossings || (plan->sky && (*fate == (float)KD_FATE_ESCAPED) != (p.fate == KD_NULL_ESCAPED));
+    row->broken += found != p.crossings || (kd_plan_holds(plan, KD_LENS_SKY) && (*fate == (float)KD_FATE_ESCAPED) != (p.fate == KD_NULL_ESCAPED));
     for (int n = 0; n < p.crossings && n < found; n++) {
         const struct kd_null_crossing *x = &p.crossing[n];
         double w = map[(uint64_t)n * plan->rays];
         t->r[t->n++] = fmax(fabs(1 / w / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
-        if (!plan->phi || x->r < 1.6 * kd_kerr_horizon(v->spin))
+        if (!kd_plan_holds(plan, KD_LENS_PHI) || x->r < 1.6 * kd_kerr_horizon(v->spin))
             continue;
         double phi = map[(uint64_t)(ORDERS + n) * plan->rays];
         t->phi = fmax(t->phi, fmax(turn(phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]));
@@ -155,7 +155,7 @@ static void look(struct kd_renderer *renderer, const struct camera *v, const str
             row.broken += !isfinite(planes[n * plan.rays + (uint64_t)k]);
     }
     extreme_spread(t.r, t.n, &row);
-    row.phi = t.n && plan.phi ? t.phi : NAN;
+    row.phi = t.n && kd_plan_holds(&plan, KD_LENS_PHI) ? t.phi : NAN;
     extreme_row(&row);
 }
 

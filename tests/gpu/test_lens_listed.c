@@ -6,6 +6,7 @@
 #include "render/accuracy/table.h"
 #include "render/device/internal.h"
 #include "render/rays/rays.h"
+#include "interface.h"
 
 #include <math.h>
 
@@ -16,7 +17,7 @@ struct lens {
 
 static struct lens trace(const struct kd_scene *scene)
 {
-    const struct kd_needs needs = { .disk = true, .phi = true, .sky = true };
+    const struct kd_needs needs = { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY };
     struct kd_capacity capacity;
     struct lens lens;
     kd_renderer_capacity(renderer, &capacity);
@@ -148,7 +149,7 @@ static void test_slices(void **state)
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);
     capacity.max_binding_bytes = 4ull * whole.plan.planes * 40 * 4 * 5 + 64;
-    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, &capacity, &cut.plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity, &cut.plan, &error));
     assert_true(cut.plan.bands > 5);
     cut.plan.trace_ns = 1e7; /* a slice of a row */
     cut.planes = test_malloc(sizeof(float) * cut.plan.planes * cut.plan.rays);

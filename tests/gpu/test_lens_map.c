@@ -117,7 +117,7 @@ static void judge(const struct view *v, const struct lens *lens, const struct sa
         double r = s->path.r[n], gain = fabs(log(s->beside.r[n] / r)) / s->nudge;
         radius->errors[radius->count++] = fabs(1 / (double)w / r - 1) / (1 + gain);
         radius->worst = fmax(radius->worst, radius->errors[radius->count - 1]);
-        if (!lens->plan.phi || r < 1.6 * inner) /* Boyer-Lindquist azimuth diverges at the horizon */
+        if (!kd_plan_holds(&lens->plan, KD_LENS_PHI) || r < 1.6 * inner) /* Boyer-Lindquist azimuth diverges at the horizon */
             continue;
         double phi_gain = turn(s->beside.phi[n] - s->path.phi[n]) / s->nudge;
         float phi = lens->planes[(ORDERS + n) * (int)lens->plan.rays + k];
@@ -187,7 +187,7 @@ static void test_integrated(void **state)
 {
     (void)state;
     for (int i = 0; i < VIEWS; i++) {
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .phi = true }, ORDERS, 16);
+        struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_PHI }, ORDERS, 16);
         assert_true(lens.plan.path == KD_LENS_MAP);
         check(&views[i], &lens, samples[i], 5e-6, 2e-6);
         test_free(lens.planes);
@@ -200,7 +200,7 @@ static void check_sky(int steps)
     for (int i = 0; i < VIEWS; i++) {
         if (!steps && !isinf(views[i].r))
             continue;
-        struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .sky = true }, ORDERS, steps);
+        struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_SKY }, ORDERS, steps);
         assert_true(lens.plan.path == (steps ? KD_LENS_MAP : KD_LENS_CLOSED));
         const float *u = lens.planes + ORDERS * lens.plan.rays, *phi = u + lens.plan.rays, *fate = phi + lens.plan.rays;
         double worst = 0;
@@ -255,7 +255,7 @@ static void test_in_plane(void **state)
     scene.image.width = GRID;
     scene.image.height = 1;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .disk = true, .phi = true, .sky = true }, &capacity, &plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity, &plan, &error));
     assert_true(plan.path == KD_LENS_CLOSED && plan.planes == 9);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     int escaped = 0;
@@ -279,7 +279,7 @@ static void test_in_plane(void **state)
 static void test_promise(void **state)
 {
     (void)state;
-    const struct kd_needs both[] = { { .disk = true }, { .disk = true, .phi = true } };
+    const struct kd_needs both[] = { { .quantities = KD_LENS_W }, { .quantities = KD_LENS_W | KD_LENS_PHI } };
     for (int m = 0; m < 2; m++) {
         struct lens lens = trace(&views[0], &both[m], 1, 0);
         struct tally t = { 0 };
@@ -307,7 +307,7 @@ static void test_shadow(void **state)
     scene.camera.field_m = 12;
     scene.image.width = scene.image.height = n;
     kd_renderer_capacity(renderer, &capacity);
-    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .sky = true }, &capacity, &plan, &error));
+    OK(kd_plan_make_for(&scene, &(struct kd_needs){ .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
     float *planes = test_malloc(sizeof(float) * plan.planes * plan.rays);
     OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
     const float *fate = planes + (plan.planes - 1) * plan.rays;

@@ -156,7 +156,7 @@ static void test_slopes(void **state)
             scene.accuracy.precision = 1 + (k ? KD_PRECISION_F64 : KD_PRECISION_F32);
             OK(kd_scene_validate(&scene, &error));
             OK(kd_plan_make(&scene, &c, &plan[k], &error));
-            assert_true(plan[k].fall && plan[k].planes == 3 * plan[k].orders && plan[k].path == (k ? KD_LENS_LISTED : isinf(scene.camera.r) ? KD_LENS_CLOSED : KD_LENS_MAP));
+            assert_true(kd_plan_holds(&plan[k], KD_LENS_SLOPE) && plan[k].planes == 3 * plan[k].orders && plan[k].path == (k ? KD_LENS_LISTED : isinf(scene.camera.r) ? KD_LENS_CLOSED : KD_LENS_MAP));
             planes[k] = test_malloc(4 * plan[k].planes * plan[k].rays);
             OK(kd_render_lens(renderer, &scene, &plan[k], planes[k], NULL, &error));
         }
@@ -195,9 +195,9 @@ static void test_off(void **state)
     scenes[3].disk.plunging_temperature = 0;
     for (int k = 0; k < 4; k++)
         OK(kd_plan_make(&scenes[k], &c, &plans[k], &error));
-    assert_true(plans[0].fall && plans[0].particles.plunging == FALLING && plans[0].planes == 3 * plans[0].orders);
+    assert_true(kd_plan_holds(&plans[0], KD_LENS_SLOPE) && plans[0].particles.plunging == FALLING && plans[0].planes == 3 * plans[0].orders);
     for (int k = 1; k < 4; k++)
-        assert_true(!plans[k].fall && plans[k].planes == 2 * plans[k].orders && strcmp(plans[k].lens_key, plans[0].lens_key));
+        assert_true(!kd_plan_holds(&plans[k], KD_LENS_SLOPE) && plans[k].planes == 2 * plans[k].orders && strcmp(plans[k].lens_key, plans[0].lens_key));
     assert_true(!plans[1].particles.plunging && !plans[2].particles.plunging && plans[3].particles.plunging == FALLING);
     assert_true(plans[1].particles.bytes < plans[0].particles.bytes && !plans[1].particles.plunge_rows);
     assert_true(plans[0].n_approximations == plans[1].n_approximations + 1);

@@ -181,7 +181,7 @@ static void check_lens(const struct kd_scene *scene)
         if (k < plan.orders * plan.rays)
             assert_true(planes[k] >= 0 && planes[k] <= horizon * (1 + 1e-6));
     }
-    for (size_t k = 0; plan.sky && k < plan.rays; k++)
+    for (size_t k = 0; kd_plan_holds(&plan, KD_LENS_SKY) && k < plan.rays; k++)
         assert_true(planes[(plan.planes - 1) * plan.rays + k] < 1.5);
     test_free(planes);
 }
@@ -433,14 +433,14 @@ static void test_plan(void **state)
     struct kd_capacity c = capacity();
     struct kd_plan plan;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && kd_plan_is_radii(&plan) && !plan.phi && !plan.sky && plan.planes == 3 && plan.setting.steps == 0);
+    assert_true(plan.path == KD_LENS_CLOSED && kd_plan_is_radii(&plan) && !kd_plan_holds(&plan, KD_LENS_PHI) && !kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 3 && plan.setting.steps == 0);
     assert_string_equal(plan.passes[3].name, "expose");
     scene.style.exposure = 0;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_string_equal(plan.passes[3].name, "post");
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.path == KD_LENS_CLOSED && !kd_plan_is_radii(&plan) && plan.sky && plan.setting.steps == 0 && plan.planes == 6);
+    assert_true(plan.path == KD_LENS_CLOSED && !kd_plan_is_radii(&plan) && kd_plan_holds(&plan, KD_LENS_SKY) && plan.setting.steps == 0 && plan.planes == 6);
     scene.accuracy.steps = 8;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(plan.path == KD_LENS_MAP && plan.setting.engine == KD_ENGINE_MINO_RKN6 && plan.setting.steps == 8);
@@ -451,7 +451,7 @@ static void test_plan(void **state)
     assert_true(plan.path == KD_LENS_MAP && plan.setting.steps > 0 && plan.planes == 3);
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &c, &plan, &error));
-    assert_true(plan.sky && plan.planes == 6);
+    assert_true(kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 6);
     scene.sky.model = KD_SKY_NONE;
     scene.disk.model = KD_DISK_NONE;
     OK(kd_plan_make(&scene, &c, &plan, &error));

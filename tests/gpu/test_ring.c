@@ -45,7 +45,7 @@ static void rows_and_columns(void **state)
 /* w of each crossing, alpha. */
 static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 {
-    const struct kd_needs needs = { .disk = true };
+    const struct kd_needs needs = { .quantities = KD_LENS_W };
     struct kd_capacity capacity;
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_scene_validate(scene, &error));

@@ -1,7 +1,7 @@
 /* What C writes is what the kernels read: offsets and types of the members of push constants and buffers in
  * the SPIR-V against offsetof. */
 #include "render/view/layout.h"
-#include "render/emit/tables.h"
+#include "render/emit/emitter.h"
 
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
@@ -143,11 +143,6 @@ static void same(const struct spirv *s, const char *block, const struct field *f
 static const struct field camera_fields[] = { KD_CAMERA_FIELDS_(F, U) };
 #undef F
 #undef U
-#define F(name) { #name, offsetof(struct kd_transfer_data, block.name), OP_TYPE_FLOAT },
-#define U(name) { #name, offsetof(struct kd_transfer_data, block.name), OP_TYPE_INT },
-static const struct field transfer_fields[] = { KD_TRANSFER_FIELDS_(F, U) };
-#undef F
-#undef U
 #define F(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_INT },
 static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
@@ -161,11 +156,6 @@ static const struct field light_fields[] = { KD_LIGHT_FIELDS_(F, U) };
 #define F(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_INT },
 static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
-#undef F
-#undef U
-#define F(name) { #name, offsetof(struct kd_spot_block, name), OP_TYPE_FLOAT },
-#define U(name) { #name, offsetof(struct kd_spot_block, name), OP_TYPE_INT },
-static const struct field spot_fields[] = { KD_SPOT_FIELDS_(F, U) };
 #undef F
 #undef U
 #define F(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_FLOAT },
@@ -208,34 +198,56 @@ static void particles_kernel(void **state)
     assert_int_equal(sizeof(struct kd_guide), 4 * COUNT(guide_fields));
 }
 
-static void transfer_buffer(void **state)
+/* The blocks of all emitters: their members, and where the blocks themselves lie. */
+#undef F
+#undef U
+#define A(type, name, count)
+#define F(name) { #name, offsetof(struct BLOCK_OF, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct BLOCK_OF, name), OP_TYPE_INT },
+#define BLOCK_OF kd_frame_block
+static const struct field frame_fields[] = { KD_BLOCK_frame(F, U, A) };
+#undef BLOCK_OF
+#define BLOCK_OF kd_disk_block
+static const struct field disk_fields[] = { KD_BLOCK_disk(F, U, A) };
+#undef BLOCK_OF
+#define BLOCK_OF kd_particles_block
+static const struct field grid_fields[] = { KD_BLOCK_particles(F, U, A) };
+#undef BLOCK_OF
+#define BLOCK_OF kd_plunge_block
+static const struct field plunge_fields[] = { KD_BLOCK_plunge(F, U, A) };
+#undef BLOCK_OF
+#define BLOCK_OF kd_ringdown_block
+static const struct field ringdown_fields[] = { KD_BLOCK_ringdown(F, U, A) };
+#undef BLOCK_OF
+#define BLOCK_OF kd_sky_block
+static const struct field sky_fields[] = { KD_BLOCK_sky(F, U, A) };
+#undef BLOCK_OF
+#define BLOCK_OF kd_spot_block
+static const struct field spot_fields[] = { KD_BLOCK_spot(F, U) };
+
+static void emission(void **state)
 {
     (void)state;
-    same(&transfer, "kd_transfer", transfer_fields, COUNT(transfer_fields), 0);
-    same(&transfer, "kd_spot_block", spot_fields, COUNT(spot_fields), 0);
-    assert_int_equal(sizeof(struct kd_spot_block), 4 * COUNT(spot_fields));
-    const struct {
-        const char *name;
-        size_t offset;
-        uint32_t stride;
-    } tables[] = {
-        { "spots", offsetof(struct kd_transfer_data, spots), sizeof(struct kd_spot_block) },
-        { "disk_table", offsetof(struct kd_transfer_data, disk), sizeof(float) },
-        { "colour_table", offsetof(struct kd_transfer_data, colour), sizeof(float[4]) },
-        { "plunge_table", offsetof(struct kd_transfer_data, plunge), sizeof(float[2]) },
+    const struct { const char *name; const struct field *fields; size_t n; } blocks[] = {
+        { "kd_frame_block", frame_fields, COUNT(frame_fields) },          { "kd_disk_block", disk_fields, COUNT(disk_fields) },
+        { "kd_particles_block", grid_fields, COUNT(grid_fields) },        { "kd_plunge_block", plunge_fields, COUNT(plunge_fields) },
+        { "kd_ringdown_block", ringdown_fields, COUNT(ringdown_fields) }, { "kd_sky_block", sky_fields, COUNT(sky_fields) },
+        { "kd_spot_block", spot_fields, COUNT(spot_fields) },
     };
-    uint32_t id = struct_called(&transfer, "Transfer");
-    assert_int_equal(member_offset(&transfer, id, member_called(&transfer, id, "header")), 0);
-    for (size_t i = 0; i < COUNT(tables); i++) {
-        int count, member = member_called(&transfer, id, tables[i].name);
-        assert_int_equal(member_offset(&transfer, id, member), tables[i].offset);
-        assert_int_equal(array_stride(&transfer, member_type(&transfer, id, member, &count)),
-                         tables[i].stride);
+    assert_int_equal(COUNT(blocks), KD_EMITTER_COUNT + 1); /* spots have an array of the last one, the frame is no emitter */
+    for (size_t i = 0; i < COUNT(blocks); i++)
+        same(&transfer, blocks[i].name, blocks[i].fields, blocks[i].n, 0);
+    uint32_t id = struct_called(&transfer, "Emission");
+#define BLOCK(number, name) assert_int_equal(member_offset(&transfer, id, member_called(&transfer, id, #name)), offsetof(struct kd_emission, name));
+    KD_EMIT_BLOCKS(BLOCK)
+    id = struct_called(&transfer, "Tables");
+#define TABLE(type, name, count)                                                                               \
+    {                                                                                                          \
+        int n, member = member_called(&transfer, id, #name);                                                   \
+        assert_int_equal(member_offset(&transfer, id, member), offsetof(struct kd_emit_tables, name));         \
+        assert_int_equal(array_stride(&transfer, member_type(&transfer, id, member, &n)), sizeof(kd_table_##type)); \
     }
-    /* as far as the kernel's tables reach, no further */
-    assert_int_equal(sizeof(struct kd_transfer_data),
-                     4 * KD_TRANSFER_HEADER + sizeof(struct kd_spot_block) * KD_SPOT_MAX + 4 * KD_DISK_TABLE +
-                         16 * KD_COLOUR_TABLE + 8 * KD_PLUNGE_TABLE);
+    KD_EMIT_TABLES(TABLE)
 }
 
 int main(void)
@@ -245,7 +257,7 @@ int main(void)
         cmocka_unit_test(post_push),
         cmocka_unit_test(light_push),
         cmocka_unit_test(particles_kernel),
-        cmocka_unit_test(transfer_buffer),
+        cmocka_unit_test(emission),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

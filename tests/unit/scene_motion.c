@@ -2,6 +2,7 @@
 #include "scene_support.h"
 
 #include "qnm_reference.h"
+#include "render/emit/motion.h"
 
 static struct kd_scene struck(double spin, double amplitude)
 {
@@ -18,24 +19,24 @@ static void a_smooth_disk_rests(void **state)
 {
     (void)state;
     struct kd_scene scene = struck(0.5, 0);
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
     scene.motion.azimuth_rate_deg = 10;
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
     scene.sky.model = KD_SKY_GRID;
-    assert_true(kd_scene_moves(&scene));
+    assert_true(kd_emit_moves(&scene));
     scene = struck(0.5, 0);
     scene.disk.model = KD_DISK_PARTICLES;
-    assert_true(kd_scene_moves(&scene));
+    assert_true(kd_emit_moves(&scene));
     scene.motion.time_rate = 0;
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
     for (int sign = -1; sign <= 1; sign += 2) { /* at the end of time */
         scene.motion.time_rate = sign * 1e6;
         scene.top.time = sign * (1e12 - 1);
-        assert_true(kd_scene_moves(&scene));
+        assert_true(kd_emit_moves(&scene));
         kd_scene_advance(&scene, 1);
-        assert_false(kd_scene_moves(&scene));
+        assert_false(kd_emit_moves(&scene));
         scene.motion.time_rate = -sign;
-        assert_true(kd_scene_moves(&scene));
+        assert_true(kd_emit_moves(&scene));
     }
 }
 
@@ -43,22 +44,22 @@ static void rings_move_while_time_does(void **state)
 {
     (void)state;
     struct kd_scene scene = struck(0.5, 0.01);
-    assert_true(kd_scene_moves(&scene));
+    assert_true(kd_emit_moves(&scene));
     scene.top.time = 999.999; /* before the stroke */
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
     kd_scene_advance(&scene, 1e-3);
-    assert_true(kd_scene_moves(&scene));
+    assert_true(kd_emit_moves(&scene));
     scene.motion.time_rate = -10;
-    assert_true(kd_scene_moves(&scene));
+    assert_true(kd_emit_moves(&scene));
     scene.motion.time_rate = 0;
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
     scene = struck(-0.5, 1);
-    assert_true(kd_scene_moves(&scene));
+    assert_true(kd_emit_moves(&scene));
     scene.disk.model = KD_DISK_NONE;
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
     scene = struck(0.5, 1);
     scene.accuracy.orders = 1; /* nothing that rings is in the picture */
-    assert_false(kd_scene_moves(&scene));
+    assert_false(kd_emit_moves(&scene));
 }
 
 /* The slope of the sRGB curve at white is 0.44: less than half of one of 255 steps is left when the motion ends, and motion does not go
@@ -77,7 +78,7 @@ static void it_ends_when_it_cannot_be_seen(void **state)
             while (high - low > 1e-3) {
                 double middle = (low + high) / 2;
                 scene.top.time = 1000 + middle;
-                *(kd_scene_moves(&scene) ? &low : &high) = middle;
+                *(kd_emit_moves(&scene) ? &low : &high) = middle;
             }
             double left = 0.44 * 255 * amplitudes[k / 2] * exp(q->im * high);
             if (!(left < 0.5 && left > 1 / 40.0))

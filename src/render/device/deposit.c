@@ -33,8 +33,8 @@ static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, c
                                 struct kd_particles_push *push, uint32_t end, double ns_per_particle, struct kd_error *error)
 {
     const struct kd_vk_pipeline *kernel;
-    const uint32_t constants[] = { scene->disk.epicycles > 0, false, plunge };
-    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
+    const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0, .PLUNGE = plunge };
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error);
     double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)kd_vk_info(r->vk)->max_groups_x * KD_GROUP_SIZE));
     for (; push->first < end && !status; push->first += push->count) {
         uint32_t left = end - push->first;
@@ -98,7 +98,7 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
 {
     const struct kd_particle_grid grid = kd_particle_grid(scene);
     const struct kd_vk_pipeline *kernel = NULL;
-    const uint32_t constants[] = { scene->disk.epicycles > 0, true, grid.plunging > 0 };
+    const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0, .LIST = true, .PLUNGE = grid.plunging > 0 };
     struct kd_particles_push push = kd_particle_push(scene, &grid, scene->top.time);
     push.first = first;
     push.stride = stride;
@@ -108,7 +108,7 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
         status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles",
                                    error);
     if (!status)
-        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, constants, 3, &kernel, error);
+        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error);
     const struct kd_vk_dispatch d = {
         "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
         { groups(push.count) },

@@ -7,7 +7,7 @@
 #include "render/device/memory_share.h"
 #include "render/device/renderer.h"
 #include "render/device/store.h"
-#include "render/emit/tables.h"
+#include "render/emit/emitter.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -35,8 +35,7 @@ struct kd_renderer {
     uint64_t asides_used;
     struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
     struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
-    struct kd_transfer_data *tables; /* staging; its colour table is filled once */
-    bool tables_ready;
+    struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
     pthread_mutex_t lock; /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
     struct kd_memory_watch memory;

@@ -26,6 +26,7 @@ static const struct {
     const uint32_t *spirv;
     size_t bytes;
     uint32_t n_buffers, push_bytes;
+    enum kd_vk_kind kinds[KD_VK_MAX_BINDINGS];
 } sources[] = {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 2, sizeof(struct kd_camera_push) },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 2, sizeof(struct kd_camera_push) },
@@ -39,7 +40,8 @@ static const struct {
                                       3, 8 },
     [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
-    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 4, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 5, sizeof(struct kd_camera_push),
+                             { [1] = KD_VK_UNIFORM } },
     [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
     [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
@@ -62,6 +64,7 @@ static enum kd_status make(struct kd_vk *vk, enum kd_kernel kernel, const uint32
         .spec = spec,
         .n_spec = n,
     };
+    memcpy(params.kinds, sources[kernel].kinds, sizeof params.kinds);
     return kd_vk_pipeline_create(vk, &params, out, error);
 }
 

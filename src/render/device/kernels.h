@@ -23,7 +23,7 @@ enum kd_kernel {
     KD_KERNEL_POST,
 };
 
-#define KD_KERNEL_MAX_CONSTANTS 20
+#define KD_KERNEL_MAX_CONSTANTS 32
 #define KD_KERNELS_KEPT 48
 
 struct kd_kernel_entry {

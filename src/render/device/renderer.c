@@ -60,13 +60,13 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
                                   struct kd_error *error)
 {
     struct kd_renderer *r = calloc(1, sizeof *r);
-    struct kd_transfer_data *tables = calloc(1, sizeof *tables);
-    if (!r || !tables) {
+    struct kd_emit_state *emit = calloc(1, sizeof *emit);
+    if (!r || !emit) {
         free(r);
-        free(tables);
+        free(emit);
         return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer");
     }
-    r->tables = tables;
+    r->emit = emit;
     pthread_mutex_init(&r->lock, NULL);
     struct kd_vk_params vk = { .device = params->device, .cache_dir = params->cache_dir, .validate = params->validate };
     enum kd_status status = kd_vk_create(&vk, &r->vk, error);
@@ -115,7 +115,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     }
     pthread_mutex_destroy(&renderer->lock);
     free(renderer->accuracy);
-    free(renderer->tables);
+    free(renderer->emit);
     free(renderer);
 }
 

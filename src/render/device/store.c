@@ -1,7 +1,8 @@
 #include "render/device/store.h"
 
-#include "render/emit/tables.h"
+#include "render/emit/emitter.h"
 #include "render/plan/photometry.h"
+#include "interface.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -159,10 +160,10 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     if (!status)
         status = kd_store_at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
     if (!status && !store->transfer)
-        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_DEVICE, "transfer tables",
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_emit_data), KD_VK_DEVICE, "transfer tables",
                                      &store->transfer, error);
     if (!status && !store->staging)
-        status = kd_vk_buffer_create(vk, sizeof(struct kd_transfer_data), KD_VK_UPLOAD, "transfer tables on the host",
+        status = kd_vk_buffer_create(vk, sizeof(struct kd_emit_data), KD_VK_UPLOAD, "transfer tables on the host",
                                      &store->staging, error);
     if (!status && !store->histogram)
         status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_DEVICE, "histogram", &store->histogram, error);
@@ -176,9 +177,9 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     return status;
 }
 
-enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error)
+enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error)
 {
-    static const size_t ends[] = { 0, offsetof(struct kd_transfer_data, disk), sizeof *tables };
+    static const size_t ends[] = { 0, offsetof(struct kd_emit_data, tables), sizeof *tables };
     bool first = !store->sent || !store->sent_whole;
     if (!store->sent && !(store->sent = malloc(sizeof *tables)))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the transfer tables");

@@ -7,8 +7,9 @@
 #include "render/plan/plan.h"
 #include "render/device/renderer.h"
 #include "vk/vk.h"
+#include "render/emit/emitter.h"
 
-struct kd_transfer_data;
+struct kd_emit_data;
 
 /* One buffer a band of the picture. */
 struct kd_bands {
@@ -35,7 +36,7 @@ struct kd_store {
     struct kd_bands radiance;
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     struct kd_vk_buffer *transfer, *staging; /* parameters and tables: read at each crossing, so on the device, by way of the other */
-    struct kd_transfer_data *sent;           /* what is there; NULL: nothing yet */
+    struct kd_emit_data *sent;           /* what is there; NULL: nothing yet */
     bool sent_whole;                         /* false: nothing of it, a frame was given up */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
@@ -56,7 +57,7 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
                                  const char *name, struct kd_error *error);
 /* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. A frame
  * that is given up afterwards says so by sent_whole = false. */
-enum kd_status kd_store_send(struct kd_store *store, const struct kd_transfer_data *tables, struct kd_error *error);
+enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error);
 /* Bytes that it holds of the device's memory, about. */
 uint64_t kd_store_bytes(const struct kd_store *store);
 /* Whether kd_store_lens_map would find the plan's lens map. */

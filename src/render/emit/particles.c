@@ -1,5 +1,7 @@
 #include "render/emit/particles.h"
 
+#include "render/emit/emitter.h"
+
 #include "physics/epicyclic.h"
 #include "physics/kerr.h"
 #include "render/view/layout.h"
@@ -277,3 +279,56 @@ void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particl
         }
     }
 }
+
+/* Particles as an emitter: shaders/emit/particles.glsl. */
+static bool present(const struct kd_scene *scene) { return scene->disk.model == KD_DISK_PARTICLES; }
+
+static uint32_t traits(const struct kd_scene *scene)
+{
+    return kd_disk_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0);
+}
+
+static uint32_t needs(const struct kd_scene *scene)
+{
+    return KD_LENS_W | KD_LENS_PHI | (scene->disk.slow_light ? KD_LENS_DELAY : 0);
+}
+
+static unsigned varies(const struct kd_scene *scene)
+{
+    (void)scene;
+    return KD_MOVES_WITH_TIME | KD_MOVES_WITH_AZIMUTH;
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    const struct kd_particle_grid grid = kd_particle_grid(scene);
+    out->particles = (struct kd_particles_block) {
+        .rows = grid.rows,
+        .columns = grid.columns,
+        .rows_octave = (float)(grid.rows / log2(scene->disk.outer / inner(scene))),
+    };
+}
+
+static bool fast(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !scene->disk.slow_light; }
+static bool slow(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->disk.slow_light; }
+
+static const struct kd_sentence sentences[] = {
+    { "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is", NULL },
+    { "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions", NULL },
+    { "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay", fast },
+    { "particles: over the delay of light they go round on their guiding circles", slow },
+};
+
+const struct kd_emitter kd_emit_particles = {
+    .name = "particles",
+    .present = present,
+    .traits = traits,
+    .needs = needs,
+    .varies = varies,
+    .fill = fill,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(accuracy) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+    .kind = &kd_emit_disk,
+    .reads = &kd_emit_disk,
+};

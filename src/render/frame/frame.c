@@ -48,8 +48,9 @@ static enum kd_status add_up(struct kd_frame_job *j)
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
     const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
-    const uint32_t constants[] = { p->spots > 0, finite }, per_band = kd_light_groups(p->width * p->band_rows);
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, constants, 2, &light, j->error);
+    const struct kd_spec_photometry spec = { .SPOTS = p->apart, .FINITE = finite };
+    const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
+    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.SPOTS, sizeof spec / 4, &light, j->error);
     for (uint32_t band = 0; band < p->bands && !status; band++) {
         const struct kd_light_push push = {
             .pixels_x = p->width,
@@ -120,10 +121,10 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
     const struct kd_vk_pipeline *post;
     bool wide = kd_frame_bit_depth(frame) == 16;
     size_t pixel_bytes = kd_layer_pixel_bytes(&frame->layers[0]);
-    const uint32_t constants[] = { scene->style.tone_map == KD_TONE_ACES, wide };
+    const struct kd_spec_post spec = { .ACES = scene->style.tone_map == KD_TONE_ACES, .WIDE = wide };
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
-        status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, constants, 2, &post, j->error);
+        status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, &spec.ACES, sizeof spec / 4, &post, j->error);
         if (status)
             break;
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
@@ -247,10 +248,8 @@ static enum kd_status run(struct kd_frame_job *j)
     if (status)
         return status;
 
-    kd_tables_fill(r->tables, j->scene, !r->tables_ready);
-    r->tables_ready = true;
-    r->tables->block.band_pixels = j->plan->width * j->plan->band_rows;
-    status = kd_store_send(j->store, r->tables, j->error);
+    kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
+    status = kd_store_send(j->store, &r->emit->data, j->error);
     if (status)
         return status;
 

@@ -4,6 +4,7 @@
 
 #include "render/device/internal.h"
 #include "render/frame/frame.h"
+#include "render/view/layout.h"
 
 struct kd_frame_job {
     struct kd_renderer *r;

@@ -35,28 +35,28 @@ static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_criti
     if (p->path == KD_LENS_LISTED)
         return KD_OK;
     if (p->path == KD_LENS_CLOSED) {
-        const uint32_t constants[] = { p->orders, p->phi, p->sky, p->fall, l->rays, l->generator, l->shift };
-        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, constants, sizeof constants / 4, out, j->error);
+        const struct kd_spec_lens_closed spec = {
+            .QUANTITIES = p->quantities, .ORDERS = p->orders, .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
+        };
+        return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
     }
-    const uint32_t method = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t constants[] = {
-        p->orders, p->setting.steps, !isinf(j->scene->camera.r), p->phi, p->sky, method, p->fall, l->rays, l->generator, l->shift,
+    const struct kd_spec_lens_map spec = {
+        .QUANTITIES = p->quantities, .ORDERS = p->orders, .STEPS = p->setting.steps,
+        .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6, .FINITE = !isinf(j->scene->camera.r),
+        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
     };
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, constants, sizeof constants / 4, out, j->error);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
 static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
-    const struct kd_disk *d = &j->scene->disk;
-    const uint32_t alpha = p->orders * (1 + p->phi + p->delay + p->fall); /* the planes' order: kd_lens_listed */
-    const uint32_t constants[] = {
-        p->orders, p->side, !isinf(j->scene->camera.r), d->model != KD_DISK_NONE, p->sky,
-        alpha + p->ring, d->doppler, d->redshift, d->band == KD_BAND_VISIBLE, d->opacity >= 1, p->ring, alpha,
-        p->particles.count > 0, p->delay, p->spots, j->scene->style.ringdown > 0, p->fall, l->rays, l->generator, l->shift,
+    struct kd_spec_transfer spec = {
+        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .FINITE = !isinf(j->scene->camera.r),
+        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift, .APART = p->apart,
     };
-    _Static_assert(sizeof constants <= sizeof(uint32_t[KD_KERNEL_MAX_CONSTANTS]), "more than a kernel may have");
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, constants, sizeof constants / 4, out, j->error);
+    memcpy(spec.traits, p->traits, sizeof spec.traits);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
 /* Rows of pixels of a band, traced and lit in one go. */
@@ -114,7 +114,8 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
         "transfer",
         pipeline,
         { { lens, 0, 0, false },
-          { j->store->transfer, 0, 0, false },
+          { j->store->transfer, 0, sizeof(struct kd_emission), false },
+          { j->store->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { j->store->radiance.buffers[band], 0, 0, true },
           { j->plan->particles.count ? j->particles->density : j->store->transfer, 0, 0, false } },
         NULL,
@@ -308,7 +309,7 @@ enum kd_status kd_frame_undecided(struct kd_frame_job *j, uint64_t *out)
     struct kd_store *s = j->store;
     struct kd_vk *vk = j->r->vk;
     *out = j->undecided;
-    if (j->plan->path == KD_LENS_LISTED || !j->plan->sky)
+    if (j->plan->path == KD_LENS_LISTED || !kd_plan_holds(j->plan, KD_LENS_SKY))
         return KD_OK;
     enum kd_status status = kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error);
     if (!status)

@@ -1,5 +1,7 @@
 #include "render/lens/audit.h"
 
+#include "render/view/layout.h"
+
 #include "physics/kerr.h"
 #include "render/view/camera.h"
 #include "render/lens/listed.h"
@@ -62,7 +64,7 @@ static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *pla
     for (uint32_t k = 0; k < s->rows && !status; k++) {
         uint32_t y = spread(k, s->rows, s->height), band = y / band_rows;
         for (uint32_t n = 0; n < s->planes && !status; n++) {
-            uint32_t plane = n < plan->orders ? n : plan->planes - 1; /* the fate is the last */
+            uint32_t plane = n < plan->orders ? n : kd_lens_plane(plan->quantities, plan->orders, KD_LENS_FATE);
             status = kd_vk_copy(r->vk, "readback", s->host, (k * s->planes + n) * row, map->bands.buffers[band],
                                 plane * stride + (y % band_rows) * row, row, error);
         }
@@ -145,7 +147,7 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
         return KD_OK;
     s.rows = s.height < ROWS ? s.height : ROWS;
     s.columns = s.width < COLUMNS ? s.width : COLUMNS;
-    s.planes = plan->orders + plan->sky;
+    s.planes = plan->orders + kd_plan_holds(plan, KD_LENS_FATE);
     size_t n = (size_t)s.rows * s.columns;
     s.rays = malloc(2 * n * sizeof *s.rays);
     s.crossings = malloc(n * plan->orders * sizeof *s.crossings);

@@ -1,5 +1,7 @@
 #include "render/lens/listed.h"
 
+#include "render/view/layout.h"
+
 #include "physics/kerr.h"
 #include "render/view/camera.h"
 #include "render/view/critical_pixels.h"
@@ -113,23 +115,25 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
-    for (uint32_t k = 0; k < plan->orders; k++)
-        fill_radii(w, k, planes + k * w->n);
-    planes += plan->orders * w->n;
-    for (uint32_t k = 0; plan->phi && k < plan->orders; k++)
-        fill_azimuths(w, k, planes + k * w->n);
-    planes += plan->phi ? plan->orders * w->n : 0;
-    for (uint32_t k = 0; plan->delay && k < plan->orders; k++)
-        fill_delays(w, k, planes + k * w->n);
-    planes += plan->delay ? plan->orders * w->n : 0;
-    for (uint32_t k = 0; plan->fall && k < plan->orders; k++)
-        fill_slopes(w, scene, k, planes + k * w->n);
-    planes += plan->fall ? plan->orders * w->n : 0;
-    for (size_t i = 0; plan->ring && i < w->n; i++)
-        planes[i] = (float)w->alpha_beta[2 * i];
-    planes += plan->ring ? w->n : 0;
-    if (plan->sky)
-        fill_sky(w, planes, planes + w->n, planes + 2 * w->n);
+    float *of[32] = { 0 }; /* by the bit of a quantity; NULL: the map does not hold it */
+    for (uint32_t bit = 0; bit < 32; bit++)
+        if (plan->quantities >> bit & 1)
+            of[bit] = planes + w->n * kd_lens_plane(plan->quantities, plan->orders, 1u << bit);
+#define OF(quantity) of[__builtin_ctz(quantity)]
+    for (uint32_t k = 0; k < plan->orders; k++) {
+        fill_radii(w, k, OF(KD_LENS_W) + k * w->n);
+        if (OF(KD_LENS_PHI))
+            fill_azimuths(w, k, OF(KD_LENS_PHI) + k * w->n);
+        if (OF(KD_LENS_DELAY))
+            fill_delays(w, k, OF(KD_LENS_DELAY) + k * w->n);
+        if (OF(KD_LENS_SLOPE))
+            fill_slopes(w, scene, k, OF(KD_LENS_SLOPE) + k * w->n);
+    }
+    for (size_t i = 0; OF(KD_LENS_ALPHA) && i < w->n; i++)
+        OF(KD_LENS_ALPHA)[i] = (float)w->alpha_beta[2 * i];
+    if (OF(KD_LENS_FATE))
+        fill_sky(w, OF(KD_LENS_SKY_U), OF(KD_LENS_SKY_PHI), OF(KD_LENS_FATE));
+#undef OF
 }
 
 static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene, const struct work *w,

@@ -1,4 +1,5 @@
 #include "render/live/governor.h"
+#include "render/emit/motion.h"
 
 #include <math.h>
 #include <string.h>
@@ -289,12 +290,12 @@ static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
     /* What is shown is right already. It is only told once more, when nothing else has changed meanwhile. */
-    bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_scene_moves(asked);
+    bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_emit_moves(asked);
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
     for (int i = 0; i < 2 && !same_work(&g->asked, asked); i++)
         begin_anew(&g->paces[i]);
-    bool rings = kd_scene_only_rings(asked);
+    bool rings = kd_emit_only_dims(asked);
     if (g->rings != rings) {
         begin_anew(&g->paces[0]);
         g->rings = rings;

@@ -1,6 +1,7 @@
 #include "render/plan/plan.h"
 
 #include "base/json.h"
+#include "lens.h"
 
 #include <math.h>
 
@@ -27,8 +28,8 @@ static void add_constants(struct kd_json *json, const struct kd_plan *plan)
     kd_json_number(json, "steps", plan->setting.steps);
     kd_json_number(json, "samples", plan->side);
     kd_json_bool(json, "radius_only", kd_plan_is_radii(plan));
-    kd_json_bool(json, "phi", plan->phi);
-    kd_json_bool(json, "sky", plan->sky);
+    kd_json_bool(json, "phi", kd_plan_holds(plan, KD_LENS_PHI));
+    kd_json_bool(json, "sky", kd_plan_holds(plan, KD_LENS_SKY));
     kd_json_end(json);
 }
 

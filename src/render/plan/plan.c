@@ -1,102 +1,83 @@
 #include "render/plan/plan.h"
 
+#include "render/emit/emitter.h"
+
 #include "interface.h"
+#include "lens.h"
 #include "physics/angle.h"
 #include "physics/kerr.h"
+#include "scene/table.h"
 #include "render/accuracy/table.h"
 #include "render/view/critical_kept.h"
-#include "render/emit/plunging.h"
-#include "render/emit/sky_noise.h"
+#include "render/view/layout.h"
 #include "render/plan/photometry.h"
+#include "scene/sha256.h"
 
 #include <math.h>
 #include <string.h>
 
-static void say(struct kd_plan *plan, bool condition, const char *sentence)
-{
-    if (condition && plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS)
-        plan->approximations[plan->n_approximations++] = sentence;
-}
+_Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 
-static uint32_t spots_of(const struct kd_scene *scene)
+/* Approximations that are no emitter's. */
+#define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
+WHEN(crossings, plan->traits[KD_EMITTER_disk] || plan->traits[KD_EMITTER_particles] || plan->apart)
+WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
+WHEN(film, scene->style.tone_map == KD_TONE_ACES)
+WHEN(projected, plan->ring)
+WHEN(single, plan->setting.precision == KD_PRECISION_F32)
+WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
+WHEN(compared, plan->setting.engine >= KD_ENGINE_KS_EULER)
+
+static const struct sentence {
+    const char *text;
+    bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
+} sentences[] = {
+    { "disk: image orders beyond accuracy.orders are left out", crossings },
+    { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
+    { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
+    { "post: a film-like tone curve; pixel values are not proportional to radiance", film },
+    { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
+    { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
+    { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
+    { "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
+};
+enum { SENTENCES = sizeof sentences / sizeof *sentences };
+
+size_t kd_plan_sentence_count(void) { return SENTENCES; }
+
+static void say(void *user, const char *sentence)
 {
-    const struct kd_spot *on[KD_SPOTS];
-    return (uint32_t)kd_scene_spots(scene, on);
+    struct kd_plan *plan = user;
+    if (plan->n_approximations < KD_PLAN_MAX_APPROXIMATIONS) /* there are fewer: tests/unit/emitters.c */
+        plan->approximations[plan->n_approximations++] = sentence;
 }
 
 static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
 {
-    const struct kd_disk *d = &scene->disk;
-    bool disk = d->model != KD_DISK_NONE;
-    say(plan, disk, "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge");
-    say(plan, disk, "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light");
-    say(plan, disk && d->model == KD_DISK_SHAKURA_SUNYAEV,
-        "disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral");
-    say(plan, disk && d->colour == KD_COLOUR_PEAK,
-        "disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate");
-    say(plan, disk && d->band == KD_BAND_BOLOMETRIC,
-        "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum");
-    say(plan, disk && !d->doppler, "disk: Doppler shift and beaming of the gas are switched off");
-    say(plan, disk && !d->redshift, "disk: gravitational redshift and time dilation of the gas are switched off");
-    say(plan, disk && d->taper > 0, "disk: the outer edge fades out over a chosen range");
-    bool particles = d->model == KD_DISK_PARTICLES;
-    say(plan, particles,
-        "particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is");
-    say(plan, particles,
-        "particles: epicycles to first order about circular orbits, a chosen number a radius; no pressure, no collisions");
-    say(plan, particles && !d->slow_light,
-        "particles: fast light: the whole disk is shown at one coordinate time, whatever the light's delay");
-    say(plan, particles && d->slow_light, "particles: over the delay of light they go round on their guiding circles");
-    say(plan, plan->fall,
-        "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is "
-        "its surface density over the disk's at the ISCO; no stress, no heating");
-    say(plan, plan->spots, "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
-                           "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place");
-    say(plan, plan->spots, "spots: their brightness and colour are chosen, not computed; they absorb nothing");
-    say(plan, plan->spots && !disk && (!d->doppler || !d->redshift),
-        "spots: the Doppler shift or the gravitational redshift of the gas is switched off");
-    say(plan, plan->spots && !d->slow_light, "spots: fast light: shown where they are at one coordinate time, whatever the light's delay");
-    say(plan, disk && d->opacity < 1, "disk: opacity is a chosen number a crossing, not computed from the gas");
-    say(plan, disk || plan->spots, "disk: image orders beyond accuracy.orders are left out");
-    say(plan, disk || plan->spots, "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance");
-    say(plan, plan->sky, "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift");
-    say(plan, plan->sky && kd_sky_is_noise(scene, plan->setting.precision),
-        "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads "
-        "more than 0.1 rad away");
-    say(plan, (disk || plan->spots) && scene->style.ringdown > 0,
-        "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time");
-    say(plan, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4,
-        "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots");
-    say(plan, scene->style.tone_map == KD_TONE_ACES, "post: a film-like tone curve; pixel values are not proportional to radiance");
-    say(plan, plan->ring,
-        "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale");
-    const struct kd_setting *by = &plan->setting;
-    say(plan, by->precision == KD_PRECISION_F32,
-        "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate");
-    say(plan, by->precision == KD_PRECISION_F64, "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits");
-    say(plan, by->engine >= KD_ENGINE_KS_EULER,
-        "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs");
+    kd_emit_sentences(scene, &plan->setting, say, plan);
+    for (int i = 0; i < SENTENCES; i++)
+        if (sentences[i].in_force(plan, scene))
+            say(plan, sentences[i].text);
 }
 
-/* What the lens map depends on, as a scene with all else at its default: its hash is the key of the cache. */
+/* A hash of what the lens map depends on: the hole, the camera but for its azimuth, which adds a constant to all azimuths and is added
+ * where light is made, the rays, how they are followed, and the quantities that it holds. */
 static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scene)
 {
-    struct kd_scene key;
-    kd_scene_defaults(&key);
-    key.spacetime.spin = scene->spacetime.spin;
-    key.camera = scene->camera;
-    key.camera.azimuth_deg = 0; /* adds a constant to every azimuth: transfer does that */
-    key.image = scene->image;
-    key.image.bit_depth = 8;
-    key.accuracy.orders = scene->accuracy.orders;
-    key.accuracy.engine = (int32_t)plan->setting.engine + 1;
-    key.accuracy.precision = (int32_t)plan->setting.precision + 1;
-    key.accuracy.steps = (int32_t)plan->setting.steps;
-    key.disk.model = plan->phi ? KD_DISK_PARTICLES : KD_DISK_NONE; /* who alone asks for azimuths */
-    key.disk.slow_light = plan->delay;
-    key.disk.plunging = plan->fall ? 0.5 : 0;
-    key.sky.model = plan->sky ? KD_SKY_GRID : KD_SKY_NONE;
-    return kd_scene_hash(&key, plan->lens_key);
+    struct kd_buffer text = { 0 };
+    const struct kd_section *camera = kd_section_find("camera");
+    const struct kd_setting *by = &plan->setting;
+    enum kd_status status = kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, a %a", plan->quantities,
+                                             plan->orders, scene->image.width, scene->image.height, scene->image.samples,
+                                             scene->image.critical_factor, (int)by->engine, (int)by->precision, by->steps, (int)plan->path,
+                                             scene->spacetime.spin);
+    for (size_t i = camera->first; i < camera->first + camera->count && !status; i++)
+        if (strcmp(kd_fields[i].name, "azimuth_deg"))
+            status = kd_buffer_printf(&text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0));
+    if (!status)
+        kd_sha256(text.data, text.size, plan->lens_key);
+    kd_buffer_finish(&text);
+    return status;
 }
 
 static void add_pass(struct kd_plan *plan, const char *name, const char *kernel, uint64_t n, double ns)
@@ -238,7 +219,7 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
     uint64_t side = plan->side * (uint64_t)scene->image.critical_factor;
     if (side > KD_CRITICAL_SIDE)
         side = KD_CRITICAL_SIDE;
-    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->sky)) /* the direct image is nowhere thin */
+    if (plan->ring || side <= plan->side || !(plan->orders > 1 || kd_plan_holds(plan, KD_LENS_SKY))) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_kept(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
@@ -311,7 +292,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool closed_form = isinf(scene->camera.r) && !plan->delay; /* lens_closed.comp can do it */
+    bool closed_form = isinf(scene->camera.r) && !kd_plan_holds(plan, KD_LENS_DELAY); /* lens_closed.comp can do it */
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
@@ -340,9 +321,9 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
         by->steps = 0;
     }
     bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32 &&
-               !plan->delay; /* which only listed rays know */
+               !kd_plan_holds(plan, KD_LENS_DELAY); /* which only listed rays know */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
-    if (plan->delay && !outside(scene))
+    if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene))
         return kd_error_field(error, "/disk/slow_light",
                               "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
     return map ? KD_OK : may_list(scene, by, error);
@@ -357,16 +338,15 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.height = (uint32_t)scene->image.height;
     plan.side = (uint32_t)scene->image.samples;
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
-    plan.phi = needs->phi;
-    plan.delay = needs->delay;
     plan.light = needs->light;
-    plan.fall = needs->fall;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
-    plan.sky = needs->sky;
     plan.particles = kd_particle_grid(scene);
-    plan.spots = spots_of(scene);
+    kd_emit_traits(scene, plan.traits);
+    plan.apart = kd_emit_apart(scene);
+    plan.quantities = needs->quantities;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
-    plan.orders = needs->disk || needs->phi || needs->sky ? (uint32_t)scene->accuracy.orders : 0;
+    plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
+    plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && plan.ring)
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\", allowed are \"plane\" and \"pinhole\" where light is measured: "
@@ -374,7 +354,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     enum kd_status status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.planes = plan.orders * (1 + plan.phi + plan.delay + plan.fall) + (plan.ring ? 1 : 0) + (plan.sky ? 3 : 0);
+    plan.planes = kd_lens_planes(plan.quantities, plan.orders);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
     *out = plan;
@@ -403,14 +383,9 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
 
 struct kd_needs kd_needs_of(const struct kd_scene *scene)
 {
-    bool lumps = scene->disk.model == KD_DISK_PARTICLES || spots_of(scene);
     return (struct kd_needs) {
-        .disk = scene->disk.model != KD_DISK_NONE,
-        .phi = lumps,
-        .delay = lumps && scene->disk.slow_light,
-        .fall = kd_plunging_is_on(scene) && scene->disk.plunging_temperature > 0,
-        .sky = scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0,
-        .light = spots_of(scene) && scene->camera.projection != KD_PROJECTION_RING,
+        .quantities = kd_emit_needs(scene),
+        .light = kd_emit_apart(scene) && scene->camera.projection != KD_PROJECTION_RING,
     };
 }
 

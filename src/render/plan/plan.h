@@ -8,14 +8,16 @@
 #include "render/accuracy/engine.h"
 #include "render/emit/particles.h"
 #include "scene/scene.h"
+#include "lens.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #define KD_PLAN_MAX_PASSES 10
+#define KD_PLAN_EMITTERS 16 /* at least those of shaders/shared/emitters.h, which only this module sees */
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
-#define KD_PLAN_MAX_APPROXIMATIONS 32
+#define KD_PLAN_MAX_APPROXIMATIONS 64 /* a test compares it with all there are */
 
 /* What the device allows and how fast it has been measured to be. */
 struct kd_capacity {
@@ -53,11 +55,11 @@ struct kd_plan {
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     struct kd_particle_grid particles;
-    uint32_t spots;                 /* that are on: their own luminance is kept beside the radiance */
+    uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
+    bool apart;                     /* the luminance of some is kept beside the radiance */
     bool light;                     /* flux and centroid are measured */
-    bool delay;                     /* the lens map holds delays of light, behind its azimuths */
-    bool fall;                      /* and w', the slope of the traced ray's w = 1/r in Mino time, behind those */
-    bool phi, ring, sky;            /* the lens map holds azimuths; alpha; sky directions and fates */
+    bool ring;                      /* rays are listed, round the critical curve */
+    uint32_t quantities;            /* of the lens map, KD_LENS_... */
     uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */
     uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */
@@ -95,29 +97,34 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
     return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
 }
 
+static inline bool kd_plan_holds(const struct kd_plan *plan, uint32_t quantities) { return (plan->quantities & quantities) == quantities; }
+
 /* Whether the lens map is one of crossing radii alone, by the closed form: the cheapest there is. */
 static inline bool kd_plan_is_radii(const struct kd_plan *plan)
 {
-    return plan->path == KD_LENS_CLOSED && !plan->phi && !plan->fall && !plan->sky;
+    return plan->path == KD_LENS_CLOSED && !(plan->quantities & ~(uint32_t)KD_LENS_W);
 }
 
 /* All that are followed. */
 static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->rays + plan->critical * plan->critical_pixels; }
 
 /* Of linear light, a pixel. */
-static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->spots ? 16 : 12; }
+static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }
 
 /* Stops to apply where the picture alone would have `stops`. */
 double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
 /* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
-    bool disk, phi, delay, fall, sky; /* crossing radii; their azimuths; delays; radial slopes; directions of escape and fates */
-    bool light;                 /* and that flux and centroid be measured, as they are whenever a spot is on */
+    uint32_t quantities; /* KD_LENS_... */
+    bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
+
+/* Sentences of plans that are no emitter's. */
+size_t kd_plan_sentence_count(void);
 
 /* The plan as the JSON of POST /v1/plan. */
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);

@@ -203,10 +203,10 @@ static enum kd_status prepare(struct work *w, size_t n)
 {
     const struct kd_rays_params *p = w->params;
     const uint32_t method = w->kerr_schild ? p->engine - KD_ENGINE_KS_EULER : p->engine == KD_ENGINE_MINO_RKN4 ? 4 : 6;
-    const uint32_t constants[] = { p->orders, w->steps, method };
+    const struct kd_spec_rays spec = { .ORDERS = p->orders, .STEPS = w->steps, .METHOD = method };
     enum kd_kernel kernel = w->kerr_schild ? (w->told ? KD_KERNEL_RAYS_KS_TRACE_F32 : KD_KERNEL_RAYS_KS_F32)
                                            : (w->told ? KD_KERNEL_RAYS_TRACE_F32 : KD_KERNEL_RAYS_F32);
-    enum kd_status status = kd_kernels_get(&w->r->kernels, w->r->vk, kernel + w->wide, constants, 3, &w->pipeline, w->error);
+    enum kd_status status = kd_kernels_get(&w->r->kernels, w->r->vk, kernel + w->wide, &spec.ORDERS, sizeof spec / 4, &w->pipeline, w->error);
     for (int k = 0; k < (n > CHUNK ? 2 : 1) && !status; k++)
         status = hold_set(w, k, n < CHUNK ? n : CHUNK);
     return status;

@@ -93,13 +93,13 @@ static enum kd_status far(const struct kd_selftest *test)
         float planes[PLANES];
         if (!isinf(ray->radius))
             continue;
-        enum kd_status status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, planes);
+        enum kd_status status = trace(test, &scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, planes);
         if (status)
             return status;
         judge_radii(ray, planes, &closed);
         judge_angles(ray, planes, &closed_phi, &closed_sky);
         scene.accuracy.steps = STEPS;
-        status = trace(test, &scene, &(struct kd_needs) { .disk = true, .phi = true, .sky = true }, planes);
+        status = trace(test, &scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, planes);
         if (status)
             return status;
         judge_radii(ray, planes, &r);
@@ -123,7 +123,7 @@ static enum kd_status near(const struct kd_selftest *test)
     for (size_t i = 0; i < test->reference->n_cameras; i++) {
         const struct kd_selftest_camera *camera = &test->reference->cameras[i];
         struct kd_scene scene = scene_of(&camera->ray, camera);
-        const struct kd_needs needs = { .disk = true, .phi = true, .sky = true };
+        const struct kd_needs needs = { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY };
         scene.accuracy.steps = STEPS;
         float planes[PLANES];
         enum kd_status status = trace(test, &scene, &needs, planes);

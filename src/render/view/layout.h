@@ -2,9 +2,13 @@
 #ifndef KD_RENDER_VIEW_LAYOUT_H
 #define KD_RENDER_VIEW_LAYOUT_H
 
+#include "emitters.h"
 #include "interface.h"
+#include "lens.h"
+#include "spec.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* What is told from 0 on the device must stay so as a float, for whether a ray lies in the plane or on the axis depends on it; and
@@ -16,8 +20,6 @@ static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_F
 #define F(name) float name;
 #define U(name) uint32_t name;
 struct kd_camera_push { KD_CAMERA_FIELDS_(F, U) };
-struct kd_transfer_block { KD_TRANSFER_FIELDS_(F, U) };
-struct kd_spot_block { KD_SPOT_FIELDS_(F, U) };
 struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
 struct kd_light_push { KD_LIGHT_FIELDS_(F, U) };
@@ -26,6 +28,47 @@ struct kd_post_push { KD_POST_FIELDS_(F, U) };
 #undef U
 
 _Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that every device has");
-_Static_assert(sizeof(struct kd_transfer_block) <= 4 * KD_TRANSFER_HEADER, "the tables start behind the header");
+
+/* Specialisation constants: a member each, at four times its id. */
+#define SPEC_U(id, name, value) uint32_t name;
+#define SPEC_CHECK(of, id, name) _Static_assert(offsetof(struct of, name) == 4 * (id), "a constant's id is its place");
+#define SPEC(of, LIST, CHECK, more)                                                                           \
+    struct of { LIST(SPEC_U, SPEC_U) more };                                                                   \
+    LIST(CHECK, CHECK)
+#define CHECK_CLOSED(id, name, value) SPEC_CHECK(kd_spec_lens_closed, id, name)
+#define CHECK_MAP(id, name, value) SPEC_CHECK(kd_spec_lens_map, id, name)
+#define CHECK_TRANSFER(id, name, value) SPEC_CHECK(kd_spec_transfer, id, name)
+#define CHECK_RAYS(id, name, value) SPEC_CHECK(kd_spec_rays, id, name)
+#define CHECK_PARTICLES(id, name, value) SPEC_CHECK(kd_spec_particles, id, name)
+#define CHECK_PHOTOMETRY(id, name, value) SPEC_CHECK(kd_spec_photometry, id, name)
+#define CHECK_POST(id, name, value) SPEC_CHECK(kd_spec_post, id, name)
+#define TRAIT(number, name) +1
+SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
+SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
+SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT)];)
+SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
+SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
+SPEC(kd_spec_photometry, KD_SPEC_PHOTOMETRY, CHECK_PHOTOMETRY, )
+SPEC(kd_spec_post, KD_SPEC_POST, CHECK_POST, )
+_Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, "the emitters' words are behind the others");
+#undef SPEC_U
+#undef SPEC_CHECK
+#undef SPEC
+#undef CHECK_CLOSED
+#undef CHECK_MAP
+#undef CHECK_TRANSFER
+#undef CHECK_RAYS
+#undef CHECK_PARTICLES
+#undef CHECK_PHOTOMETRY
+#undef CHECK_POST
+#undef TRAIT
+
+/* Planes of a lens map of these quantities: where those of one begin, and all. */
+static inline uint32_t kd_lens_plane(uint32_t quantities, uint32_t orders, uint32_t quantity)
+{
+    uint32_t before = quantities & (quantity - 1);
+    return (uint32_t)__builtin_popcount(before & KD_LENS_CROSSINGS) * orders + (uint32_t)__builtin_popcount(before & ~(uint32_t)KD_LENS_CROSSINGS);
+}
+static inline uint32_t kd_lens_planes(uint32_t quantities, uint32_t orders) { return kd_lens_plane(quantities, orders, 1u << 31); }
 
 #endif

@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "server/session/internal.h"
 #include "server/session/sessions.h"
+#include "render/emit/motion.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -65,7 +66,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         free(live);
         return NULL;
     }
-    if (!turn->refining && s->exposed_revision == s->revision && kd_scene_moves(scene))
+    if (!turn->refining && s->exposed_revision == s->revision && kd_emit_moves(scene))
         follow_exposure(s, now, &live->job.plan);
     return live;
 }
@@ -76,7 +77,7 @@ void kd_session_pump(struct kd_session *s)
         return;
     double now = kd_clock_ms();
     const struct kd_scene scene = kd_session_scene(s, now);
-    const bool moves = kd_scene_moves(&scene);
+    const bool moves = kd_emit_moves(&scene);
     if (moves || s->moved) /* what has come to rest since the latest frame differs from it too */
         kd_governor_changed(&s->governor, now, &scene, false);
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);

@@ -1,0 +1,46 @@
+/* Colours of black bodies, by tables that no scene changes.
+ *
+ * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES): those are the floats whose low bits are zero, so that the place of a temperature in the
+ * table is its bits. Red and blue of linear sRGB of luminance 1 are fractions of 16 bits of KD_COLOUR_RED and _BLUE, the most there is;
+ * green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
+#ifndef KD_BLOCK_colour
+#define KD_BLOCK_colour(F, U, A)
+#define KD_COLOUR_NODES 256 /* an octave */
+#define KD_COLOUR_SHIFT 15  /* 23 bits of fraction less 8 */
+#define KD_COLOUR_LEAST 64.0
+#define KD_COLOUR_LEAST_BITS 0x42800000
+#define KD_COLOUR_OCTAVES 24 /* to 1.07e9 K */
+#define KD_COLOUR_MOST_BITS 0x4e7fffff /* below 64 K 2^24 */
+#define KD_COLOUR_RED 4.75
+#define KD_COLOUR_BLUE 2.3
+#define KD_COLOUR_TABLE (KD_COLOUR_OCTAVES * KD_COLOUR_NODES + 1)
+#define KD_TABLES_colour(T)                                                                                    \
+    T(uint, colour, KD_COLOUR_TABLE)     /* red, blue << 16 */                                                 \
+    T(float, luminous, KD_COLOUR_TABLE)  /* log2 of the fraction of the radiance that the eye weighs */
+#endif
+
+#ifdef KD_EMIT_CODE
+struct kd_colour_place { uint node; float part; };
+
+kd_colour_place kd_colour_at(float kelvin)
+{
+    uint bits = clamp(floatBitsToUint(kelvin), KD_COLOUR_LEAST_BITS, KD_COLOUR_MOST_BITS) - KD_COLOUR_LEAST_BITS;
+    kd_colour_place o;
+    o.node = bits >> KD_COLOUR_SHIFT;
+    o.part = float(bits & ((1u << KD_COLOUR_SHIFT) - 1u)) * (1.0 / float(1u << KD_COLOUR_SHIFT));
+    return o;
+}
+
+/* Linear sRGB of luminance 1. */
+vec3 kd_colour(kd_colour_place at)
+{
+    vec2 c = mix(unpackUnorm2x16(tables.colour[at.node]), unpackUnorm2x16(tables.colour[at.node + 1]), at.part);
+    float r = KD_COLOUR_RED * c.x, b = KD_COLOUR_BLUE * c.y;
+    return vec3(r, max((1.0 - 0.2126 * r - 0.0722 * b) * (1.0 / 0.7152), 0.0), b);
+}
+
+float kd_colour_luminous(kd_colour_place at)
+{
+    return mix(tables.luminous[at.node], tables.luminous[at.node + 1], at.part);
+}
+#endif

@@ -1,0 +1,50 @@
+/* The smooth thin disk.
+ *
+ * An element at radius r shines as a black body of temperature T(r). Liouville: I_nu/nu^3 is constant along the ray, so that it is seen
+ * as a black body of g T, its bolometric intensity g^4 F / pi. Radiance is in units of the brightest surface brightness at g = 1. */
+#ifndef KD_BLOCK_disk
+#define KD_DISK_TABLE 1024
+#define KD_BLOCK_disk(F, U, A)                                                                                  \
+    F(r_in) F(r_out)       /* M */                                                                             \
+    F(fade)                /* 1 over the width of the outer fade, 1/M */                                       \
+    F(opacity)                                                                                                 \
+    F(peak)                /* largest effective temperature times the hardening, K */                          \
+    F(luminous)            /* log2 of the fraction that the eye weighs of a black body of that */
+#define KD_TABLES_disk(T)                                                                                      \
+    T(float, disk, KD_DISK_TABLE) /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
+#define KD_TRAIT_VISIBLE 8u /* brightness as the eye weighs it instead of bolometric */
+#endif
+
+#ifdef KD_EMIT_CODE
+/* What shines at a crossing: its temperature over the disk's largest, as it is seen, and its opacity. */
+struct kd_gas { float t, alpha; };
+
+/* A black body of t, over the disk's largest temperature. */
+vec3 kd_black_body(float t, uint traits)
+{
+    kd_colour_place at = kd_colour_at(emission.disk.peak * t);
+    float t2 = t * t, weight = t2 * t2;
+    if ((traits & KD_TRAIT_VISIBLE) != 0u)
+        weight *= exp2(max(kd_colour_luminous(at) - emission.disk.luminous, -120.0));
+    return weight * kd_colour(at);
+}
+
+kd_gas kd_disk_gas(kd_sample s, uint traits)
+{
+    float r = 1.0 / s.w;
+    float y = sqrt(max(1.0 - emission.frame.r_isco * s.w, 0.0)) * float(KD_DISK_TABLE - 1);
+    uint i = min(uint(y), KD_DISK_TABLE - 2);
+    float t = mix(tables.disk[i], tables.disk[i + 1], y - float(i)) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
+
+    /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
+    float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
+    bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
+    return kd_gas(t, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
+}
+
+kd_glow kd_disk_glow(kd_sample s)
+{
+    kd_gas gas = kd_disk_gas(s, TRAITS_disk);
+    return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_disk), gas.alpha, 0.0);
+}
+#endif

@@ -1,0 +1,10 @@
+/* What all emitters may need: numbers of the picture and of the hole. */
+#ifndef KD_BLOCK_frame
+#define KD_BLOCK_frame(F, U, A)                                                                                 \
+    U(pixels_x)            /* a row */                                                                         \
+    U(band_pixels)         /* whose light one buffer holds; behind it is what is kept apart */                 \
+    F(azimuth)             /* of the observer, radians */                                                      \
+    F(delay)               /* of the light that shows what moves as it is, M */                                \
+    F(r_isco)                                                                                                  \
+    F(one_minus_a)         /* 1 - spin, which a float of the spin has lost near 1 */
+#endif

@@ -1,0 +1,57 @@
+/* The disk as particles: brightness is that of the smooth disk times their number over the mean (src/render/emit/particles.h). */
+#ifndef KD_BLOCK_particles
+#define KD_BLOCK_particles(F, U, A)                                                                             \
+    U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */                                   \
+    F(rows_octave)         /* rows that r doubles in */
+#define KD_TRAIT_SLOW 16u /* what moves is shown as it was when its light left it */
+#endif
+
+#ifdef KD_EMIT_CODE
+/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and the one
+ * after. */
+struct kd_place { uint first, rows, columns; float row, before, after; };
+
+/* How far ahead, in turns, is now what went round with a row's Omega and was seen a time `ago`. */
+float kd_particles_ahead(uint row, float ago)
+{
+    float r = emission.disk.r_in * exp2(float(row) / emission.particles.rows_octave);
+    return ago * (0.5 / KD_PI) / (r * sqrt(r) + cam.spin);
+}
+
+kd_place kd_particles_place(kd_sample s, float turn)
+{
+    float rows = float(emission.particles.rows);
+    float row = clamp(-log2(s.w * emission.disk.r_in) * emission.particles.rows_octave, 0.0, rows);
+    kd_place o = kd_place(0, emission.particles.rows, emission.particles.columns, row, turn, turn);
+    if ((TRAITS_particles & KD_TRAIT_SLOW) != 0u) {
+        uint i = min(uint(row), emission.particles.rows - 1);
+        o.before += kd_particles_ahead(i, s.ago);
+        o.after += kd_particles_ahead(i + 1, s.ago);
+    }
+    return o;
+}
+
+float kd_density_of_row(kd_place at, uint row, float turn)
+{
+    float column = (turn - floor(turn)) * float(at.columns);
+    uint j = uint(column), first = at.first + row * at.columns;
+    return mix(density[first + (j & (at.columns - 1))], density[first + ((j + 1) & (at.columns - 1))], column - float(j));
+}
+
+/* Particles over the number expected: bilinear between the nodes. */
+float kd_density_at(kd_place at)
+{
+    uint i = min(uint(at.row), at.rows - 1);
+    return mix(kd_density_of_row(at, i, at.before), kd_density_of_row(at, i + 1, at.after), at.row - float(i));
+}
+
+/* The azimuth of a crossing in turns, in the frame that the grids are kept in. */
+float kd_sample_turn(kd_sample s) { return (s.phi + emission.frame.azimuth) * (0.5 / KD_PI); }
+
+kd_glow kd_particles_glow(kd_sample s)
+{
+    kd_gas gas = kd_disk_gas(s, TRAITS_particles);
+    float number = kd_density_at(kd_particles_place(s, kd_sample_turn(s)));
+    return kd_glow(gas.alpha * number * kd_black_body(gas.t, TRAITS_particles), gas.alpha, 0.0);
+}
+#endif

@@ -1,0 +1,8 @@
+/* A struck hole, as an illustration: the light of image orders 1 and up rings. */
+#ifndef KD_BLOCK_ringdown
+#define KD_BLOCK_ringdown(F, U, A) F(factor)
+#endif
+
+#ifdef KD_EMIT_CODE
+float kd_ringdown_over(kd_sample s) { return s.order > 0 ? emission.ringdown.factor : 1.0; }
+#endif

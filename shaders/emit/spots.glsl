@@ -1,0 +1,39 @@
+/* Hot spots, whose light left them so long before that which shows `phi`; `apart` is their luminance.
+ *
+ * The gas of each place shines, with the g of its own orbit: the figure goes round with its centre, what it is made of shears.
+ * I_nu/nu^3 is constant along the ray: I_nu ~ nu^-index is seen times g^(3 + index). Such spots, but as spheres in a hot flow:
+ * A. E. Broderick & A. Loeb 2006, MNRAS 367, 905. They are in the gas: its own element does not hide them. */
+#ifndef KD_BLOCK_spots
+#define KD_SPOT_MAX 16
+#define KD_BLOCK_spot(F, U)                                                                                    \
+    F(r) F(phi)              /* of its centre; its azimuth less the observer's at the time that the picture shows, radians */ \
+    F(omega)                 /* by which phi was less for each M that light was longer on its way */            \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); the square of the distance beyond which there is none of it */ \
+    F(brightness) F(power)   /* at the centre; that of g */                                                    \
+    F(temperature)           /* K */
+#define KD_BLOCK_spots(F, U, A) A(kd_spot_block, at, KD_SPOT_MAX)
+#define KD_TRAIT_SPOTS_SHIFT 8u /* the bits from here on: how many there are */
+#endif
+
+#ifdef KD_EMIT_CODE
+kd_glow kd_spots_glow(kd_sample s)
+{
+    kd_glow sum = kd_glow(vec3(0.0), 0.0, 0.0);
+    float r = 1.0 / s.w;
+    if (r < emission.frame.r_isco)
+        return sum;
+    for (uint i = 0; i < (TRAITS_spots >> KD_TRAIT_SPOTS_SHIFT); i++) {
+        kd_spot_block spot = emission.spots.at[i];
+        float ahead = (TRAITS_spots & KD_TRAIT_SLOW) != 0u ? spot.omega * s.ago : 0.0;
+        float half_ = kd_cos_sin(0.5 * (s.phi - spot.phi + ahead)).s;
+        float off = (r - spot.r) * (r - spot.r) + 4.0 * r * spot.r * half_ * half_;
+        if (off > spot.reach)
+            continue;
+        float g = kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_spots);
+        float light = spot.brightness * exp2(spot.power * log2(g) - spot.sharp * off);
+        sum.light += light * kd_colour(kd_colour_at(spot.temperature * g));
+        sum.apart += light;
+    }
+    return sum;
+}
+#endif

@@ -1,0 +1,57 @@
+/* Light along one ray, front to back, of whatever emitters the scene has. Knows the list and no names: kernels feed it samples, of
+ * crossings from a lens map (transfer.comp) or of places along the path. */
+#ifndef KD_COMPOSE_GLSL
+#define KD_COMPOSE_GLSL
+
+/* One place on a ray. ago: how long before that which shows the scene's time its light left it. */
+struct kd_sample { float w, phi, ago, slope, energy, momentum; uint order; };
+/* Where it ends, if it escapes. */
+struct kd_end { float u, phi; };
+/* What one emitter adds at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
+struct kd_glow { vec3 light; float alpha, apart; };
+/* A ray on its way: the light so far, and what all in front lets pass. */
+struct kd_beam { vec3 light; float apart, through; };
+
+#define KD_SPEC_TRAIT_(number, name) layout(constant_id = KD_SPEC_TRAITS + number) const uint TRAITS_##name = 0;
+KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
+#define KD_HAS(name) ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u)
+#define KD_NO_EMITTER_(number, name)
+
+#define KD_EMIT_CODE
+#include "shared/emitters.h"
+
+/* Whether anything is to be seen at crossings. */
+#define KD_OR_TRAITS_(number, name) | TRAITS_##name
+const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
+const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
+
+/* All emitters of a place are in it together: none hides another's light. */
+void kd_beam_at(inout kd_beam beam, kd_sample s)
+{
+    float seen = beam.through;
+#define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_)
+#define KD_GLOW_(number, name)                                                                                 \
+    if (KD_HAS(name)) {                                                                                        \
+        kd_glow glow = kd_##name##_glow(s);                                                                    \
+        beam.light += seen * glow.light;                                                                       \
+        beam.apart += seen * glow.apart;                                                                       \
+        beam.through *= 1.0 - glow.alpha;                                                                      \
+    }
+    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_)
+}
+
+void kd_beam_end(inout kd_beam beam, kd_end end)
+{
+#define KD_END_(number, name) if (KD_HAS(name)) beam.light += beam.through * kd_##name##_end(end);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_)
+}
+
+/* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */
+void kd_beam_given_up(inout kd_beam beam)
+{
+    beam.light += beam.through * vec3(1.0, 0.0, 1.0);
+    beam.through = 0.0;
+}
+
+#endif

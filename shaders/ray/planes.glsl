@@ -1,0 +1,14 @@
+/* Where the planes of a lens map lie. Needs the specialisation constants QUANTITIES and ORDERS. */
+#ifndef KD_PLANES_GLSL
+#define KD_PLANES_GLSL
+
+#include "shared/lens.h"
+
+/* The first plane of a quantity: as kd_lens_plane of src/render/view/layout.h. A constant once the kernel is specialised. */
+uint kd_plane(uint quantity)
+{
+    uint before = QUANTITIES & (quantity - 1u);
+    return uint(bitCount(before & KD_LENS_CROSSINGS)) * ORDERS + uint(bitCount(before & ~KD_LENS_CROSSINGS));
+}
+
+#endif

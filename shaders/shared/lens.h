@@ -1,0 +1,43 @@
+/* The quantities of a lens map, in the order in which their planes lie: first those of each crossing, a plane for each image order,
+ * then those of each ray, one plane. A map holds the quantities of a set of bits. C and GLSL expand both lists.
+ *
+ *   W        1/r of the crossing; 0: there is none, below 0: the ray was given up on the way to it
+ *   PHI      its azimuth, source minus observer, radians
+ *   DELAY    of light, t_observed - t_emitted, M (less r_o + 2 ln r_o at infinity)
+ *   SLOPE    w', in Mino time, of the ray traced back
+ *   ALPHA    impact parameter of the ray, M, where rays are not on the camera's grid
+ *   SKY_U    cosine of the polar angle in which the ray escapes
+ *   SKY_PHI  and its azimuth, source minus observer, radians
+ *   FATE     KD_FATE_... of interface.h */
+#ifndef KD_LENS_H
+#define KD_LENS_H
+
+#define KD_LENS_OF_CROSSINGS(Q) Q(0, W) Q(1, PHI) Q(2, DELAY) Q(3, SLOPE)
+#define KD_LENS_OF_RAYS(Q) Q(4, ALPHA) Q(5, SKY_U) Q(6, SKY_PHI) Q(7, FATE)
+
+#ifdef VULKAN /* GLSL */
+#define Q(number, name) const uint KD_LENS_##name = 1u << number;
+KD_LENS_OF_CROSSINGS(Q)
+KD_LENS_OF_RAYS(Q)
+#undef Q
+#else
+#define Q(number, name) KD_LENS_##name = 1 << number,
+enum { KD_LENS_OF_CROSSINGS(Q) KD_LENS_OF_RAYS(Q) };
+#undef Q
+#endif
+
+#define Q(number, name) | (1u << number)
+#ifdef VULKAN
+const uint KD_LENS_CROSSINGS = 0u KD_LENS_OF_CROSSINGS(Q);
+#else
+enum { KD_LENS_CROSSINGS = 0u KD_LENS_OF_CROSSINGS(Q) };
+#endif
+#undef Q
+
+#ifdef VULKAN
+#define KD_LENS_SKY (KD_LENS_SKY_U | KD_LENS_SKY_PHI | KD_LENS_FATE)
+#else
+enum { KD_LENS_SKY = KD_LENS_SKY_U | KD_LENS_SKY_PHI | KD_LENS_FATE };
+#endif
+
+#endif

@@ -1,0 +1,38 @@
+/* Specialisation constants of the kernels: U(id, name, value) an unsigned one, B(id, name, value) a flag. Each list is written once;
+ * GLSL declares its constants by it and C a struct of 32-bit members, whose places a compile-time check compares with the ids. */
+#ifndef KD_SPEC_H
+#define KD_SPEC_H
+
+/* Rays on listed pixels (ray/place.glsl): how many of each, 0: the picture's grid; the lattice that they are on. */
+#define KD_SPEC_LENS_CLOSED(U, B)                                                                              \
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0)
+
+/* STEPS: of a half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6. */
+#define KD_SPEC_LENS_MAP(U, B)                                                                                 \
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) B(4, FINITE, false)                     \
+    U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0)
+
+/* SIDE: rays along each side of a pixel; APART: luminance is kept apart as well. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
+#define KD_SPEC_TRANSFER(U, B)                                                                                 \
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) B(3, FINITE, false)                                      \
+    U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) B(7, APART, false)
+#define KD_SPEC_TRAITS 8
+
+/* Of rays.comp and rays_kerr_schild.comp: METHOD is a Nystroem order, or one of Kerr-Schild's. */
+#define KD_SPEC_RAYS(U, B) U(0, ORDERS, 3) U(1, STEPS, 16) U(2, METHOD, 6)
+
+/* SWING: there are epicycles; LIST: places instead of a deposit; PLUNGE: those at hand fall, of a list those with low numbers. */
+#define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
+
+/* SPOTS: some light is kept apart as well; FINITE: solid angles from a near observer. */
+#define KD_SPEC_PHOTOMETRY(U, B) B(0, SPOTS, false) B(1, FINITE, false)
+
+/* ACES: the film-like curve; WIDE: 16 bits a channel. */
+#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false)
+
+#ifdef VULKAN
+#define KD_SPEC_U_(id, name, value) layout(constant_id = id) const uint name = value;
+#define KD_SPEC_B_(id, name, value) layout(constant_id = id) const bool name = value;
+#endif
+
+#endif

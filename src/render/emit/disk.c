@@ -1,0 +1,110 @@
+/* The smooth disk as an emitter: shaders/emit/disk.glsl. */
+#include "render/emit/emitter.h"
+
+#include "physics/colour.h"
+#include "physics/disk.h"
+#include "physics/kerr.h"
+
+#include <math.h>
+
+static bool present(const struct kd_scene *scene)
+{
+    return scene->disk.model != KD_DISK_NONE && scene->disk.model != KD_DISK_PARTICLES;
+}
+
+static uint32_t needs(const struct kd_scene *scene)
+{
+    (void)scene;
+    return KD_LENS_W;
+}
+
+uint32_t kd_orbit_traits(const struct kd_scene *scene)
+{
+    return (scene->disk.doppler ? KD_TRAIT_DOPPLER : 0) | (scene->disk.redshift ? KD_TRAIT_REDSHIFT : 0);
+}
+
+uint32_t kd_disk_traits(const struct kd_scene *scene)
+{
+    return kd_orbit_traits(scene) | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0);
+}
+
+static kd_disk_flux_fn flux_of(const struct kd_scene *scene)
+{
+    return scene->disk.model == KD_DISK_SHAKURA_SUNYAEV ? kd_disk_flux_shakura_sunyaev : kd_disk_flux_page_thorne;
+}
+
+static double largest_flux(const struct kd_scene *scene)
+{
+    double a = scene->spacetime.spin;
+    bool newton = scene->disk.model == KD_DISK_SHAKURA_SUNYAEV;
+    return flux_of(scene)(a, newton ? kd_disk_peak_shakura_sunyaev(a) : kd_disk_peak_page_thorne(a));
+}
+
+double kd_disk_peak_temperature(const struct kd_scene *scene)
+{
+    double a = scene->spacetime.spin;
+    if (scene->disk.colour == KD_COLOUR_PEAK)
+        return scene->disk.peak_temperature_k;
+    return kd_disk_temperature(largest_flux(scene), a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    const struct kd_disk *d = &scene->disk;
+    double r_in = isinf(d->inner) ? kd_kerr_isco(scene->spacetime.spin) : d->inner;
+    double peak = kd_disk_peak_temperature(scene) * d->hardening;
+    out->disk = (struct kd_disk_block) {
+        .r_in = (float)r_in,
+        .r_out = (float)d->outer,
+        .fade = (float)(1 / fmax(d->outer * d->taper, 1e-6)),
+        .opacity = (float)d->opacity,
+        .peak = (float)peak,
+        .luminous = (float)log2(fmax(kd_colour_luminous_fraction(peak), 1e-300)),
+    };
+}
+
+/* T r^(3/4) is smooth and bounded in y = sqrt(1 - r_isco/r): linear at the ISCO, where the flux has a double zero, and
+ * finite at infinity, where T falls as r^(-3/4). */
+static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
+{
+    kd_disk_flux_fn flux = flux_of(scene);
+    double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak = largest_flux(scene);
+    for (int i = 0; i < KD_DISK_TABLE; i++) {
+        double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
+        out->disk[i] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));
+    }
+}
+
+#define WHEN(name, condition)                                                                                  \
+    static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
+WHEN(newtonian, scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
+WHEN(chosen_peak, scene->disk.colour == KD_COLOUR_PEAK)
+WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
+WHEN(without_doppler, !scene->disk.doppler)
+WHEN(without_redshift, !scene->disk.redshift)
+WHEN(fades, scene->disk.taper > 0)
+WHEN(seen_through, scene->disk.opacity < 1)
+
+static const struct kd_sentence sentences[] = {
+    { "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge", NULL },
+    { "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light", NULL },
+    { "disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral", newtonian },
+    { "disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate", chosen_peak },
+    { "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
+    { "disk: Doppler shift and beaming of the gas are switched off", without_doppler },
+    { "disk: gravitational redshift and time dilation of the gas are switched off", without_redshift },
+    { "disk: the outer edge fades out over a chosen range", fades },
+    { "disk: opacity is a chosen number a crossing, not computed from the gas", seen_through },
+};
+
+const struct kd_emitter kd_emit_disk = {
+    .name = "disk",
+    .present = present,
+    .traits = kd_disk_traits,
+    .needs = needs,
+    .fill = fill,
+    .tables = tables,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+};

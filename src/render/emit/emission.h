@@ -1,0 +1,39 @@
+/* What the kernels of light read, on the C side of shaders/shared/emitters.h: numbers and tables of all emitters. */
+#ifndef KD_RENDER_EMIT_EMISSION_H
+#define KD_RENDER_EMIT_EMISSION_H
+
+#include "emitters.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define F(name) float name;
+#define U(name) uint32_t name;
+#define A(type, name, count) struct type name[count];
+#define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
+#define MEMBER(number, name) _Alignas(16) struct kd_##name##_block name;
+struct kd_spot_block { KD_BLOCK_spot(F, U) };
+KD_EMIT_BLOCKS(BLOCK)
+/* Laid out as std140 does: the blocks begin at multiples of 16 bytes. */
+struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
+#undef F
+#undef U
+#undef A
+#undef BLOCK
+#undef MEMBER
+_Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
+
+typedef float kd_table_float;
+typedef uint32_t kd_table_uint;
+typedef float kd_table_vec2[2];
+#define T(type, name, count) kd_table_##type name[count];
+struct kd_emit_tables { KD_EMIT_TABLES(T) };
+#undef T
+
+/* Both lie in one buffer: the tables behind the numbers. */
+struct kd_emit_data {
+    struct kd_emission emission;
+    _Alignas(256) struct kd_emit_tables tables;
+};
+
+#endif

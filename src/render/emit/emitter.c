@@ -1,0 +1,115 @@
+#include "render/emit/emitter.h"
+
+#include "physics/kerr.h"
+#include "render/emit/motion.h"
+#include "render/emit/particles.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DECLARE(number, name) extern const struct kd_emitter kd_emit_##name;
+KD_EMITTERS(DECLARE, DECLARE, DECLARE)
+#define ENTRY(number, name) [number] = &kd_emit_##name,
+const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY) };
+
+void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT])
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        const struct kd_emitter *e = kd_emitters[i];
+        out[i] = !e->present(scene) ? 0 : KD_TRAIT_PRESENT | (e->traits ? e->traits(scene) : 0);
+    }
+}
+
+uint32_t kd_emit_needs(const struct kd_scene *scene)
+{
+    uint32_t needs = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->needs && kd_emitters[i]->present(scene))
+            needs |= kd_emitters[i]->needs(scene);
+    return needs;
+}
+
+bool kd_emit_apart(const struct kd_scene *scene)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->apart && kd_emitters[i]->present(scene))
+            return true;
+    return false;
+}
+
+void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),
+                       void *user)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        for (const struct kd_emitter *e = kd_emitters[i]->present(scene) ? kd_emitters[i] : NULL; e; e = e->kind)
+            for (size_t k = 0; k < e->n_sentences; k++)
+                if (!e->sentences[k].in_force || e->sentences[k].in_force(scene, rays))
+                    take(user, e->sentences[k].text);
+}
+
+size_t kd_emit_sentence_count(void)
+{
+    size_t n = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        n += kd_emitters[i]->n_sentences;
+    return n;
+}
+
+static unsigned varies(const struct kd_scene *scene)
+{
+    unsigned sum = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->varies && kd_emitters[i]->present(scene))
+            sum |= kd_emitters[i]->varies(scene);
+    return sum & ((kd_scene_time_goes_on(scene) ? KD_MOVES_WITH_TIME | KD_DIMS_WITH_TIME : 0) |
+                  (scene->motion.azimuth_rate_deg != 0 ? KD_MOVES_WITH_AZIMUTH : 0));
+}
+
+bool kd_emit_moves(const struct kd_scene *scene) { return varies(scene); }
+bool kd_emit_only_dims(const struct kd_scene *scene) { return varies(scene) == KD_DIMS_WITH_TIME; }
+
+static bool is_read(const struct kd_emitter *e, const struct kd_scene *scene)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if ((kd_emitters[i] == e || kd_emitters[i]->reads == e) && kd_emitters[i]->present(scene))
+            return true;
+    return false;
+}
+
+static bool is_current(const struct kd_emit_state *state, int i, const struct kd_scene *scene)
+{
+    const struct kd_scene_part *parts = kd_emitters[i]->depends;
+    if (!state->filled[i])
+        return false;
+    for (int k = 0; k < KD_EMITTER_PARTS && parts[k].size; k++)
+        if (memcmp((const char *)scene + parts[k].at, (const char *)&state->of[i] + parts[k].at, parts[k].size))
+            return false;
+    return true;
+}
+
+void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels)
+{
+    struct kd_emission *numbers = &state->data.emission;
+    if (!state->colours)
+        kd_colour_tables(&state->data.tables);
+    state->colours = true;
+    numbers->frame = (struct kd_frame_block) {
+        .pixels_x = (uint32_t)scene->image.width,
+        .band_pixels = band_pixels,
+        .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
+        .delay = (float)kd_particle_delay(scene),
+        .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
+        .one_minus_a = (float)(1 - scene->spacetime.spin),
+    };
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        const struct kd_emitter *e = kd_emitters[i];
+        if (!is_read(e, scene) || is_current(state, i, scene))
+            continue;
+        if (e->fill)
+            e->fill(numbers, scene);
+        if (e->tables)
+            e->tables(&state->data.tables, scene);
+        memcpy(&state->of[i], scene, sizeof *scene); /* padding too: it is compared */
+        state->filled[i] = true;
+    }
+}

@@ -1,0 +1,88 @@
+/* Emitters: what sends light along a ray, takes it away or changes it. The table of shaders/shared/emitters.h on the C side, one file
+ * each; plan, needs, motion, numbers and tables for the device, and approximations fold over it and know no names.
+ *
+ * To add one: its line in that list, its shaders/emit/NAME.glsl, its src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`,
+ * and its section in the field table. Constant data and pure functions of valid scenes, any thread. */
+#ifndef KD_RENDER_EMIT_EMITTER_H
+#define KD_RENDER_EMIT_EMITTER_H
+
+#include "lens.h"
+#include "render/accuracy/engine.h"
+#include "render/emit/emission.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum kd_varies {
+    KD_MOVES_WITH_TIME = 1,  /* something is elsewhere a moment later */
+    KD_DIMS_WITH_TIME = 2,   /* light alone changes: each pixel keeps what it shows */
+    KD_MOVES_WITH_AZIMUTH = 4,
+};
+
+/* An approximation, and whether it is in force in a scene that has the emitter, followed by these rays; NULL: always. */
+struct kd_sentence {
+    const char *text;
+    bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);
+};
+
+/* A part of struct kd_scene. */
+struct kd_scene_part { size_t at, size; };
+#define KD_SCENE_PART(section) { offsetof(struct kd_scene, section), sizeof(((struct kd_scene *)0)->section) }
+#define KD_EMITTER_PARTS 6
+
+struct kd_emitter {
+    const char *name;
+    bool (*present)(const struct kd_scene *scene);
+    uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
+    uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
+    unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies; NULL: never */
+    bool apart;                                       /* its flux and centroid are measured by themselves */
+    /* Numbers; and tables, which may take milliseconds. Called anew when a part of the scene that they depend on has changed. */
+    void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
+    void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
+    struct kd_scene_part depends[KD_EMITTER_PARTS]; /* up to the first of size 0 */
+    const struct kd_sentence *sentences;
+    size_t n_sentences;
+    const struct kd_emitter *kind;  /* whose sentences hold for it as well; NULL: nobody's */
+    const struct kd_emitter *reads; /* whose numbers and tables it reads beside its own; NULL: nobody's */
+};
+
+#define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,
+enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
+#define KD_EMIT_ONE_(number, name) +1
+enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
+extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
+
+/* Words of the specialisation constants, 0 for what the scene has not. */
+void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
+/* What the lens map must hold, and whether some light is kept apart. */
+uint32_t kd_emit_needs(const struct kd_scene *scene);
+bool kd_emit_apart(const struct kd_scene *scene);
+/* Call take(user, text) for each approximation that is in force. */
+void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),
+                       void *user);
+size_t kd_emit_sentence_count(void); /* there are, in force or not */
+
+/* Numbers and tables, and the scenes that they are of: {0} before the first use. Thread of the owner. */
+struct kd_emit_state {
+    struct kd_emit_data data;
+    struct kd_scene of[KD_EMITTER_COUNT]; /* what each emitter was last filled from, */
+    bool filled[KD_EMITTER_COUNT];        /* if it was */
+    bool colours;
+};
+/* Bring the data up to date. band_pixels: of the picture's bands (emit/frame.glsl). About 20 ms the first time; afterwards what has
+ * changed alone. */
+void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels);
+
+extern const struct kd_emitter kd_emit_disk;
+/* For those that shine by the smooth disk's numbers and tables. */
+uint32_t kd_disk_traits(const struct kd_scene *scene);
+/* Doppler and redshift of gas on orbits, as KD_TRAIT_... */
+uint32_t kd_orbit_traits(const struct kd_scene *scene);
+/* Largest effective temperature of the disk in K, in the gas's own frame. */
+double kd_disk_peak_temperature(const struct kd_scene *scene);
+void kd_colour_tables(struct kd_emit_tables *out);
+
+#endif

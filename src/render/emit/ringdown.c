@@ -1,0 +1,46 @@
+/* A struck hole as a factor of light: shaders/emit/ringdown.glsl. */
+#include "render/emit/emitter.h"
+
+#include "physics/ringdown.h"
+
+#include <math.h>
+
+/* sRGB turns a relative change d of luminance into 112 d steps of 8 bits at most: what is left is a tenth of a step. */
+#define SEEN (1. / 1024)
+
+static bool present(const struct kd_scene *scene)
+{
+    return scene->style.ringdown > 0 && (kd_emitters[KD_EMITTER_disk]->present(scene) || kd_emitters[KD_EMITTER_particles]->present(scene) ||
+                                         kd_emitters[KD_EMITTER_spots]->present(scene));
+}
+
+/* Whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a step, then. */
+static unsigned varies(const struct kd_scene *scene)
+{
+    double since = scene->top.time - scene->style.ringdown_time;
+    if (since < 0 || scene->accuracy.orders < 2)
+        return 0;
+    const struct kd_ringdown_fit mode = kd_ringdown_fit(0, fabs(scene->spacetime.spin));
+    return scene->style.ringdown * exp(-mode.omega_re / (2 * mode.quality) * since) > SEEN ? KD_DIMS_WITH_TIME : 0;
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    double wave;
+    out->ringdown.factor = (float)(kd_scene_ringdown(scene, &wave) ? 1 + scene->style.ringdown * wave : 1);
+}
+
+static const struct kd_sentence sentences[] = {
+    { "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time",
+      NULL },
+};
+
+const struct kd_emitter kd_emit_ringdown = {
+    .name = "ringdown",
+    .present = present,
+    .varies = varies,
+    .fill = fill,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(style), KD_SCENE_PART(top) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+};

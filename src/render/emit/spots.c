@@ -1,0 +1,83 @@
+/* Hot spots as an emitter: shaders/emit/spots.glsl. */
+#include "render/emit/emitter.h"
+
+#include "physics/kerr.h"
+#include "render/emit/particles.h"
+
+#include <math.h>
+
+_Static_assert(KD_SPOT_MAX == KD_SPOTS, "those of a scene");
+
+/* Beyond this many sizes there is less than 1e-9 of the peak. */
+#define REACH 6.44
+
+static bool present(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    return kd_scene_spots(scene, on);
+}
+
+static uint32_t traits(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    return kd_orbit_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
+           (uint32_t)kd_scene_spots(scene, on) << KD_TRAIT_SPOTS_SHIFT;
+}
+
+static uint32_t needs(const struct kd_scene *scene)
+{
+    return KD_LENS_W | KD_LENS_PHI | (scene->disk.slow_light ? KD_LENS_DELAY : 0);
+}
+
+static unsigned varies(const struct kd_scene *scene)
+{
+    (void)scene;
+    return KD_MOVES_WITH_TIME | KD_MOVES_WITH_AZIMUTH;
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    size_t n = kd_scene_spots(scene, on);
+    double degrees = M_PI / 180, time = scene->top.time - kd_particle_delay(scene);
+    for (size_t i = 0; i < n; i++) {
+        double omega = kd_kerr_omega(scene->spacetime.spin, on[i]->r), size = on[i]->size;
+        double phase = remainder(omega * time, 2 * M_PI) + (on[i]->phase_deg - scene->camera.azimuth_deg) * degrees;
+        out->spots.at[i] = (struct kd_spot_block) {
+            .r = (float)on[i]->r,
+            .phi = (float)remainder(phase, 2 * M_PI),
+            .omega = (float)omega,
+            .sharp = (float)(M_LOG2E / (2 * size * size)),
+            .reach = (float)(REACH * REACH * size * size),
+            .brightness = (float)on[i]->brightness,
+            .power = (float)(3 + on[i]->index),
+            .temperature = (float)on[i]->temperature_k,
+        };
+    }
+}
+
+#define WHEN(name, condition)                                                                                  \
+    static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
+WHEN(without_shift, scene->disk.model == KD_DISK_NONE && (!scene->disk.doppler || !scene->disk.redshift))
+WHEN(fast, !scene->disk.slow_light)
+
+static const struct kd_sentence sentences[] = {
+    { "spots: drawn Gaussians in r and phi that go round with their centre's orbit and do not shear; they shine in "
+      "the equatorial plane, outside the ISCO alone, as a power law with the g of the gas at each place", NULL },
+    { "spots: their brightness and colour are chosen, not computed; they absorb nothing", NULL },
+    { "spots: the Doppler shift or the gravitational redshift of the gas is switched off", without_shift },
+    { "spots: fast light: shown where they are at one coordinate time, whatever the light's delay", fast },
+};
+
+const struct kd_emitter kd_emit_spots = {
+    .name = "spots",
+    .present = present,
+    .traits = traits,
+    .needs = needs,
+    .varies = varies,
+    .apart = true,
+    .fill = fill,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(top) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+};

@@ -1,0 +1,116 @@
+/* The table of emitters holds together: none is left out of plan, approximations, motion or numbers. */
+#include "render/emit/emitter.h"
+#include "render/emit/motion.h"
+#include "render/plan/plan.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void all_are_there(void **state)
+{
+    (void)state;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        assert_non_null(kd_emitters[i]);
+        assert_non_null(kd_emitters[i]->name);
+        assert_non_null(kd_emitters[i]->present);
+        assert_true(kd_emitters[i]->n_sentences > 0); /* each approximates something */
+        assert_true(!kd_emitters[i]->fill || kd_emitters[i]->depends[0].size); /* or it would be filled once and for all */
+    }
+}
+
+/* None can be dropped in silence: a plan has room for all sentences, though no scene is that approximate. */
+static void sentences_have_room(void **state)
+{
+    (void)state;
+    assert_true(kd_emit_sentence_count() + kd_plan_sentence_count() <= KD_PLAN_MAX_APPROXIMATIONS);
+    assert_true(kd_emit_sentence_count() > 20);
+}
+
+struct said { size_t n; const char *text[64]; };
+static void take(void *user, const char *text)
+{
+    struct said *said = user;
+    said->text[said->n++] = text;
+}
+static bool says(const struct kd_scene *scene, const char *start)
+{
+    const struct kd_setting rays = { 0 };
+    struct said said = { 0 };
+    kd_emit_sentences(scene, &rays, take, &said);
+    for (size_t i = 0; i < said.n; i++)
+        if (!strncmp(said.text[i], start, strlen(start)))
+            return true;
+    return false;
+}
+
+static void what_is_off_says_and_needs_nothing(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W);
+    assert_true(says(&scene, "disk: geometrically thin") && !says(&scene, "particles:") && !says(&scene, "sky:"));
+    scene.disk.model = KD_DISK_PARTICLES;
+    assert_true(says(&scene, "disk: geometrically thin") && says(&scene, "particles: fast light"));
+    kd_emit_traits(&scene, traits);
+    assert_true(!traits[KD_EMITTER_disk] && traits[KD_EMITTER_particles] && traits[KD_EMITTER_plunge]);
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SLOPE);
+    scene.disk.model = KD_DISK_NONE;
+    assert_int_equal(kd_emit_needs(&scene), 0);
+    scene.sky.model = KD_SKY_GRID;
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_SKY);
+    kd_emit_traits(&scene, traits);
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        assert_int_equal(traits[i] != 0, i == KD_EMITTER_sky);
+}
+
+/* Numbers are those of the scene at hand, whatever was filled before, in any order. */
+static void numbers_follow_the_scene(void **state)
+{
+    (void)state;
+    struct kd_emit_state *one = calloc(1, sizeof *one), *fresh = calloc(1, sizeof *fresh);
+    struct kd_scene scenes[5];
+    assert_true(one && fresh);
+    for (int k = 0; k < 5; k++)
+        kd_scene_defaults(&scenes[k]);
+    scenes[1].spacetime.spin = 0.3;
+    scenes[2].disk.peak_temperature_k = 9000;
+    scenes[3].disk.model = KD_DISK_PARTICLES;
+    scenes[3].accuracy.orders = 5;
+    scenes[4].sky.model = KD_SKY_GRID;
+    scenes[4].style.ringdown = 0.5;
+    scenes[4].top.time = 7;
+    for (int k = 0; k < 25; k++) {
+        const struct kd_scene *scene = &scenes[k * 7 % 5];
+        uint32_t traits[KD_EMITTER_COUNT];
+        kd_emit_update(one, scene, 100);
+        memset(fresh, 0, sizeof *fresh);
+        kd_emit_update(fresh, scene, 100);
+        kd_emit_traits(scene, traits);
+#define SAME(number, name) \
+        if (traits[number]) \
+            assert_memory_equal(&one->data.emission.name, &fresh->data.emission.name, sizeof one->data.emission.name);
+        KD_EMITTERS(SAME, SAME, SAME)
+        assert_memory_equal(&one->data.emission.disk, &fresh->data.emission.disk, sizeof one->data.emission.disk);
+        assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
+        assert_memory_equal(one->data.tables.colour, fresh->data.tables.colour, sizeof one->data.tables.colour);
+    }
+    free(one);
+    free(fresh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_are_there),
+        cmocka_unit_test(sentences_have_room),
+        cmocka_unit_test(what_is_off_says_and_needs_nothing),
+        cmocka_unit_test(numbers_follow_the_scene),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
