@@ -175,7 +175,7 @@ static void test_closed_form(void **state)
         if (!isinf(views[i].r))
             continue;
         for (int phi = 0; phi < 2; phi++) {
-            struct lens lens = trace(&views[i], &(struct kd_needs){ .disk = true, .phi = phi }, ORDERS, 0);
+            struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | (phi ? KD_LENS_PHI : 0) }, ORDERS, 0);
             assert_true(lens.plan.path == KD_LENS_CLOSED);
             check(&views[i], &lens, samples[i], 5e-6, 2e-6);
             test_free(lens.planes);
