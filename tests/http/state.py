@@ -12,6 +12,7 @@ import unittest
 import unittest.mock
 import zipfile
 
+import assets
 import daemon
 import faults
 import jobs
@@ -274,6 +275,24 @@ class Scarce(Case):
         self.assertGreater(int(answer.header('Retry-After')), 0)
         self.assertNotIn(self.folder, json.dumps(problem))
         self.assertNotIn('/', problem['detail'])
+
+    def test_an_asset_without_a_place(self):
+        """What could not be written is not there, not counted, and has left nothing; later it can be."""
+        server = self.start(by=self.faults.start)
+        folder = os.path.join(os.path.dirname(self.jobs), 'assets')
+        put = lambda: server.request('PUT', '/v1/assets', assets.png(seed=1), {'Content-Type': 'image/png'})
+        for what, status, word in (('full', 507, 'disk-full'), ('descriptors', 503, 'out-of-memory')):
+            self.faults.set(what, 1)
+            answer = put()
+            problem = self.assertProblem(answer, status, word)
+            self.assertGreater(int(answer.header('Retry-After')), 0)
+            self.assertNotIn('/', problem['detail'])
+            self.faults.set(what, 0)
+            told = server.get('/v1/assets').json()
+            self.assertEqual((told['assets'], told['bytes'], os.listdir(folder)), (0, 0, []), what)
+        self.assertEqual(put().status, 201)
+        self.assertEqual(len(os.listdir(folder)), 2)
+        self.assertEqual(server.stop(), 0)
 
     def test_what_runs_out_comes_back(self):
         for what, status, word in (('full', 507, 'disk-full'), ('descriptors', 503, 'out-of-memory')):
