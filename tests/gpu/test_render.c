@@ -375,6 +375,33 @@ static void test_asides(void **state)
     kd_renderer_destroy(fresh);
 }
 
+/* Particles that are deposited for another picture between the slices are not those of this one. */
+static void test_asides_with_particles(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = capacity();
+    struct others o = { .calls = 0 };
+    struct kd_scene scene = small_scene();
+    struct kd_plan plan;
+    struct kd_frame beside, alone;
+    scene.disk.model = KD_DISK_PARTICLES;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
+    for (int i = 0; i < 2; i++) {
+        o.scenes[i] = scene;
+        o.scenes[i].top.time = 50 + 50 * i;
+        OK(kd_plan_make(&o.scenes[i], &c, &o.plans[i], &error));
+    }
+    OK(kd_render_aside(renderer, &scene, &plan, let_others, NULL, &o, &beside, &error));
+    assert_true(o.calls > 10);
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &alone, &error));
+    assert_same(&alone, &beside);
+    for (int i = 0; i < 2; i++) {
+        OK(kd_render(renderer, &o.scenes[i], &o.plans[i], NULL, NULL, &alone, &error));
+        assert_same(&alone, &o.frames[i]);
+    }
+}
+
 static void test_too_big(void **state)
 {
     (void)state;
@@ -471,7 +498,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reuse),    cmocka_unit_test(test_the_curve_is_followed_once), cmocka_unit_test(test_bands),   cmocka_unit_test(test_slices),
         cmocka_unit_test(test_sizes),    cmocka_unit_test(test_extremes), cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_glances), cmocka_unit_test(test_asides), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_glances), cmocka_unit_test(test_asides), cmocka_unit_test(test_asides_with_particles), cmocka_unit_test(test_too_big),  cmocka_unit_test(test_audit),    cmocka_unit_test(test_plan),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -64,6 +64,7 @@ class Routes(daemon.Case):
             plain, packed = self.daemon.get(target), self.daemon.get(target, Accept_Encoding='gzip')
             self.assertEqual((plain.header('Content-Encoding'), packed.header('Content-Encoding')), (None, 'gzip'), target)
             self.assertEqual(gzip.decompress(packed.body), plain.body)
+            self.assertNotEqual(packed.header('ETag'), plain.header('ETag'))
             again = self.daemon.get(target, If_None_Match=plain.header('ETag'))
             self.assertEqual((again.status, again.body, again.header('ETag')), (304, b'', plain.header('ETag')), target)
             self.assertEqual(self.daemon.get(target, Accept_Encoding='gzip', If_None_Match=packed.header('ETag')).status, 304)
