@@ -32,7 +32,7 @@ kd_colour_place kd_colour_at(float kelvin)
 }
 
 /* Linear sRGB of luminance 1. */
-vec3 kd_colour(kd_colour_place at)
+vec3 kd_colour_of(kd_colour_place at)
 {
     vec2 c = mix(unpackUnorm2x16(tables.colour[at.node]), unpackUnorm2x16(tables.colour[at.node + 1]), at.part);
     float r = KD_COLOUR_RED * c.x, b = KD_COLOUR_BLUE * c.y;

@@ -26,7 +26,7 @@ vec3 kd_black_body(float t, uint traits)
     float t2 = t * t, weight = t2 * t2;
     if ((traits & KD_TRAIT_VISIBLE) != 0u)
         weight *= exp2(max(kd_colour_luminous(at) - emission.disk.luminous, -120.0));
-    return weight * kd_colour(at);
+    return weight * kd_colour_of(at);
 }
 
 kd_gas kd_disk_gas(kd_sample s, uint traits)

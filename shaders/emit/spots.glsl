@@ -31,7 +31,7 @@ kd_glow kd_spots_glow(kd_sample s)
             continue;
         float g = kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_spots);
         float light = spot.brightness * exp2(spot.power * log2(g) - spot.sharp * off);
-        sum.light += light * kd_colour(kd_colour_at(spot.temperature * g));
+        sum.light += light * kd_colour_of(kd_colour_at(spot.temperature * g));
         sum.apart += light;
     }
     return sum;

@@ -44,6 +44,7 @@ static const struct sentence {
 enum { SENTENCES = sizeof sentences / sizeof *sentences };
 
 size_t kd_plan_sentence_count(void) { return SENTENCES; }
+const char *kd_plan_sentence(size_t index) { return sentences[index].text; }
 
 static void say(void *user, const char *sentence)
 {

@@ -125,6 +125,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
 
 /* Sentences of plans that are no emitter's. */
 size_t kd_plan_sentence_count(void);
+const char *kd_plan_sentence(size_t index);
 
 /* The plan as the JSON of POST /v1/plan. */
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);
