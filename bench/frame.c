@@ -1,4 +1,4 @@
-/* What a whole frame costs, pass by pass: the default scene with a cold lens map, and again with the map
+/* What a whole frame costs, pass by pass: the scene of a file, which stays the same when the default grows richer, with a cold lens map, and again with the map
  * reused, as when only the exposure or the palette changes. Prints one line of JSON: every run, in ms.
  * frame.py runs it with one and two lavapipe threads and takes medians. */
 #include "render/output/png.h"
@@ -11,7 +11,7 @@
 #include <time.h>
 
 struct options {
-    const char *device;
+    const char *device, *scene;
     int width, height, repeat;
     bool sky, particles;
 };
@@ -65,7 +65,16 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
                               struct kd_error *error)
 {
     struct kd_scene scene;
+    char text[1 << 16];
+    FILE *file = fopen(o->scene, "re");
+    size_t n = file ? fread(text, 1, sizeof text, file) : 0;
+    if (file)
+        fclose(file);
     kd_scene_defaults(&scene);
+    if (!n)
+        return kd_error_set(error, KD_EIO, "cannot read %s", o->scene);
+    if (kd_scene_from_json(&scene, text, n, error))
+        return KD_EINVAL;
     scene.image.width = o->width;
     scene.image.height = o->height;
     scene.sky.model = o->sky ? KD_SKY_GRID : KD_SKY_NONE;
@@ -90,6 +99,7 @@ static error_t option(int key, char *text, struct argp_state *state)
     case 'x': o->width = atoi(text); return 0;
     case 'y': o->height = atoi(text); return 0;
     case 'r': o->repeat = atoi(text); return 0;
+    case 's': o->scene = text; return 0;
     case 'k': o->sky = true; return 0;
     case 'p': o->particles = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
@@ -103,11 +113,12 @@ int main(int argc, char **argv)
         { "width", 'x', "N", 0, "pixels (1280)", 0 },
         { "height", 'y', "N", 0, "pixels (720)", 0 },
         { "repeat", 'r', "N", 0, "frames of each kind (9)", 0 },
+        { "scene", 's', "FILE", 0, "the scene (bench/scenes/frame.json)", 0 },
         { "sky", 'k', NULL, 0, "with a sky, which needs the integrator", 0 },
         { "particles", 'p', NULL, 0, "with a disk of particles", 0 },
         { 0 },
     };
-    struct options o = { "auto", 1280, 720, 9, false, false };
+    struct options o = { "auto", "bench/scenes/frame.json", 1280, 720, 9, false, false };
     struct argp parser = { table, option, NULL, "What a whole frame costs, pass by pass.", NULL, NULL, NULL };
     argp_parse(&parser, argc, argv, 0, NULL, &o);
 

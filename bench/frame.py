@@ -44,13 +44,14 @@ def main():
     setups = [("1 thread", str(o.core), 1), ("2 threads", "0,1", 2)]
     if (os.cpu_count() or 1) < 2:
         setups.pop()
-    scenes = [("default scene", []), ("with a sky", ["--sky"])]
+    scenes = [("bench/scenes/frame.json", []), ("with a sky", ["--sky"])]
     load = os.getloadavg()[0]
     runs = {(name, scene): [] for name, *_ in setups for scene, _ in scenes}
     for _ in range(o.rounds):
         for name, cores, threads in setups:
             for scene, flags in scenes:
-                text = measure.run([bench, "--repeat", str(o.repeat), *flags], cores, threads)
+                text = measure.run([bench, "--scene", str(measure.ROOT / "bench/scenes/frame.json"), "--repeat", str(o.repeat), *flags],
+                                   cores, threads)
                 runs[name, scene].append(json.loads(text.strip().splitlines()[-1]))
     whole = {name: command_line(kerrd, cores, threads, o.repeat) for name, cores, threads in setups}
 
