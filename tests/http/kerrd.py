@@ -9,6 +9,7 @@ import signal
 import struct
 import subprocess
 import sys
+import threading
 import time
 import unittest
 import zlib
@@ -263,6 +264,32 @@ class Kerrd(unittest.TestCase):
                 for line in text.split(b'\n')[:-1]:
                     if line.startswith(b'data:') and words in line:
                         return json.loads(line[5:].decode())
+
+    def drag(self, session, until):
+        """Patch and pull, until that is so of how many rays were traced again."""
+        at, number = '/v1/sessions/' + session['id'], 0
+        owner = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/merge-patch+json'}
+        for k in range(1000):
+            self.daemon.request('PATCH', at, json.dumps({'camera': {'inclination_deg': 30 + 0.02 * k + float(int(session['id'], 16) % 997) / 1e5}}), headers=owner)
+            answer = self.daemon.get(f'{at}/frame.png?after={number}')
+            number = int(answer.header('Kerrd-Frame'))
+            if until(int(re.search(r'sampled=(\d+)', answer.header('Kerrd-Accuracy'))[1])):
+                return True
+        return False
+
+    def test_fewer_rays_are_traced_again_where_sessions_share_the_device(self):
+        one, other = (self.open({'image': {'width': 160, 'height': 90}}) for _ in range(2))
+        frames = []
+        self.assertTrue(self.drag(one, lambda sampled: frames.append(sampled) or len(frames) == 12))
+        self.assertEqual(set(frames), {768})
+        over = threading.Event()
+        thread = threading.Thread(target=self.drag, args=(other, lambda _: over.is_set()))
+        thread.start()
+        try:
+            self.assertTrue(self.drag(one, lambda sampled: sampled == 192))
+        finally:
+            over.set()
+            thread.join()
 
     def test_a_light_curve_is_that_of_events_and_of_the_command_line(self):
         scene = {'image': {'width': 160, 'height': 90}, 'spot1': {'brightness': 2}, 'disk': {'model': 'particles', 'opacity': 0.3}, 'time': 100}

@@ -146,7 +146,7 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
     if (!plan->audit)
         return KD_OK;
     s.rows = s.height < ROWS ? s.height : ROWS;
-    s.columns = s.width < COLUMNS ? s.width : COLUMNS;
+    s.columns = s.width < plan->audit / ROWS ? s.width : plan->audit / ROWS;
     s.planes = plan->orders + kd_plan_holds(plan, KD_LENS_FATE);
     size_t n = (size_t)s.rows * s.columns;
     s.rays = malloc(2 * n * sizeof *s.rays);

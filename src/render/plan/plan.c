@@ -126,7 +126,7 @@ static void passes(struct kd_plan *plan, const struct kd_scene *scene, const str
     if (plan->planes)
         add_pass(plan, "trace", kernel_of(plan), kd_plan_rays(plan), plan->trace_ns);
     if (plan->audit)
-        add_pass(plan, "audit", "", KD_AUDIT_RAYS, NS_PER_AUDIT);
+        add_pass(plan, "audit", "", plan->audit, NS_PER_AUDIT);
     if (plan->particles.count)
         add_pass(plan, "particles", "particles.comp", plan->particles.count, c->ns_per_particle);
     add_pass(plan, "transfer", "transfer.comp", kd_plan_rays(plan), c->ns_per_sample_transfer);
@@ -373,7 +373,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
         status = bands(&plan, scene, capacity, error);
     if (status)
         return status;
-    plan.audit = plan.cacheable && plan.orders;
+    plan.audit = plan.cacheable && plan.orders ? KD_AUDIT_RAYS : 0;
     passes(&plan, scene, capacity);
     approximations(&plan, scene);
     if (lens_key(&plan, scene))

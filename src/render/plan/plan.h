@@ -64,7 +64,7 @@ struct kd_plan {
     uint32_t planes;                /* 4-byte values a ray in the lens map */
     uint32_t band_rows, bands;      /* rows of pixels that one set of buffers holds; how many sets */
     bool cacheable;                 /* the whole lens map fits in memory and can be kept */
-    bool audit;                     /* a sample of the lens map is traced again in closed form */
+    uint32_t audit;                 /* rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
     uint64_t lens_bytes, device_bytes, host_bytes;
     struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
     size_t n_passes;
