@@ -31,6 +31,7 @@ class Usage(Case):
 
     def test_slips(self):
         self.bad(2, "did you mean render?", "rendr")
+        self.bad(2, "did you mean render?", "RENDER")
         self.bad(2, "did you mean gargantua?", "scene", "--preset", "gargantau")
         self.bad(2, "did you mean redshift?", "physics", "redshft")
         self.bad(2, "did you mean camera.inclination_deg?", "scene", "--set", "camera.inclination=60")
