@@ -48,7 +48,6 @@
 #define KD_POST_PIXELS 4 /* of one invocation of post.comp: three words, or six */
 #define KD_POST_FIELDS_(F, U)                                                                                  \
     F(gain)                  /* 2^exposure */                                                                  \
-    F(levels)                /* 255 or 65535 */                                                                \
     F(dither)                /* 0 or 1 */                                                                      \
     U(pixels)                /* of the band */                                                                 \
     U(first)                 /* index of the band's first pixel in the picture */                              \

@@ -126,6 +126,13 @@ static void test_binding(void **state)
     answer_as(&(struct fake_device) { .binding = 700000 });
 }
 
+/* Fewer texels than a band has: what else reads them reads storage. */
+static void test_texels(void **state)
+{
+    (void)state;
+    answer_as(&(struct fake_device) { .texels = 4096 }); /* and 18000 pixels are 13500 */
+}
+
 static void test_incoherent(void **state)
 {
     (void)state;
@@ -231,7 +238,7 @@ int main(void)
     kd_renderer_destroy(renderer);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_large_pictures), cmocka_unit_test(test_groups), cmocka_unit_test(test_allocation),
-        cmocka_unit_test(test_binding),        cmocka_unit_test(test_incoherent), cmocka_unit_test(test_heap),
+        cmocka_unit_test(test_binding),        cmocka_unit_test(test_texels), cmocka_unit_test(test_incoherent), cmocka_unit_test(test_heap),
         cmocka_unit_test(test_lost),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,7 @@
 #include "photometry.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
+#include "post_texels.spv.h"
 #include "rays.spv.h"
 #include "rays_f64.spv.h"
 #include "rays_kerr_schild.spv.h"
@@ -47,6 +48,8 @@ static const struct {
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
+    [KD_KERNEL_POST_TEXELS] = { "post, texels", kd_spv_post_texels, sizeof kd_spv_post_texels, 2, sizeof(struct kd_post_push),
+                                { KD_VK_TEXELS_RGBA } },
 };
 
 static enum kd_status make(struct kd_vk *vk, enum kd_kernel kernel, const uint32_t *constants, size_t n,
@@ -97,6 +100,11 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
     oldest->used = ++kernels->clock;
     *out = pipeline;
     return KD_OK;
+}
+
+bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels)
+{
+    return kd_post_radiance_bytes(pixels) <= 16 * kd_vk_info(vk)->max_texels;
 }
 
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk)

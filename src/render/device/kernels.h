@@ -21,6 +21,7 @@ enum kd_kernel {
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
     KD_KERNEL_POST,
+    KD_KERNEL_POST_TEXELS, /* the same, reading texels; kd_kernel_post tells which */
 };
 
 #define KD_KERNEL_MAX_CONSTANTS 32
@@ -41,6 +42,10 @@ struct kd_kernels {
 enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
+/* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the time, but how
+ * many it binds differs. The kernel that post takes there. */
+bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
+static inline enum kd_kernel kd_kernel_post(bool texels) { return texels ? KD_KERNEL_POST_TEXELS : KD_KERNEL_POST; }
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 
 #endif

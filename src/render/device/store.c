@@ -2,6 +2,7 @@
 
 #include "render/emit/emitter.h"
 #include "render/plan/photometry.h"
+#include "render/view/layout.h"
 #include "interface.h"
 
 #include <stdlib.h>
@@ -152,9 +153,8 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
 {
     struct kd_vk *vk = store->vk;
     uint64_t pixels = (uint64_t)plan->width * plan->band_rows;
-    /* The last invocation of post.comp writes four whole pixels. */
-    uint64_t words = (pixels + 3) / 4 * (bit_depth == 16 ? 24 : 12);
-    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, kd_plan_pixel_bytes(plan) * pixels, "radiance", error);
+    uint64_t words = kd_post_bytes(pixels, bit_depth), light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
+    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, light > read ? light : read, "radiance", error);
     if (!status)
         status = kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
     if (!status)

@@ -122,16 +122,17 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
     bool wide = kd_frame_bit_depth(frame) == 16;
     size_t pixel_bytes = kd_layer_pixel_bytes(&frame->layers[0]);
     const struct kd_spec_post spec = { .ACES = scene->style.tone_map == KD_TONE_ACES, .WIDE = wide };
+    const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
+    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels));
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
-        status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_POST, &spec.ACES, sizeof spec / 4, &post, j->error);
+        status = kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, &post, j->error);
         if (status)
             break;
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
         uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
             .gain = (float)exp2(frame->exposure),
-            .levels = wide ? 65535 : 255,
             .dither = scene->style.dither,
             .pixels = pixels,
             .first = first,
@@ -140,10 +141,10 @@ static enum kd_status finish_pixels(struct kd_frame_job *j)
         status = kd_vk_dispatch(vk,
                                 &(struct kd_vk_dispatch){ "post",
                                                           post,
-                                                          { { s->radiance.buffers[band], 0, 0, false },
+                                                          { { s->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false },
                                                             { s->words, 0, 0, true } },
                                                           &push,
-                                                          { kd_frame_groups(((uint64_t)pixels + KD_POST_PIXELS - 1) / KD_POST_PIXELS) } },
+                                                          { kd_post_groups(pixels) } },
                                 j->error);
         if (!status)
             status = kd_vk_copy(vk, "readback", s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);

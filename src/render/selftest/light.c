@@ -85,14 +85,15 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
     struct kd_renderer *r = test->renderer;
     const struct kd_vk_pipeline *post;
     uint32_t pixels = 4 * (uint32_t)test->reference->n_greys;
-    const struct kd_post_push push = { .gain = 1, .levels = (float)LEVELS, .pixels = pixels, .pixels_x = pixels };
+    const struct kd_post_push push = { .gain = 1, .pixels = pixels, .pixels_x = pixels };
     float *at = kd_vk_buffer_map(radiance);
     for (uint32_t i = 0; i < 3 * pixels; i++)
         at[i] = (float)test->reference->greys[i / 12].linear;
-    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_POST, (uint32_t[]) { film, true }, 2, &post, test->error);
+    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(r->vk, pixels));
+    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, kernel, (uint32_t[]) { film, true }, 2, &post, test->error);
     const struct kd_vk_dispatch d = {
         "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push,
-        { (pixels / 4 + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
+        { kd_post_groups(pixels) },
     };
     if (!status)
         status = kd_vk_dispatch(r->vk, &d, test->error);
@@ -103,8 +104,8 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
     return status;
 }
 
-/* The bound in steps of 1/65535: half a step of rounding, and Vulkan's pow, which may be wrong by 16 units in the last place
- * of log2 and as many of exp2 (4e-6 near 1, a quarter of a step). */
+/* The errors count in steps of 1/65535: half a step of rounding, and what the kernel's polynomial for the power (5.4e-7) and Vulkan's
+ * square roots (three units in the last place) may be wrong by, together a fifteenth of a step. */
 static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance, struct kd_vk_buffer *words)
 {
     struct kd_selftest_row row;
@@ -127,7 +128,7 @@ static enum kd_status encoding(const struct kd_selftest *test)
     uint64_t pixels = 4 * test->reference->n_greys;
     enum kd_status status = kd_vk_buffer_create(vk, 12 * pixels, KD_VK_UPLOAD, "greys", &radiance, test->error);
     if (!status)
-        status = kd_vk_buffer_create(vk, 6 * pixels, KD_VK_READBACK, "encoded greys", &words, test->error);
+        status = kd_vk_buffer_create(vk, kd_post_bytes(pixels, 16), KD_VK_READBACK, "encoded greys", &words, test->error);
     for (int film = 0; film < 2 && !status; film++)
         status = greys(test, film, radiance, words);
     if (status)

@@ -27,6 +27,19 @@ struct kd_post_push { KD_POST_FIELDS_(F, U) };
 #undef F
 #undef U
 
+/* Of post.comp: workgroups for so many pixels, bytes of radiance that they read, in blocks of four pixels, and bytes of packed
+ * pixels that they write, whole groups of them. */
+static inline uint32_t kd_post_groups(uint64_t pixels)
+{
+    const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;
+    return (uint32_t)((pixels + each - 1) / each);
+}
+static inline uint64_t kd_post_radiance_bytes(uint64_t pixels) { return (pixels + KD_POST_PIXELS - 1) / KD_POST_PIXELS * (12 * KD_POST_PIXELS); }
+static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
+{
+    return (uint64_t)kd_post_groups(pixels) * KD_GROUP_SIZE * KD_POST_PIXELS * (bit_depth == 16 ? 6 : 3);
+}
+
 _Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that every device has");
 
 /* Specialisation constants: a member each, at four times its id. */

@@ -1,0 +1,152 @@
+/* The post kernels alone: the sRGB curve at every level of 16 bits against double, places and packing, the kernel that reads
+ * texels against the one that reads storage. */
+#include "render_support.h"
+
+#include "render/device/internal.h"
+#include "render/view/layout.h"
+
+#include <math.h>
+
+/* IEC 61966-2-1, from an encoded value to light. */
+static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
+
+/* Radiance through a kernel; words are `out`, room for whole groups. */
+static void post(bool texels, bool film, bool wide, const float *light, struct kd_post_push push, void *out)
+{
+    struct kd_vk *vk = renderer->vk;
+    const struct kd_vk_pipeline *pipeline;
+    struct kd_vk_buffer *in, *words;
+    uint64_t bytes = kd_post_bytes(push.pixels, wide ? 16 : 8);
+    OK(kd_vk_buffer_create(vk, kd_post_radiance_bytes(push.pixels), KD_VK_UPLOAD, "light", &in, &error));
+    OK(kd_vk_buffer_create(vk, bytes, KD_VK_READBACK, "words", &words, &error));
+    memcpy(kd_vk_buffer_map(in), light, 12ull * push.pixels);
+    OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels), (uint32_t[]) { film, wide }, 2, &pipeline, &error));
+    const struct kd_vk_dispatch d = { .pass = "post", .pipeline = pipeline,
+                                      .bindings = { { .buffer = in }, { .buffer = words, .write = true } },
+                                      .push = &push, .groups = { kd_post_groups(push.pixels) } };
+    OK(kd_vk_fill(vk, words, 0, bytes, 0xffffffff, &error));
+    OK(kd_vk_dispatch(vk, &d, &error));
+    OK(kd_vk_submit(vk, NULL, &error));
+    OK(kd_vk_wait(vk, 0, &error));
+    memcpy(out, kd_vk_buffer_map(words), bytes);
+    kd_vk_buffer_destroy(vk, in);
+    kd_vk_buffer_destroy(vk, words);
+}
+
+/* Light a little less than half a step from each level still rounds to it. What is missing to the half step, 0.06, is 9e-7 of the
+ * whole, and that is what the curve may be wrong by; a twentieth of it is the rounding of light to a float and of 65535 times the curve. */
+static void every_level(void **state)
+{
+    (void)state;
+    enum { LEVELS = 65536, SIDES = 3, N = LEVELS * SIDES / 3 };
+    static const double aside[SIDES] = { -0.44, 0, 0.44 };
+    static float light[3 * N];
+    static uint16_t found[3 * (N + KD_GROUP_SIZE * KD_POST_PIXELS)];
+    for (int k = 0; k < LEVELS; k++)
+        for (int side = 0; side < SIDES; side++) /* pixel k has the three sides as its channels */
+            light[3 * k + side] = (float)decode(fmin(fmax(k + aside[side], 0), LEVELS - 1) / (LEVELS - 1));
+    for (int texels = 0; texels < 2; texels++) {
+        post(texels, false, true, light, (struct kd_post_push) { .gain = 1, .pixels = N, .pixels_x = N }, found);
+        for (int i = 0; i < 3 * N; i++)
+            if (found[i] != i / 3)
+                fail_msg("light %.9g, level %d%+.2f, came out as %d", (double)light[i], i / 3, aside[i % 3], found[i]);
+    }
+}
+
+/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. What fract amplifies is the kernel's own roundoff:
+ * 53 times that of sums of up to a few hundred. */
+static double noise(double x, double y)
+{
+    double inner = 0.06711056 * x + 0.00583715 * y, outer = 52.9829189 * (inner - floor(inner));
+    return outer - floor(outer) - 0.5;
+}
+
+/* Dithered grey: rows, columns and channels are where they belong, in pictures of any width, from any place on; far behind 2^24, too,
+ * where a place is no float any more. What follows the last pixel is zero up to whole groups. */
+static void places(void **state)
+{
+    (void)state;
+    static const struct { uint32_t width, first, pixels; } cases[] = {
+        { 1, 0, 7 }, { 2, 0, 9 }, { 3, 5, 301 }, { 5, 0, 1023 }, { 157, 157 * 40, 157 * 7 }, { 320, 0, 6400 }, { 32767, 32767u * 32766, 32767 },
+        { 32768, 32768u * 32760, 65536 },
+    };
+    static float light[3 * 65536];
+    static uint16_t found[3 * (65536 + KD_GROUP_SIZE * KD_POST_PIXELS)];
+    const float level[3] = { 1000.5f, 30000.5f, 60000.5f }; /* dithered to the one below or above by the place's own threshold */
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        uint32_t n = cases[c].pixels, unsure = 0;
+        for (uint32_t i = 0; i < 3 * n; i++)
+            light[i] = (float)decode((double)level[i % 3] / 65535) / 2;
+        post(true, false, true, light,
+             (struct kd_post_push) { .gain = 2, .dither = 1, .pixels = n, .first = cases[c].first, .pixels_x = cases[c].width }, found);
+        for (uint32_t i = 0; i < 3 * n; i++) {
+            uint32_t at = cases[c].first + i / 3;
+            double d = 0.998 * noise(at % cases[c].width, at / cases[c].width), v = level[i % 3] + 0.5 + d;
+            /* A tie, to within what curve and noise may be wrong by, may go either way; so may a noise that wraps round. */
+            bool tie = fabs(v - round(v)) < 0.1 || fabs(d) > 0.45;
+            unsure += tie;
+            assert_true(tie ? abs(found[i] - (int)floor((double)level[i % 3] + 0.5)) <= 1 : found[i] == (int)floor(v));
+        }
+        assert_true(unsure < 3 * n * 0.35 + 9);
+        for (uint64_t i = 3ull * ((n + 3) / 4 * 4); i < kd_post_bytes(n, 16) / 2; i++)
+            assert_int_equal(found[i], 0);
+    }
+}
+
+/* One and the same to the byte, whichever way the light is read; NaN and infinite light do no harm to the pixels beside them. */
+static void both_readers(void **state)
+{
+    (void)state;
+    enum { N = 5003 };
+    static float light[3 * N];
+    static uint8_t storage[6 * (N + KD_GROUP_SIZE * KD_POST_PIXELS)], texels[sizeof storage], mended[sizeof storage];
+    const struct kd_post_push push = { .gain = 1.3f, .dither = 1, .pixels = N, .first = 640, .pixels_x = 320 };
+    srand(5);
+    for (int i = 0; i < 3 * N; i++)
+        light[i] = i % 7 ? exp2f(-14 + 16 * (float)rand() / (float)RAND_MAX) : 0;
+    for (int k = 0; k < 4; k++) {
+        bool film = k & 1, wide = k & 2;
+        size_t bytes = (size_t)N * (wide ? 6 : 3), pixel = bytes / N;
+        post(false, film, wide, light, push, storage);
+        post(true, film, wide, light, push, texels);
+        assert_memory_equal(storage, texels, bytes);
+        for (int c = 0; c < 3; c++) { /* pixel 1001 stands in the middle of its words */
+            float kept = light[3 * 1001 + c];
+            light[3 * 1001 + c] = c ? INFINITY : NAN;
+            post(true, film, wide, light, push, mended);
+            light[3 * 1001 + c] = kept;
+            assert_memory_equal(mended, texels, 1001 * pixel);
+            assert_memory_equal(mended + 1002 * pixel, texels + 1002 * pixel, bytes - 1002 * pixel);
+        }
+    }
+}
+
+/* Light at white and beyond stays white: no dither lifts it over the last level, nor lowers it by more than one of 16 bits, and black
+ * stays black. */
+static void ends(void **state)
+{
+    (void)state;
+    enum { N = 4096 };
+    static float light[3 * N];
+    static uint16_t found[3 * (N + KD_GROUP_SIZE * KD_POST_PIXELS)];
+    for (int k = 0; k < 8; k++) {
+        bool film = k & 1, wide = k & 2, black = k & 4;
+        for (int i = 0; i < 3 * N; i++)
+            light[i] = black ? 0 : i / 3 % 2 || film ? 1e7f : 1;
+        post(true, film, wide, light, (struct kd_post_push) { .gain = 1, .dither = 1, .pixels = N, .pixels_x = 64 }, found);
+        for (int i = 0; i < 3 * N; i++) {
+            int level = wide ? found[i] : ((uint8_t *)found)[i];
+            assert_true(black ? level == 0 : wide ? level >= 65534 : level == 255);
+        }
+    }
+}
+
+int main(void)
+{
+    int skip = open_renderer();
+    if (skip)
+        return skip;
+    const struct CMUnitTest tests[] = { cmocka_unit_test(every_level), cmocka_unit_test(places), cmocka_unit_test(both_readers),
+                                        cmocka_unit_test(ends) };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
