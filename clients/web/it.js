@@ -160,7 +160,7 @@ export const fields = {
   ],
   'accuracy.engine': [
     'Motore',
-    'Che cosa traccia i raggi; automatico: la forma chiusa dall’infinito, altrimenti mino-rkn6',
+    'Che cosa traccia i raggi; automatico: la forma chiusa fuori dalle orbite della luce, altrimenti mino-rkn6',
   ],
   'accuracy.precision': ['Precisione', 'Dell’aritmetica; automatica: quella del profilo'],
   'accuracy.steps': ['Passi', 'Passi dell’integratore per mezzo giro, multiplo di 4; 0: quelli del profilo'],

@@ -1,5 +1,6 @@
-/* The lens map in closed form, for an observer at infinity: radii of the crossings, and as the scene requires their azimuths,
- * radial slopes, the direction in which a ray escapes and its fate. Planes: shared/lens.h, all but the delay and alpha.
+/* The lens map in closed form, for an observer at infinity or outside the photon orbits: radii of the crossings, and as the scene
+ * requires their azimuths, radial slopes, the direction in which a ray escapes and its fate. Planes: shared/lens.h, all but the delay
+ * and alpha.
  *
  * When a ray crosses the plane is known (polar.glsl), and where it then is (arc.glsl). The azimuth by which the hole drags it is
  * an integral over each half period, by Gauss and Legendre's rule: its places are reached from the crossings at both ends, and
@@ -20,7 +21,6 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 #include "ray/arc_escape.glsl"
 
 layout(local_size_x = KD_GROUP_SIZE) in;
-const bool FINITE = false;
 
 #define F(name) float name;
 #define U(name) uint name;
@@ -45,6 +45,24 @@ struct kd_leg {
     bool crossed;      /* the start is no longer `last`                  */
 };
 
+/* This is an upper bound of the time to the horizon, or to infinity for a ray that sets out outwards: R is above its least value. */
+float time_limit(kd_barrier b, kd_state start, float e, bool falls)
+{
+    float e2 = e * e, least = min(e2, start.dw * start.dw);
+    if (falls)
+        return cam.horizon / sqrt(clamp(b.r, 1e-6 * e2, e2));
+    if (b.w < start.w)
+        least = min(least, b.r);
+    return start.dw < 0.0 ? 1.01 * start.w / sqrt(max(least, 1e-12 * e2)) : 1e30;
+}
+
+/* The closed form goes on beyond the horizon, turns inside and comes back out: a ray that falls must still be falling, and within
+ * the time that it can take at most. One that escapes comes back from infinity on the other side, where w < 0. */
+bool goes_on(kd_leg leg, bool falls, float limit)
+{
+    return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
+}
+
 /* Keep crossing n; zeros for none. */
 void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
 {
@@ -59,20 +77,30 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
 
 /* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the start, if it
  * is the start that the leg begins with. */
-void keep_end(uint at, kd_geodesic m, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg, kd_arc middle, float leg_z,
-              float before, bool decided)
+void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg, kd_arc middle,
+              float leg_z, float before, bool decided)
 {
     kd_state far_away;
     far_away.w = 0.0;
     far_away.dw = -drag.e;
-    float z = kd_arc_escape_time(a, leg.last, middle, leg.next, leg_z, drag.e);
-    kd_direction end = kd_arc_direction(m, a, azimuth, z * a.unit + before);
+    float z = kd_arc_escape_time(a, leg.last, middle, leg.next, leg_z, drag.e), time = z * a.unit;
+    float rate = sqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
+    bool soon = FINITE && !leg.crossed && ((cam.u != 0.0 && m.q <= 0.0) || time * rate < 1.0);
+    azimuth.uneven = azimuth.uneven && !soon;
+    kd_direction end = kd_arc_direction(m, a, azimuth, time + before);
     float chi = leg.chi + kd_drag_between(drag, leg.last, kd_centre_of(a, far_away), kd_nodes_of(a.l, z), z);
-    float phi = leg.psi - azimuth.half_ + end.psi + chi, fate = drag.falls ? KD_FATE_CAPTURED : KD_FATE_ESCAPED;
+    end.psi += leg.psi - azimuth.half_;
+    end.u *= leg.side;
+    if (FINITE) {
+        kd_direction aside = kd_arc_direction_aside(m, ray, cam.u, cam.s, time);
+        if (soon)
+            end = aside;
+    }
+    float phi = end.psi + chi, fate = drag.falls ? KD_FATE_CAPTURED : KD_FATE_ESCAPED;
     if (!decided || (!drag.falls && (leg.alive || !kd_is_finite(phi))))
         fate = KD_FATE_UNDECIDED;
     bool escapes = fate == KD_FATE_ESCAPED;
-    lens[at + kd_plane(KD_LENS_SKY_U) * cam.stride] = escapes ? leg.side * end.u : 0.0;
+    lens[at + kd_plane(KD_LENS_SKY_U) * cam.stride] = escapes ? end.u : 0.0;
     lens[at + kd_plane(KD_LENS_SKY_PHI) * cam.stride] = escapes ? -phi : 0.0;
     lens[at + kd_plane(KD_LENS_FATE) * cam.stride] = fate;
     if (fate == KD_FATE_UNDECIDED)
@@ -97,23 +125,23 @@ void main()
     start.dw = ray.dw;
     kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
     kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_flies_out(barrier, start));
-    /* The closed form goes on beyond the horizon, turns inside and comes back out: a ray that falls must still be falling, and
-     * within the time that it can take at most. One that escapes comes back from infinity on the other side, where w < 0. */
-    float edge = cam.horizon * a.scale, limit = cam.horizon / sqrt(clamp(barrier.r, 1e-6, 1.0));
+    float edge = cam.horizon * a.scale, limit = time_limit(barrier, start, ray.e, drag.falls);
 
     float z1 = polar.first * a.scale, zh = polar.half_ * a.scale;
     kd_nodes n1 = kd_nodes_of(a.l, z1), nh = kd_nodes_of(a.l, zh);
     kd_arc end1 = kd_arc_twice(a.l, n1.middle), endh = kd_arc_twice(a.l, nh.middle);
 
     kd_leg leg;
-    leg.last = kd_centre_of(a, start);
+    kd_state scaled = start;
+    scaled.w *= a.scale;
+    leg.last = kd_centre_of(a, scaled);
     leg.next = kd_ahead(a, leg.last, end1);
     kd_centre next = kd_centre_of(a, leg.next);
     leg.tau = polar.first;
     leg.psi = azimuth.first;
-    leg.chi = 0.0;
+    leg.chi = FINITE ? -kd_drag_fallen(drag, ray.w) : 0.0;
     leg.drag = kd_drag_between(drag, leg.last, next, n1, z1);
-    leg.alive = leg.next.w > 0.0 && leg.next.w < edge && (!drag.falls || (leg.next.dw > 0.0 && leg.tau < limit));
+    leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
@@ -129,8 +157,7 @@ void main()
         leg.drag = kd_drag_between(drag, leg.last, next, nh, zh);
         leg.tau += polar.half_;
         leg.psi += azimuth.half_;
-        bool goes_on = drag.falls ? leg.next.dw > 0.0 && leg.tau < limit : leg.last.dv > 0.0 || leg.next.dw <= 0.0;
-        leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on;
+        leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
         if (n < ORDERS)
             keep(at, n, leg.alive && polar.crosses, leg, drag);
     }
@@ -144,6 +171,6 @@ void main()
             z = z1;
             before = polar.half_ - polar.first;
         }
-        keep_end(at, m, a, azimuth, drag, leg, middle, z, before, kd_is_decided(barrier, start, EPSILON));
+        keep_end(at, m, ray, a, azimuth, drag, leg, middle, z, before, kd_is_decided(barrier, start, EPSILON));
     }
 }

@@ -5,10 +5,11 @@
  * Biermann's formula (Whittaker & Watson 20.6) leads from v, v' at one time to v at z before or after it:
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
- * P vanishes at v = K/D, which for a path from infinity lies behind the horizon. No root of f is needed. The pair (g, g') is the
- * same for all points of a path: one pair serves the same time after each crossing and before it. It comes from the Laurent series
- * of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| = pi/2, and by the duplication formula from z to 2z. The unit of time is a power
- * of two, by which nothing is rounded, such that 1 <= |A| < 4 and a half period lasts from pi/2 to pi. */
+ * g has its pole after the time from 0 to v = K/D, behind the horizon: no stretch outside of it lasts so long. No root of f is
+ * needed. The pair (g, g') is the same for all points of a path: one pair serves the same time after each crossing and before it. It
+ * comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z sqrt|A| = pi/2, and by the duplication formula from z to
+ * 2z. The unit of time is a power of two, by which nothing is rounded, such that 1 <= |A| < 4 and a half period lasts from pi/2 to
+ * pi; rays with b below 1 or so have a smaller A, and fall or are gone long before. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL
 

@@ -19,17 +19,18 @@ float kd_arc_time(kd_lattice l, float g)
  * nearest of the three points tells the time to 1e-3, and what is left there of w tells the rest, as w'' = 0 at w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
+    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* the places further on mean nothing */
     kd_state y, half_ = kd_ahead(a, last, middle);
     y.w = last.v;
     y.dw = last.dv;
     float g = kd_arc_to_infinity(y, e), t = 0.0;
     float gh = kd_arc_to_infinity(half_, e), gn = kd_arc_to_infinity(next, e);
-    if (gh < g) {
+    if (gh < g && 0.5 * z < most) {
         g = gh;
         t = 0.5 * z;
         y = half_;
     }
-    if (gn < g) {
+    if (gn < g && z < most) {
         g = gn;
         t = z;
         y = next;
@@ -62,6 +63,32 @@ kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, floa
     o.psi = kd_azimuth_part(azimuth, u, du, du, ty);
     if (azimuth.uneven)
         o.psi = azimuth.side * kd_angle_upper(du, ty) + kd_azimuth_smooth(m, azimuth.b, 0.0, root_q, time);
+    return o;
+}
+
+vec3 kd_direction_pull(kd_geodesic m, vec3 n)
+{
+    vec3 f = -(m.q + m.momentum * m.momentum + 2.0 * m.energy2 * n.z * n.z) * n;
+    f.z += m.energy2 * n.z;
+    return f;
+}
+
+/* This is the direction of a ray that escapes soon after its start, from which psi is counted, by four steps of the vector equation
+ * of escape.glsl: in a quarter radian each their error is below a float's. One that never meets the plane, as b < a, is such a ray if it
+ * starts outside the photon orbits. */
+kd_direction kd_arc_direction_aside(kd_geodesic m, kd_ray ray, float u, float s, float time)
+{
+    vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);
+    float h = 0.25 * time;
+    for (int k = 0; k < 4; k++) {
+        vec3 next, dnext;
+        KD_NYSTROEM_STEP(vec3, kd_direction_pull, m, n, v, h, next, dnext)
+        n = next;
+        v = dnext;
+    }
+    kd_direction o;
+    o.u = n.z * inversesqrt(dot(n, n));
+    o.psi = kd_atan2(n.y, n.x);
     return o;
 }
 

@@ -5,7 +5,7 @@
 
 /* Rays on listed pixels (ray/place.glsl): how many of each, 0: the picture's grid; the lattice that they are on. */
 #define KD_SPEC_LENS_CLOSED(U, B)                                                                              \
-    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0)
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) B(2, FINITE, false) U(3, CRITICAL, 0) U(4, GENERATOR, 1) U(5, SHIFT, 0)
 
 /* STEPS: of a half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6. */
 #define KD_SPEC_LENS_MAP(U, B)                                                                                 \

@@ -132,7 +132,7 @@
          "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile",  \
          "profile")                                                                                           \
     ENUM(accuracy, engine, KD_ENGINE_WORD_AUTO,                                                               \
-         "what traces the rays; auto: the closed form from infinity, else mino-rkn6",                         \
+         "what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6",           \
          "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6")                                                     \
     ENUM(accuracy, precision, KD_PRECISION_WORD_AUTO, "of the arithmetic; auto: what the profile means",      \
          "auto|f32|f64")                                                                                      \

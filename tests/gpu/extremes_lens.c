@@ -161,7 +161,7 @@ static void look(struct kd_renderer *renderer, const struct camera *v, const str
 
 static void look_with_all(struct kd_renderer *renderer, const struct camera *v)
 {
-    for (int k = isinf(v->r) ? 0 : 2; k < 4; k++)
+    for (int k = v->r > 1.05 * kd_kerr_photon_orbit(-fabs(v->spin)) ? 0 : 2; k < 4; k++)
         look(renderer, v, &kernels[k]);
 }
 

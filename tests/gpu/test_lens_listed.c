@@ -115,7 +115,7 @@ static void test_engines_agree(void **state)
         struct kd_scene scene = scene_of(v);
         scene.accuracy.profile = KD_PROFILE_HIGH;
         struct lens single = trace(&scene);
-        assert_int_equal(single.plan.path, isinf(views[v].r) ? KD_LENS_CLOSED : KD_LENS_MAP);
+        assert_int_equal(single.plan.path, views[v].r > 1.05 * kd_kerr_photon_orbit(-fabs(scene.spacetime.spin)) ? KD_LENS_CLOSED : KD_LENS_MAP);
         for (size_t k = 0; k < sizeof engines / sizeof *engines; k++) {
             char what[120];
             bool wide = engines[k].precision == KD_PRECISION_F64 && engines[k].engine != KD_ENGINE_CLOSED;
@@ -270,8 +270,8 @@ static void test_refused(void **state)
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_int_equal(plan.path, KD_LENS_CLOSED);
-    scene.camera.r = 20;
-    FAILS(KD_EINVAL, "for an observer at infinity", kd_plan_make(&scene, &capacity, &plan, &error));
+    scene.camera.r = 3.5;
+    FAILS(KD_EINVAL, "outside the orbits of light", kd_plan_make(&scene, &capacity, &plan, &error));
     scene.camera.r = INFINITY;
     scene.accuracy.precision = 0;
     OK(kd_plan_make(&scene, &capacity, &plan, &error));

@@ -20,6 +20,7 @@ struct view {
     double a, inclination, r; /* r: INFINITY, or a pinhole camera there */
     bool zamo;
     double field; /* M, or degrees for a pinhole */
+    bool away;    /* a pinhole that looks outwards */
 };
 
 struct sample { struct ks_path path, beside; double nudge; };
@@ -32,7 +33,7 @@ static struct ks_photon photon(const struct view *v, double x, double y, double 
     if (isinf(v->r))
         return ks_from_infinity(v->a, v->inclination == 90 ? 0 : cos(theta), 0.5 * v->field * x, 0.5 * v->field * y);
     double t = tan(0.5 * v->field * M_PI / 180), n = 1 / sqrt(1 + t * t * (x * x + y * y));
-    const double k[3] = { -n, -t * y * n, t * x * n };
+    const double k[3] = { v->away ? n : -n, -t * y * n, v->away ? -t * x * n : t * x * n };
     return ks_from_camera(v->a, v->r, theta, v->zamo, k);
 }
 
@@ -47,7 +48,10 @@ static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
 struct lens { struct kd_plan plan; float *planes; };
 
-/* steps: of a half period; 0: as the plan chooses, which is the closed form from infinity. */
+/* Whether the plan chooses the closed form: outside the orbits of light. */
+static bool has_closed_form(const struct view *v) { return v->r > 1.05 * kd_kerr_photon_orbit(-fabs(v->a)); }
+
+/* steps: of a half period; 0: as the plan chooses. */
 static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, int steps)
 {
     struct kd_scene scene;
@@ -58,6 +62,7 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
     scene.spacetime.spin = v->a;
     scene.camera.inclination_deg = v->inclination;
     scene.camera.r = v->r;
+    scene.camera.yaw_deg = v->away ? 180 : 0;
     scene.camera.observer = v->zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC;
     *(isinf(v->r) ? &scene.camera.field_m : &scene.camera.fov_deg) = v->field;
     scene.image.width = scene.image.height = GRID;
@@ -145,6 +150,11 @@ static const struct view views[] = {
     { "zamo at 1.6, in the ergosphere", 0.9, 80, 1.6, true, 100 },
     { "static at 6, below", -0.7, 150, 6, false, 90 },
     { "static at 1000", 0.3, 80, 1000, false, 2 },
+    { "zamo at 4.5", 0.998, 80, 4.5, true, 140 },
+    { "static at 20, outwards", 0.9, 60, 20, false, 100, true },
+    { "zamo at 4.5, outwards, narrow", 0.998, 50, 4.5, true, 14, true },
+    { "static at 6, near the axis, outwards", 0.9, 3, 6, false, 60, true },
+    { "static at 1e6", 0.9, 60, 1e6, false, 2e-3 },
 };
 enum { VIEWS = sizeof views / sizeof *views };
 
@@ -172,7 +182,7 @@ static void test_closed_form(void **state)
 {
     (void)state;
     for (int i = 0; i < VIEWS; i++) {
-        if (!isinf(views[i].r))
+        if (!has_closed_form(&views[i]))
             continue;
         for (int phi = 0; phi < 2; phi++) {
             struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | (phi ? KD_LENS_PHI : 0) }, ORDERS, 0);
@@ -198,7 +208,7 @@ static void test_integrated(void **state)
 static void check_sky(int steps)
 {
     for (int i = 0; i < VIEWS; i++) {
-        if (!steps && !isinf(views[i].r))
+        if (!steps && !has_closed_form(&views[i]))
             continue;
         struct lens lens = trace(&views[i], &(struct kd_needs){ .quantities = KD_LENS_W | KD_LENS_SKY }, ORDERS, steps);
         assert_true(lens.plan.path == (steps ? KD_LENS_MAP : KD_LENS_CLOSED));

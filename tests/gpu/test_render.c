@@ -435,8 +435,10 @@ static void test_audit(void **state)
     scene.camera.r = 15;
     scene.accuracy.orders = 1; /* near the critical curve rounding hides what the steps lose */
     first = render(&scene);
-    scene.accuracy.profile = KD_PROFILE_DRAFT;
+    scene.accuracy.steps = 4;
     again = render(&scene);
+    scene.accuracy.steps = 0;
+    scene.accuracy.profile = KD_PROFILE_DRAFT;
     assert_true(first.accuracy.median < 1e-6 && first.accuracy.differ == 0);
     assert_true(again.accuracy.worst > 3 * first.accuracy.worst);
     kd_frame_finish(&first);
@@ -475,7 +477,11 @@ static void test_plan(void **state)
     scene.sky.model = KD_SKY_NONE;
     scene.camera.r = 30;
     OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(kd_plan_is_radii(&plan) && plan.planes == 3);
+    scene.camera.r = 3.2;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(plan.path == KD_LENS_MAP && plan.setting.steps > 0 && plan.planes == 3);
+    scene.camera.r = 30;
     scene.sky.model = KD_SKY_GRID;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_true(kd_plan_holds(&plan, KD_LENS_SKY) && plan.planes == 6);

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 enum kd_engine {
-    KD_ENGINE_CLOSED,    /* elliptic functions: in double on the CPU, the reference; in single on the device, from infinity */
+    KD_ENGINE_CLOSED,    /* elliptic functions: in double on the CPU, the reference; in single on the device, outside the orbits of light */
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4, */
     KD_ENGINE_MINO_RKN6, /* Albrecht's of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler, */

@@ -36,7 +36,8 @@ static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_criti
         return KD_OK;
     if (p->path == KD_LENS_CLOSED) {
         const struct kd_spec_lens_closed spec = {
-            .QUANTITIES = p->quantities, .ORDERS = p->orders, .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
+            .QUANTITIES = p->quantities, .ORDERS = p->orders, .FINITE = !isinf(j->scene->camera.r),
+            .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
         };
         return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
     }

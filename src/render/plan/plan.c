@@ -287,13 +287,16 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
     return KD_OK;
 }
 
+/* The least radius from which the closed form in f32 follows rays: outside all orbits of light, where none that sets out outwards comes back. */
+static double beyond_orbits(const struct kd_scene *scene) { return 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin)); }
+
 /* Which kernel, which engine. */
 static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {
     struct kd_wish wish = kd_wish_of(scene);
     struct kd_setting *by = &plan->setting;
-    bool closed_form = isinf(scene->camera.r) && !kd_plan_holds(plan, KD_LENS_DELAY); /* lens_closed.comp can do it */
+    bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(plan, KD_LENS_DELAY); /* lens_closed.comp can do it */
     bool closed32 = wish.engine == KD_ENGINE_CLOSED && wish.precision == KD_PRECISION_F32;
     if (wish.tolerance < KEPT)
         return too_fine(wish.tolerance, c, error);
@@ -309,8 +312,8 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
                               "accuracy.tolerance is %.3g: the ring projection needs f64, which this device has not; allowed is "
                               "\"profile\"", wish.tolerance);
     if (closed32 && !closed_form)
-        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 is for an observer at infinity and knows no delay of "
-                              "light, and this scene needs more: allowed is f64");
+        return kd_error_field(error, "/accuracy/precision", "the closed form in f32 is for an observer beyond %.9g M, outside the orbits of "
+                              "light, and knows no delay of light: allowed is f64", beyond_orbits(scene));
     if (closed_form && by->precision == KD_PRECISION_F32 && (closed32 || wish.engine < 0) && !wish.steps) {
         plan->path = KD_LENS_CLOSED;
         by->engine = KD_ENGINE_CLOSED;

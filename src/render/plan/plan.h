@@ -49,7 +49,7 @@ struct kd_plan {
     uint64_t critical_pixels;       /* how many they are */
     uint64_t critical_part;         /* how many one buffer holds the lens map of */
     enum kd_lens_path {
-        KD_LENS_CLOSED, /* lens_closed.comp: closed forms, from infinity */
+        KD_LENS_CLOSED, /* lens_closed.comp: closed forms, from outside the orbits of light */
         KD_LENS_MAP,    /* lens_map.comp: by steps */
         KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine, in either precision */
     } path;
