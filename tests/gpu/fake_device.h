@@ -11,6 +11,7 @@
 struct fake_device {
     uint32_t groups;                    /* workgroups of a dispatch along x and y */
     uint64_t binding, allocation, heap; /* bytes */
+    uint64_t budget;                    /* of each heap; the device then has VK_EXT_memory_budget */
     uint32_t texels, uniform;           /* texels and bytes of a binding */
     bool incoherent;                    /* no memory is coherent: the host sees a copy, which only flushes and invalidations move */
     int lost_at;                        /* the submission, counted from 1, that loses the device */
@@ -83,9 +84,36 @@ static VKAPI_ATTR void VKAPI_CALL fake_Memory2(VkPhysicalDevice device, VkPhysic
     fake_real.GetPhysicalDeviceMemoryProperties2(device, out);
     fake_types(&out->memoryProperties);
     for (VkBaseOutStructure *s = out->pNext; s; s = s->pNext)
-        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT && fake.heap)
+        if (s->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT && (fake.budget || fake.heap))
             for (uint32_t i = 0; i < VK_MAX_MEMORY_HEAPS; i++)
-                ((VkPhysicalDeviceMemoryBudgetPropertiesEXT *)s)->heapBudget[i] = fake.heap;
+                ((VkPhysicalDeviceMemoryBudgetPropertiesEXT *)s)->heapBudget[i] = fake.budget ? fake.budget : fake.heap;
+}
+
+static VKAPI_ATTR VkResult VKAPI_CALL fake_Extensions(VkPhysicalDevice device, const char *layer, uint32_t *n, VkExtensionProperties *out)
+{
+    uint32_t room = *n;
+    VkResult result = fake_real.EnumerateDeviceExtensionProperties(device, layer, n, out);
+    if (result < 0 || !fake.budget)
+        return result;
+    if (out && *n < room)
+        out[*n] = (VkExtensionProperties) { .extensionName = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME };
+    ++*n;
+    return result;
+}
+
+/* The driver is not told of what it may not have. */
+static VKAPI_ATTR VkResult VKAPI_CALL fake_CreateDevice(VkPhysicalDevice device, const VkDeviceCreateInfo *info,
+                                                        const VkAllocationCallbacks *allocator, VkDevice *out)
+{
+    const char *names[32];
+    VkDeviceCreateInfo own = *info;
+    own.ppEnabledExtensionNames = names;
+    own.enabledExtensionCount = 0;
+    assert_true(info->enabledExtensionCount <= 32);
+    for (uint32_t i = 0; i < info->enabledExtensionCount; i++)
+        if (!fake.budget || strcmp(info->ppEnabledExtensionNames[i], VK_EXT_MEMORY_BUDGET_EXTENSION_NAME))
+            names[own.enabledExtensionCount++] = info->ppEnabledExtensionNames[i];
+    return fake_real.CreateDevice(device, &own, allocator, out);
 }
 
 static VKAPI_ATTR VkResult VKAPI_CALL fake_Allocate(VkDevice device, const VkMemoryAllocateInfo *info,
@@ -176,6 +204,8 @@ static void fake_plant(struct kd_vk_functions *fn)
     FAKE_REPLACE(GetPhysicalDeviceProperties2, fake_Properties2)
     FAKE_REPLACE(GetPhysicalDeviceMemoryProperties, fake_Memory)
     FAKE_REPLACE(GetPhysicalDeviceMemoryProperties2, fake_Memory2)
+    FAKE_REPLACE(EnumerateDeviceExtensionProperties, fake_Extensions)
+    FAKE_REPLACE(CreateDevice, fake_CreateDevice)
     if (!fn->CmdFillBuffer)
         return;
     FAKE_REPLACE(AllocateMemory, fake_Allocate)

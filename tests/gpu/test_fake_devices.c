@@ -183,6 +183,22 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
+/* What other programs have left of a large heap counts. */
+static void test_budget(void **state)
+{
+    (void)state;
+    struct kd_renderer *renderer = NULL;
+    struct kd_frame frame = { 0 };
+    fake_device_on(&(struct fake_device) { .budget = 400 << 10 });
+    OK(open(&renderer, &error));
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    assert_true(capacity.memory_bytes > 0 && capacity.memory_bytes <= 400 << 10);
+    FAILS(KD_ETOOBIG, "GiB", draw(renderer, 0, &frame, &error));
+    kd_renderer_destroy(renderer);
+    fake_device_off();
+}
+
 /* The limits of most GPUs: 65 535 workgroups, bindings of 4 GiB. */
 static void test_large_pictures(void **state)
 {
@@ -239,7 +255,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_large_pictures), cmocka_unit_test(test_groups), cmocka_unit_test(test_allocation),
         cmocka_unit_test(test_binding),        cmocka_unit_test(test_texels), cmocka_unit_test(test_incoherent), cmocka_unit_test(test_heap),
-        cmocka_unit_test(test_lost),
+        cmocka_unit_test(test_budget), cmocka_unit_test(test_lost),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     forget(&real);
