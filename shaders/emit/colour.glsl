@@ -1,8 +1,8 @@
 /* Colours of black bodies, by tables that no scene changes.
  *
  * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES): those are the floats whose low bits are zero, so that the place of a temperature in the
- * table is its bits. Red and blue of linear sRGB of luminance 1 are fractions of 16 bits of KD_COLOUR_RED and _BLUE, the most there is;
- * green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
+ * table is its bits. A row holds red and blue of linear sRGB of luminance 1, and what they grow by up to the next node; green follows from
+ * the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
 #ifndef KD_BLOCK_colour
 #define KD_BLOCK_colour(F, U, A)
 #define KD_COLOUR_NODES 256 /* an octave */
@@ -11,12 +11,10 @@
 #define KD_COLOUR_LEAST_BITS 0x42800000
 #define KD_COLOUR_OCTAVES 24 /* to 1.07e9 K */
 #define KD_COLOUR_MOST_BITS 0x4e7fffff /* below 64 K 2^24 */
-#define KD_COLOUR_RED 4.75
-#define KD_COLOUR_BLUE 2.3
-#define KD_COLOUR_TABLE (KD_COLOUR_OCTAVES * KD_COLOUR_NODES + 1)
+#define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T)                                                                                    \
-    T(uint, colour, KD_COLOUR_TABLE)     /* red, blue << 16 */                                                 \
-    T(float, luminous, KD_COLOUR_TABLE)  /* log2 of the fraction of the radiance that the eye weighs */
+    T(colour, 0, KD_COLOUR_ROWS)                  /* red, blue, and their growth */                            \
+    T(luminous, KD_COLOUR_ROWS, KD_COLOUR_ROWS)   /* log2 of the fraction of the radiance that the eye weighs, and its growth */
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -34,13 +32,14 @@ kd_colour_place kd_colour_at(float kelvin)
 /* Linear sRGB of luminance 1. */
 vec3 kd_colour_of(kd_colour_place at)
 {
-    vec2 c = mix(unpackUnorm2x16(tables.colour[at.node]), unpackUnorm2x16(tables.colour[at.node + 1]), at.part);
-    float r = KD_COLOUR_RED * c.x, b = KD_COLOUR_BLUE * c.y;
-    return vec3(r, max((1.0 - 0.2126 * r - 0.0722 * b) * (1.0 / 0.7152), 0.0), b);
+    vec4 row = kd_table_row(KD_TABLE_colour, at.node);
+    vec2 c = row.xy + at.part * row.zw;
+    return vec3(c.x, max((1.0 - 0.2126 * c.x - 0.0722 * c.y) * (1.0 / 0.7152), 0.0), c.y);
 }
 
 float kd_colour_luminous(kd_colour_place at)
 {
-    return mix(tables.luminous[at.node], tables.luminous[at.node + 1], at.part);
+    vec4 row = kd_table_row(KD_TABLE_luminous, at.node);
+    return row.x + at.part * row.y;
 }
 #endif

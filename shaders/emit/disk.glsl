@@ -11,7 +11,7 @@
     F(peak)                /* largest effective temperature times the hardening, K */                          \
     F(luminous)            /* log2 of the fraction that the eye weighs of a black body of that */
 #define KD_TABLES_disk(T)                                                                                      \
-    T(float, disk, KD_DISK_TABLE) /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1] */
+    T(disk, 2 * KD_COLOUR_ROWS, KD_DISK_TABLE) /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its growth */
 #define KD_TRAIT_VISIBLE 8u /* brightness as the eye weighs it instead of bolometric */
 #endif
 
@@ -34,7 +34,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     float r = 1.0 / s.w;
     float y = sqrt(max(1.0 - emission.frame.r_isco * s.w, 0.0)) * float(KD_DISK_TABLE - 1);
     uint i = min(uint(y), KD_DISK_TABLE - 2);
-    float t = mix(tables.disk[i], tables.disk[i + 1], y - float(i)) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
+    vec4 row = kd_table_row(KD_TABLE_disk, i);
+    float t = (row.x + (y - float(i)) * row.y) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
 
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);

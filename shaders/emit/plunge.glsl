@@ -18,7 +18,7 @@
     U(rows) U(columns)                                                                                         \
     U(lap_rows) U(lead_rows) /* from start to end; before the start */
 #define KD_TABLES_plunge(T)                                                                                    \
-    T(vec2, plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
+    T(plunge, 2 * KD_COLOUR_ROWS + KD_DISK_TABLE, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -28,7 +28,7 @@ kd_place kd_plunge_place(kd_sample s, float turn)
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
     way = (way - emission.plunge.log_first) * emission.plunge.step_;
     uint k = min(uint(max(way, 0.0)), KD_PLUNGE_TABLE - 2);
-    vec2 at = mix(tables.plunge[k], tables.plunge[k + 1], clamp(way - float(k), 0.0, 1.0));
+    vec2 at = mix(kd_table_row(KD_TABLE_plunge, k).xy, kd_table_row(KD_TABLE_plunge, k + 1).xy, clamp(way - float(k), 0.0, 1.0));
     float row = (at.x + s.ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
     turn += s.ago * emission.plunge.turns - at.y;
     row = clamp(row, 0.0, float(emission.plunge.rows));

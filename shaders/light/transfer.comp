@@ -20,7 +20,10 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission;
-layout(set = 0, binding = 2) readonly buffer Tables { KD_EMIT_TABLES(A) } tables;
+layout(set = 0, binding = 2) uniform textureBuffer tables;
+#define TABLE(name, first, rows) const uint KD_TABLE_##name = first;
+KD_EMIT_TABLES(TABLE)
+vec4 kd_table_row(uint table, uint row) { return texelFetch(tables, int(table + row)); }
 layout(set = 0, binding = 3) writeonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 4) readonly buffer Density { float density[]; };
 #include "ray/camera.glsl"

@@ -6,7 +6,7 @@
  *   AT_END        kd_name_end(end): what a ray sees that has come through
  *
  * Of an emitter called name, emit/name.glsl says by KD_BLOCK_name(F, U, A) which numbers it needs (F float, U uint, A(type, member,
- * count) an array of structs), by KD_TABLES_name(T) which tables (T(type, member, count): float, uint or vec2), by KD_TRAIT_... which
+ * count) an array of structs), by KD_TABLES_name(T) which tables (T(name, first, rows): rows of four floats behind those of others), by KD_TRAIT_... which
  * variants it has; and it holds the functions, for whoever defines KD_EMIT_CODE. src/render/emit/name.c fills numbers and tables in
  * (src/render/emit/emitter.h). */
 #ifndef KD_EMITTERS_H

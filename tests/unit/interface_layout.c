@@ -240,14 +240,6 @@ static void emission(void **state)
     uint32_t id = struct_called(&transfer, "Emission");
 #define BLOCK(number, name) assert_int_equal(member_offset(&transfer, id, member_called(&transfer, id, #name)), offsetof(struct kd_emission, name));
     KD_EMIT_BLOCKS(BLOCK)
-    id = struct_called(&transfer, "Tables");
-#define TABLE(type, name, count)                                                                               \
-    {                                                                                                          \
-        int n, member = member_called(&transfer, id, #name);                                                   \
-        assert_int_equal(member_offset(&transfer, id, member), offsetof(struct kd_emit_tables, name));         \
-        assert_int_equal(array_stride(&transfer, member_type(&transfer, id, member, &n)), sizeof(kd_table_##type)); \
-    }
-    KD_EMIT_TABLES(TABLE)
 }
 
 int main(void)

@@ -71,7 +71,9 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     double a = scene->spacetime.spin, isco = kd_kerr_isco(a), peak = largest_flux(scene);
     for (int i = 0; i < KD_DISK_TABLE; i++) {
         double y = fmin((double)i / (KD_DISK_TABLE - 1), 1 - 1e-6), r = isco / (1 - y * y);
-        out->disk[i] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));
+        out->disk[i][0] = (float)(pow(flux(a, r) / peak, 0.25) * pow(r, 0.75));
+        if (i > 0)
+            out->disk[i - 1][1] = out->disk[i][0] - out->disk[i - 1][0];
     }
 }
 

@@ -23,11 +23,13 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef MEMBER
 _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
 
-typedef float kd_table_float;
-typedef uint32_t kd_table_uint;
-typedef float kd_table_vec2[2];
-#define T(type, name, count) kd_table_##type name[count];
+/* Read as texels: on lavapipe those come at a third of the price of a storage buffer's words. */
+typedef float kd_table_row[4];
+#define T(name, first, rows) kd_table_row name[rows];
 struct kd_emit_tables { KD_EMIT_TABLES(T) };
+#undef T
+#define T(name, first, rows) _Static_assert(offsetof(struct kd_emit_tables, name) == sizeof(kd_table_row) * (first), "a table's first row");
+KD_EMIT_TABLES(T)
 #undef T
 
 /* Both lie in one buffer: the tables behind the numbers. */
