@@ -48,10 +48,23 @@ float kd_density_at(kd_place at)
 /* The azimuth of a crossing in turns, in the frame that the grids are kept in. */
 float kd_sample_turn(kd_sample s) { return (s.phi + emission.frame.azimuth) * (0.5 / KD_PI); }
 
+/* Of plunge.glsl. */
+bool kd_plunge_falls(kd_sample s);
+kd_place kd_plunge_place(kd_sample s, float turn);
+kd_gas kd_plunge_gas(kd_sample s, float number);
+
+/* Those on their orbits, or those that plunge (plunge.glsl): one look at the grids and one black body for both. */
 kd_glow kd_particles_glow(kd_sample s)
 {
+    float turn = kd_sample_turn(s);
+    bool falls = kd_plunge_falls(s);
+    kd_place place = kd_particles_place(s, turn);
     kd_gas gas = kd_disk_gas(s, TRAITS_particles);
-    float number = kd_density_at(kd_particles_place(s, kd_sample_turn(s)));
-    return kd_glow(gas.alpha * number * kd_black_body(gas.t, TRAITS_particles), gas.alpha, 0.0);
+    if (falls)
+        place = kd_plunge_place(s, turn);
+    float number = kd_density_at(place);
+    if (falls)
+        gas = kd_plunge_gas(s, number);
+    return kd_glow(gas.alpha * (falls ? 1.0 : number) * kd_black_body(gas.t, TRAITS_particles), gas.alpha, 0.0);
 }
 #endif

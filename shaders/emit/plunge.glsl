@@ -55,11 +55,6 @@ kd_gas kd_plunge_gas(kd_sample s, float number)
     return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(emission.plunge.depth * s.w * number / ur)));
 }
 
-kd_glow kd_plunge_glow(kd_sample s)
-{
-    if (s.w < emission.plunge.first || s.w > emission.plunge.last)
-        return kd_glow(vec3(0.0), 0.0, 0.0);
-    kd_gas gas = kd_plunge_gas(s, kd_density_at(kd_plunge_place(s, kd_sample_turn(s))));
-    return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_plunge), gas.alpha, 0.0);
-}
+/* Whether a crossing lies where the gas plunges. */
+bool kd_plunge_falls(kd_sample s) { return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last; }
 #endif

@@ -13,7 +13,7 @@ struct kd_glow { vec3 light; float alpha, apart; };
 struct kd_beam { vec3 light; float apart, through; };
 
 #define KD_SPEC_TRAIT_(number, name) layout(constant_id = KD_SPEC_TRAITS + number) const uint TRAITS_##name = 0;
-KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
+KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_HAS(name) ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u)
 #define KD_NO_EMITTER_(number, name)
 
@@ -22,7 +22,7 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 
 /* Whether anything is to be seen at crossings. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
-const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
+const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
 /* All emitters of a place are in it together: none hides another's light. */
@@ -30,7 +30,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
 #define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s);
-    KD_EMITTERS(KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_)
 #define KD_GLOW_(number, name)                                                                                 \
     if (KD_HAS(name)) {                                                                                        \
         kd_glow glow = kd_##name##_glow(s);                                                                    \
@@ -38,13 +38,13 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
         beam.apart += seen * glow.apart;                                                                       \
         beam.through *= 1.0 - glow.alpha;                                                                      \
     }
-    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
 void kd_beam_end(inout kd_beam beam, kd_end end)
 {
 #define KD_END_(number, name) if (KD_HAS(name)) beam.light += beam.through * kd_##name##_end(end);
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_)
 }
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */

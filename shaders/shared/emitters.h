@@ -2,6 +2,7 @@
  * place; the number is that of the specialisation constant TRAITS_name behind KD_SPEC_TRAITS.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
+ *   PART          nothing of its own: another emitter calls its functions, so that what both compute is computed once
  *   OVER          kd_name_over(sample): a factor of all light of a crossing
  *   AT_END        kd_name_end(end): what a ray sees that has come through
  *
@@ -12,16 +13,16 @@
 #ifndef KD_EMITTERS_H
 #define KD_EMITTERS_H
 
-#define KD_EMITTERS(AT_CROSSING, OVER, AT_END)                                                                 \
+#define KD_EMITTERS(AT_CROSSING, PART, OVER, AT_END)                                                           \
     AT_CROSSING(0, disk)                                                                                       \
     AT_CROSSING(1, particles)                                                                                  \
-    AT_CROSSING(2, plunge)                                                                                     \
+    PART(2, plunge)                                                                                            \
     AT_CROSSING(3, spots)                                                                                      \
     OVER(4, ringdown)                                                                                          \
     AT_END(5, sky)
 
 /* All that has numbers; and tables. */
-#define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B)
+#define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B)
 #define KD_EMIT_TABLES(T) KD_TABLES_colour(T) KD_TABLES_disk(T) KD_TABLES_plunge(T)
 
 /* The first bit of each word: the scene has it. */

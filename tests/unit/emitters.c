@@ -95,7 +95,7 @@ static void numbers_follow_the_scene(void **state)
 #define SAME(number, name) \
         if (traits[number]) \
             assert_memory_equal(&one->data.emission.name, &fresh->data.emission.name, sizeof one->data.emission.name);
-        KD_EMITTERS(SAME, SAME, SAME)
+        KD_EMITTERS(SAME, SAME, SAME, SAME)
         assert_memory_equal(&one->data.emission.disk, &fresh->data.emission.disk, sizeof one->data.emission.disk);
         assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
         assert_memory_equal(one->data.tables.colour, fresh->data.tables.colour, sizeof one->data.tables.colour);

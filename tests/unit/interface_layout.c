@@ -26,9 +26,7 @@ enum {
     OP_TYPE_INT = 21,
     OP_TYPE_FLOAT = 22,
     OP_TYPE_STRUCT = 30,
-    OP_DECORATE = 71,
     OP_MEMBER_DECORATE = 72,
-    DECORATION_ARRAY_STRIDE = 6,
     DECORATION_OFFSET = 35
 };
 
@@ -99,15 +97,6 @@ static bool is_scalar(const struct spirv *s, uint32_t type, uint32_t opcode)
     size_t at = 5;
     const uint32_t *op = next(s, &at, opcode, type);
     return op && op[2] == 32 && (opcode == OP_TYPE_FLOAT || op[3] == 0); /* unsigned */
-}
-
-static uint32_t array_stride(const struct spirv *s, uint32_t type)
-{
-    size_t at = 5;
-    for (const uint32_t *op; (op = next(s, &at, OP_DECORATE, type));)
-        if (op[2] == DECORATION_ARRAY_STRIDE)
-            return op[3];
-    return 0;
 }
 
 struct field {

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #define DECLARE(number, name) extern const struct kd_emitter kd_emit_##name;
-KD_EMITTERS(DECLARE, DECLARE, DECLARE)
+KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE)
 #define ENTRY(number, name) [number] = &kd_emit_##name,
-const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY) };
+const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY) };
 
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT])
 {

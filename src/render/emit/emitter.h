@@ -50,9 +50,9 @@ struct kd_emitter {
 };
 
 #define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,
-enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
+enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
 #define KD_EMIT_ONE_(number, name) +1
-enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
+enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
 extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
 /* Words of the specialisation constants, 0 for what the scene has not. */

@@ -58,7 +58,7 @@ _Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that ev
 #define TRAIT(number, name) +1
 SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
-SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT)];)
+SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT)];)
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
 SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
 SPEC(kd_spec_photometry, KD_SPEC_PHOTOMETRY, CHECK_PHOTOMETRY, )
