@@ -24,7 +24,9 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
 #define U(name) uint name;
-layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
+struct kd_camera { KD_CAMERA_FIELDS_(F, U) };
+layout(push_constant) uniform Camera { kd_camera camera_; };
+kd_camera cam; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
 #include "ray/camera.glsl"
@@ -109,6 +111,7 @@ void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth,
 
 void main()
 {
+    cam = camera_;
     uvec2 step_;
     uint at;
     if (!kd_this_ray(step_, at))

@@ -15,11 +15,16 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define A(type, name, count) type name[count];
 #define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
 #define MEMBER(number, name) kd_##name##_block name;
-layout(push_constant) uniform Camera { KD_CAMERA_FIELDS_(F, U) } cam;
+struct kd_camera { KD_CAMERA_FIELDS_(F, U) };
+layout(push_constant) uniform Camera { kd_camera camera_; };
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
-layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission;
+layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
+/* What is the same for all invocations, read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
+kd_camera cam;
+struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
+#define READ(number, name) emission.name = emission_.name;
 layout(set = 0, binding = 2) uniform textureBuffer tables;
 #define TABLE(name, first, rows) const uint KD_TABLE_##name = first;
 KD_EMIT_TABLES(TABLE)
@@ -64,6 +69,8 @@ kd_beam follow(uvec2 place, uint at)
 
 void main()
 {
+    cam = camera_;
+    KD_EMIT_BLOCKS(READ)
     uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
     if (px >= (CRITICAL > 0 ? cam.rows : emission.frame.pixels_x))
         return;

@@ -159,7 +159,7 @@ static void camera(void **state)
     (void)state;
     const struct spirv kernels[] = { SPIRV(lens_closed), SPIRV(lens_map), transfer };
     for (size_t i = 0; i < COUNT(kernels); i++)
-        same(&kernels[i], "Camera", camera_fields, COUNT(camera_fields), 0);
+        same(&kernels[i], "kd_camera", camera_fields, COUNT(camera_fields), 0);
     assert_int_equal(sizeof(struct kd_camera_push),
                      4 * COUNT(camera_fields)); /* no padding: all of it is pushed */
 }
