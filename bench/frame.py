@@ -22,6 +22,13 @@ def command_line(kerrd, cores, threads, repeat):
     return measure.median(times[1:])
 
 
+def frames(bench, flags, cores, threads, repeat):
+    """One run of a build's bench; builds from before the scene had a file of its own have it as their default."""
+    known = "--scene" in measure.run([bench, "--help"])
+    scene = ["--scene", str(measure.ROOT / "bench/scenes/frame.json")] if known else []
+    return json.loads(measure.run([bench, *scene, "--repeat", str(repeat), *flags], cores, threads).strip().splitlines()[-1])
+
+
 def medians(runs):
     out = {}
     for kind in ("first", "cold", "reused"):
@@ -38,32 +45,33 @@ def medians(runs):
 def main():
     p = measure.parser(__doc__)
     p.add_argument("--rounds", type=int, default=3, help="runs with each number of threads, in turn (3)")
+    p.add_argument("--before", type=pathlib.Path, help="another build directory, whose frames are timed in turn with this one's")
     p.add_argument("--repeat", type=int, default=9, help="frames of each kind in a run (9)")
     o = p.parse_args()
     bench, kerrd = measure.binary(o.build, "bench/kd_bench_frame"), measure.binary(o.build, "src/kerrd")
     setups = [("1 thread", str(o.core), 1), ("2 threads", "0,1", 2)]
     if (os.cpu_count() or 1) < 2:
         setups.pop()
-    scenes = [("bench/scenes/frame.json", []), ("with a sky", ["--sky"])]
+    scenes = [("bench/scenes/frame.json", []), ("with a sky", ["--sky"]), ("of particles", ["--particles"])]
+    builds = {"": bench, **({"before": measure.binary(o.before, "bench/kd_bench_frame")} if o.before else {})}
     load = os.getloadavg()[0]
-    runs = {(name, scene): [] for name, *_ in setups for scene, _ in scenes}
+    runs = {(name, scene, build): [] for name, *_ in setups for scene, _ in scenes for build in builds}
     for _ in range(o.rounds):
         for name, cores, threads in setups:
             for scene, flags in scenes:
-                text = measure.run([bench, "--scene", str(measure.ROOT / "bench/scenes/frame.json"), "--repeat", str(o.repeat), *flags],
-                                   cores, threads)
-                runs[name, scene].append(json.loads(text.strip().splitlines()[-1]))
+                for build, program in builds.items():
+                    runs[name, scene, build].append(frames(program, flags, cores, threads, o.repeat))
     whole = {name: command_line(kerrd, cores, threads, o.repeat) for name, cores, threads in setups}
 
-    any_run = runs[setups[0][0], scenes[0][0]][0]
+    any_run = runs[setups[0][0], scenes[0][0], ""][0]
     h = measure.head(any_run["device"], load)
     figures, rows = [], []
-    for (name, scene), list_ in runs.items():
+    for (name, scene, build), list_ in runs.items():
         m = medians(list_)
-        figures.append({"threads": name, "scene": scene, **m})
+        figures.append({"threads": name, "scene": scene, "build": build or "this", **m})
         for kind in ("cold", "reused"):
             f = m[kind]
-            rows.append([scene, name, kind, *("–" if f[k] is None else f"{f[k]:.1f}" for k in PASSES),
+            rows.append([scene + (f", {build}" if build else ""), name, kind, *("–" if f[k] is None else f"{f[k]:.1f}" for k in PASSES),
                          f"{f['to_png_1']:.0f}", f"{f['to_png_6']:.0f}"])
     text = measure.head_markdown("A frame, pass by pass", h)
     text += (f"{any_run['width']} × {any_run['height']}, one ray a pixel, three image orders; ms, medians of "

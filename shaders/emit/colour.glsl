@@ -5,8 +5,8 @@
  * the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
 #ifndef KD_BLOCK_colour
 #define KD_BLOCK_colour(F, U, A)
-#define KD_COLOUR_NODES 128 /* an octave */
-#define KD_COLOUR_SHIFT 16  /* 23 bits of fraction less 7 */
+#define KD_COLOUR_NODES 64 /* an octave */
+#define KD_COLOUR_SHIFT 17  /* 23 bits of fraction less 6 */
 #define KD_COLOUR_LEAST 64.0
 #define KD_COLOUR_LEAST_BITS 0x42800000
 #define KD_COLOUR_OCTAVES 24 /* to 1.07e9 K */

@@ -130,7 +130,7 @@ static void test_binding(void **state)
 static void test_texels(void **state)
 {
     (void)state;
-    answer_as(&(struct fake_device) { .texels = 8192 }); /* the tables of the emitters are 7680, and 18000 pixels are 13500 */
+    answer_as(&(struct fake_device) { .texels = 8192 }); /* the tables of the emitters are 4608, and 18000 pixels are 13500 */
 }
 
 static void test_incoherent(void **state)

@@ -93,6 +93,10 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
     if (!state->colours)
         kd_colour_tables(&state->data.tables);
     state->colours = true;
+    if (!state->luminous && scene->disk.band == KD_BAND_VISIBLE) {
+        kd_luminous_table(&state->data.tables);
+        state->luminous = true;
+    }
     numbers->frame = (struct kd_frame_block) {
         .pixels_x = (uint32_t)scene->image.width,
         .band_pixels = band_pixels,

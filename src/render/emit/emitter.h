@@ -70,7 +70,7 @@ struct kd_emit_state {
     struct kd_emit_data data;
     struct kd_scene of[KD_EMITTER_COUNT]; /* what each emitter was last filled from, */
     bool filled[KD_EMITTER_COUNT];        /* if it was */
-    bool colours;
+    bool colours, luminous;               /* the tables that no scene changes are there */
 };
 /* Bring the data up to date. band_pixels: of the picture's bands (emit/frame.glsl). About 20 ms the first time; afterwards what has
  * changed alone. */
@@ -83,6 +83,8 @@ uint32_t kd_disk_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 /* Largest effective temperature of the disk in K, in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
+/* Colours of black bodies; how luminous they are. Of no scene; 15 ms each. */
 void kd_colour_tables(struct kd_emit_tables *out);
+void kd_luminous_table(struct kd_emit_tables *out);
 
 #endif
