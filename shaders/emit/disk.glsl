@@ -40,7 +40,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    return kd_gas(t, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
+    /* Elsewhere t may be no number: 0 over 0 where a ray meets a circle of light at right angles to its own frame. */
+    return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
 }
 
 kd_glow kd_disk_glow(kd_sample s)

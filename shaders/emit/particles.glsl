@@ -48,7 +48,7 @@ float kd_density_at(kd_place at)
 /* The azimuth of a crossing in turns, in the frame that the grids are kept in. */
 float kd_sample_turn(kd_sample s) { return (s.phi + emission.frame.azimuth) * (0.5 / KD_PI); }
 
-/* Of plunge.glsl. */
+/* These are in plunge.glsl. */
 bool kd_plunge_falls(kd_sample s);
 kd_place kd_plunge_place(kd_sample s, float turn);
 kd_gas kd_plunge_gas(kd_sample s, float number);

@@ -2,6 +2,7 @@
 #include "render/emit/emitter.h"
 #include "render/emit/motion.h"
 #include "render/plan/plan.h"
+#include "scene/table.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -69,6 +70,13 @@ static void what_is_off_says_and_needs_nothing(void **state)
         assert_int_equal(traits[i] != 0, i == KD_EMITTER_sky);
 }
 
+#define SAME(number, name) \
+    if (traits[number]) \
+        assert_memory_equal(&one->data.emission.name, &fresh->data.emission.name, sizeof one->data.emission.name);
+
+static const char BASE[] = "{\"disk\": {\"model\": \"particles\", \"slow_light\": true, \"band\": \"visible\"}, \"sky\": {\"model\": \"grid\"}, "
+                           "\"spots\": [{\"brightness\": 1}], \"style\": {\"ringdown\": 0.5}, \"time\": 7, \"camera\": {\"r\": 40}}";
+
 /* Numbers are those of the scene at hand, whatever was filled before, in any order. */
 static void numbers_follow_the_scene(void **state)
 {
@@ -92,9 +100,6 @@ static void numbers_follow_the_scene(void **state)
         memset(fresh, 0, sizeof *fresh);
         kd_emit_update(fresh, scene, 100);
         kd_emit_traits(scene, traits);
-#define SAME(number, name) \
-        if (traits[number]) \
-            assert_memory_equal(&one->data.emission.name, &fresh->data.emission.name, sizeof one->data.emission.name);
         KD_EMITTERS(SAME, SAME, SAME, SAME)
         assert_memory_equal(&one->data.emission.disk, &fresh->data.emission.disk, sizeof one->data.emission.disk);
         assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
@@ -104,6 +109,69 @@ static void numbers_follow_the_scene(void **state)
     free(fresh);
 }
 
+/* Whatever field changes, what emitters have kept is what they would make anew. */
+static void numbers_follow_each_field(void **state)
+{
+    (void)state;
+    struct kd_emit_state *one = calloc(1, sizeof *one), *fresh = calloc(1, sizeof *fresh);
+    struct kd_scene base, scene;
+    struct kd_error error;
+    int tried = 0;
+    assert_true(one && fresh);
+    kd_scene_defaults(&base);
+    assert_int_equal(kd_scene_from_json(&base, BASE, sizeof BASE - 1, &error), KD_OK);
+    assert_int_equal(kd_scene_validate(&base, &error), KD_OK);
+    for (int i = 0; i < KD_FIELD_COUNT; i++) {
+        const struct kd_field *f = &kd_fields[i];
+        double was = kd_field_get(&base, f, 0);
+        const double others[] = { was * 1.1 + 0.01, was + 1, was - 1, f->minimum, f->maximum, was * 0.9 };
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+            scene = base;
+            if (others[k] == was || !kd_field_holds(f, others[k]))
+                continue;
+            kd_field_put(&scene, f, 0, others[k]);
+            if (kd_scene_validate(&scene, &error))
+                continue;
+            kd_emit_update(one, &base, 100);
+            kd_emit_update(one, &scene, 100);
+            memset(fresh, 0, sizeof *fresh);
+            fresh->colours = one->colours; /* 15 ms each, and of no scene */
+            fresh->luminous = one->luminous;
+            kd_emit_update(fresh, &scene, 100);
+            uint32_t traits[KD_EMITTER_COUNT];
+            kd_emit_traits(&scene, traits);
+            KD_EMITTERS(SAME, SAME, SAME, SAME)
+            if (traits[KD_EMITTER_particles])
+                assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
+            if (traits[KD_EMITTER_plunge])
+                assert_memory_equal(one->data.tables.plunge, fresh->data.tables.plunge, sizeof one->data.tables.plunge);
+            tried++;
+            break;
+        }
+    }
+    assert_true(tried > 40); /* the others are words, or tied to a third field */
+    free(one);
+    free(fresh);
+}
+
+/* Where so few particles fall that there are none, nothing does. */
+static void none_of_a_thousand(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_scene_defaults(&scene);
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = 1000;
+    scene.disk.plunging = 0.0004;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_particles] && !traits[KD_EMITTER_plunge]);
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI);
+    scene.disk.plunging = 0.0006;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_plunge]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -111,6 +179,8 @@ int main(void)
         cmocka_unit_test(sentences_have_room),
         cmocka_unit_test(what_is_off_says_and_needs_nothing),
         cmocka_unit_test(numbers_follow_the_scene),
+        cmocka_unit_test(numbers_follow_each_field),
+        cmocka_unit_test(none_of_a_thousand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

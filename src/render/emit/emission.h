@@ -23,7 +23,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef MEMBER
 _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
 
-/* Read as texels: on lavapipe those come at a third of the price of a storage buffer's words. */
+/* Read as texels: on lavapipe those come four at the price of one of a storage buffer's words. */
 typedef float kd_table_row[4];
 #define T(name, first, rows) kd_table_row name[rows];
 struct kd_emit_tables { KD_EMIT_TABLES(T) };
@@ -35,7 +35,10 @@ KD_EMIT_TABLES(T)
 /* Both lie in one buffer: the tables behind the numbers. */
 struct kd_emit_data {
     struct kd_emission emission;
-    _Alignas(256) struct kd_emit_tables tables;
+    char gap[256 - sizeof(struct kd_emission) % 256];
+    struct kd_emit_tables tables;
 };
+_Static_assert(offsetof(struct kd_emit_data, tables) % 256 == 0, "no device asks for more of a binding's offset");
+_Static_assert(sizeof(struct kd_emit_tables) / sizeof(kd_table_row) <= 65536, "texels that every device can bind");
 
 #endif

@@ -1,8 +1,8 @@
 /* Emitters: what sends light along a ray, takes it away or changes it. The table of shaders/shared/emitters.h on the C side, one file
  * each; plan, needs, motion, numbers and tables for the device, and approximations fold over it and know no names.
  *
- * To add one: its line in that list, its shaders/emit/NAME.glsl, its src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`,
- * and its section in the field table. Constant data and pure functions of valid scenes, any thread. */
+ * To add one: its line in that list and its file among those included below it, shaders/emit/NAME.glsl, src/render/emit/NAME.c with
+ * `const struct kd_emitter kd_emit_NAME`, and its section in the field table; tables of its own go behind the others (KD_EMIT_TABLES). Constant data and pure functions of valid scenes, any thread. */
 #ifndef KD_RENDER_EMIT_EMITTER_H
 #define KD_RENDER_EMIT_EMITTER_H
 
@@ -38,7 +38,7 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies; NULL: never */
-    bool apart;                                       /* its flux and centroid are measured by themselves */
+    bool apart;                                       /* its flux and centroid are measured by themselves: as those of the spots, of which alone there is room */
     /* Numbers; and tables, which may take milliseconds. Called anew when a part of the scene that they depend on has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
@@ -72,7 +72,7 @@ struct kd_emit_state {
     bool filled[KD_EMITTER_COUNT];        /* if it was */
     bool colours, luminous;               /* the tables that no scene changes are there */
 };
-/* Bring the data up to date. band_pixels: of the picture's bands (emit/frame.glsl). About 20 ms the first time; afterwards what has
+/* Bring the data up to date. band_pixels: of the picture's bands (emit/frame.glsl). 15 ms the first time, as much again for the first scene of a visible band; afterwards what has
  * changed alone. */
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels);
 

@@ -6,7 +6,11 @@
 
 #include <math.h>
 
-static bool present(const struct kd_scene *scene) { return kd_plunging_is_on(scene) && scene->disk.plunging_temperature > 0; }
+/* A share of the particles may be none of them: then there is no grid to look at. */
+static bool present(const struct kd_scene *scene)
+{
+    return scene->disk.plunging_temperature > 0 && kd_plunging_is_on(scene) && kd_particle_grid(scene).plunging > 0;
+}
 
 static uint32_t needs(const struct kd_scene *scene)
 {

@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #define KD_PLAN_MAX_PASSES 10
-#define KD_PLAN_EMITTERS 16 /* at least those of shaders/shared/emitters.h, which only this module sees */
+#define KD_PLAN_EMITTERS 16 /* at least those of shaders/shared/emitters.h, which those who include this need not see */
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
 #define KD_PLAN_MAX_APPROXIMATIONS 64 /* a test compares it with all there are */
 

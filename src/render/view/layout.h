@@ -1,4 +1,4 @@
-/* The structs of shaders/shared/interface.h on the C side. */
+/* The C side of what shaders/shared lists: structs of interface.h, specialisation constants of spec.h, planes of lens.h. */
 #ifndef KD_RENDER_VIEW_LAYOUT_H
 #define KD_RENDER_VIEW_LAYOUT_H
 
