@@ -40,7 +40,7 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Elsewhere t may be no number: 0 over 0 where a ray meets a circle of light at right angles to its own frame. */
+    /* Elsewhere t may be no number: inside the orbit of light u^t is none, and E (r^(3/2) + a) - L, which g is divided by, vanishes. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
 }
 
