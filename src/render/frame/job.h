@@ -50,9 +50,24 @@ static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t 
 }
 static inline uint32_t kd_frame_groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
 
+/* Render by job's scene and plan, into *out. */
+enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out);
+/* The times of all passes that ran, in the order in which they did. */
+void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, double total_ms);
+
+/* The passes, a file each. */
+
 /* The lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
+
+/* Sums of the light of all bands, on their way to the host; and the frame's flux and centroid from them, when they are there. */
+enum kd_status kd_frame_add_light(struct kd_frame_job *job);
+void kd_frame_read_light(struct kd_frame_job *job);
+/* The exposure of what is lit; waits for the device where it is "auto". */
+enum kd_status kd_frame_expose(struct kd_frame_job *job);
+/* Pixels of what is lit, on the host. */
+enum kd_status kd_frame_post(struct kd_frame_job *job);
 
 #endif

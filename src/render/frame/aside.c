@@ -1,0 +1,76 @@
+/* Where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
+#include "render/frame/job.h"
+
+/* An aside that nobody is in and that has the plan's lens map; NULL: none. */
+static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *plan)
+{
+    for (size_t i = 0; i < KD_ASIDES; i++)
+        if (!r->asides[i].busy && kd_store_has(&r->asides[i].store, plan))
+            return &r->asides[i];
+    return NULL;
+}
+
+enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                         kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
+{
+    struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
+    struct kd_frame_job job = {
+        .r = renderer, .store = found ? &found->store : &renderer->store,
+        .particles = found ? &found->particles : &renderer->particles, .scene = scene, .plan = plan,
+        .progress = progress, .user = user, .error = error,
+    };
+    return kd_frame_run(&job, out);
+}
+
+/* What idle ones hold is given up, the oldest first, until so much fits beside what is in use. */
+static void make_room_aside(struct kd_renderer *r, uint64_t bytes)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(r, &c);
+    for (;;) {
+        struct kd_aside *oldest = NULL;
+        uint64_t held = bytes;
+        for (size_t i = 0; i < KD_ASIDES; i++) {
+            struct kd_aside *a = &r->asides[i];
+            uint64_t own = kd_store_bytes(&a->store);
+            held += own;
+            if (!a->busy && own && (!oldest || a->used < oldest->used))
+                oldest = a;
+        }
+        if (held <= c.memory_bytes / 2 || !oldest)
+            return;
+        kd_store_empty(&oldest->store);
+    }
+}
+
+static struct kd_aside *enter_aside(struct kd_renderer *r, const struct kd_plan *plan)
+{
+    struct kd_aside *a = aside_with(r, plan);
+    for (size_t i = 0; i < KD_ASIDES && (!a || !kd_store_has(&a->store, plan)); i++)
+        if (!r->asides[i].busy && (!a || r->asides[i].used < a->used))
+            a = &r->asides[i];
+    if (!a)
+        return NULL;
+    a->busy = true;
+    a->used = ++r->asides_used;
+    make_room_aside(r, plan->device_bytes);
+    if (!kd_store_has(&a->store, plan))
+        kd_store_hand_over(&r->store, &a->store, plan);
+    return a;
+}
+
+enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                               kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
+                               struct kd_error *error)
+{
+    struct kd_aside *a = enter_aside(renderer, plan);
+    if (!a)
+        return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be", KD_ASIDES);
+    struct kd_frame_job job = {
+        .r = renderer, .store = &a->store, .particles = &a->particles, .aside = true, .scene = scene, .plan = plan,
+        .progress = progress, .glance = glance, .user = user, .error = error,
+    };
+    enum kd_status status = kd_frame_run(&job, out);
+    a->busy = false;
+    return status;
+}

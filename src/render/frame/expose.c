@@ -1,0 +1,72 @@
+/* The pass that finds how bright a picture is, and the exposure that follows where it is "auto". */
+#include "render/frame/job.h"
+
+#include <math.h>
+
+/* Histogram of what is lit to the host. */
+static enum kd_status measure(struct kd_frame_job *j)
+{
+    struct kd_vk *vk = j->r->vk;
+    struct kd_store *s = j->store;
+    const struct kd_vk_pipeline *expose;
+    enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error);
+    if (!status)
+        status = kd_vk_fill(vk, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
+    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
+        uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
+        const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
+        uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
+        status = kd_vk_dispatch(vk,
+                                &(struct kd_vk_dispatch){ "expose",
+                                                          expose,
+                                                          { { s->radiance.buffers[band], 0, 0, false },
+                                                            { s->histogram, 0, 0, true } },
+                                                          push,
+                                                          { n } },
+                                j->error);
+    }
+    if (!status)
+        status = kd_vk_copy(vk, "expose", s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error);
+    if (!status)
+        status = kd_vk_submit(vk, NULL, j->error);
+    return status ? status : kd_vk_wait(vk, 0, j->error);
+}
+
+/* log2 luminance below which lie all but `share` of the lit pixels. */
+static double luminance_quantile(const uint32_t *counts, double share)
+{
+    uint64_t lit = 0, above = 0;
+    for (int i = 1; i < KD_HISTOGRAM_BINS; i++)
+        lit += counts[i];
+    int bin = KD_HISTOGRAM_BINS - 1;
+    for (; bin > 1; bin--) {
+        above += counts[bin];
+        if ((double)above > share * (double)lit)
+            break;
+    }
+    int code = KD_HISTOGRAM_FIRST + bin + 1;
+    return log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
+}
+
+/* sRGB clips at 1: bring the brightest lit pixels (all but four in a thousand) there. The film-like curve has a long
+ * shoulder: the wider the range from the median up, the further over white the brightest may go, so that a beamed disk
+ * keeps its dim side. */
+static double auto_exposure(const uint32_t *counts, int tone_map)
+{
+    double white = luminance_quantile(counts, 0.004), median = luminance_quantile(counts, 0.5);
+    double over = tone_map == KD_TONE_ACES ? fmin(fmax(0.45 * (white - median), 0.75), 4) : 0;
+    return over - white;
+}
+
+enum kd_status kd_frame_expose(struct kd_frame_job *j)
+{
+    const struct kd_scene *scene = j->scene;
+    j->frame->exposure = scene->style.exposure;
+    if (!isinf(scene->style.exposure))
+        return KD_OK;
+    enum kd_status status = measure(j);
+    if (!status)
+        j->frame->exposure =
+            kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map));
+    return status;
+}

@@ -1,0 +1,42 @@
+/* The pass that adds up the light of a picture: flux and centroid (render/plan/photometry.h). */
+#include "render/frame/job.h"
+
+#include "render/view/camera.h"
+
+#include <math.h>
+
+/* Sums of the light of all bands, on their way to the host. */
+enum kd_status kd_frame_add_light(struct kd_frame_job *j)
+{
+    const struct kd_plan *p = j->plan;
+    const struct kd_vk_pipeline *light;
+    bool finite = !isinf(j->scene->camera.r);
+    const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
+    const struct kd_spec_photometry spec = { .SPOTS = p->apart, .FINITE = finite };
+    const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
+    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.SPOTS, sizeof spec / 4, &light, j->error);
+    for (uint32_t band = 0; band < p->bands && !status; band++) {
+        const struct kd_light_push push = {
+            .pixels_x = p->width,
+            .pixels = p->width * kd_frame_band_rows(j, band),
+            .row0 = kd_frame_band_first(j, band),
+            .spots = 3 * p->width * p->band_rows,
+            .middle_x = (float)(0.5 * (p->width - 1)),
+            .middle_y = (float)(0.5 * (p->height - 1)),
+            .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
+        };
+        const struct kd_vk_dispatch d = {
+            "light", light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } }, &push,
+            { per_band }, /* of the last, smaller band too: they write zeros */
+        };
+        status = kd_vk_dispatch(j->r->vk, &d, j->error);
+    }
+    if (!status)
+        status = kd_vk_copy(j->r->vk, "light", j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error);
+    return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
+}
+
+void kd_frame_read_light(struct kd_frame_job *j)
+{
+    j->frame->light = kd_light_of(j->scene, kd_vk_buffer_map(j->store->light_host), kd_light_bytes(j->plan) / (4 * KD_LIGHT_SUMS));
+}

@@ -1,0 +1,81 @@
+/* What is told of a picture on its way: how far it is, how it looks so far, and how long its passes took. */
+#include "render/frame/job.h"
+
+#include "base/clock.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static enum kd_status glance(struct kd_frame_job *j)
+{
+    size_t lit = j->plan->host_bytes / j->plan->height * j->lit;
+    memset((char *)kd_frame_pixels(j->frame) + lit, 0, j->plan->host_bytes - lit);
+    j->looking = true;
+    enum kd_status status = kd_frame_expose(j);
+    if (!status)
+        status = kd_frame_post(j);
+    if (!status)
+        j->glance->seen(j->user, j->frame, j->lit);
+    j->looking = false;
+    return status;
+}
+
+/* The device's times since the last reset, added to the picture's own. */
+static void keep_times(struct kd_frame_job *j)
+{
+    struct kd_vk_time now[KD_VK_MAX_PASSES];
+    for (size_t i = 0, n = kd_vk_times(j->r->vk, now); i < n; i++) {
+        size_t k = 0;
+        while (k < j->n_times && strcmp(j->times[k].pass, now[i].pass))
+            k++;
+        if (k == j->n_times && k < KD_VK_MAX_PASSES)
+            j->times[j->n_times++] = (struct kd_vk_time) { .pass = now[i].pass };
+        if (k < j->n_times) {
+            j->times[k].ms += now[i].ms;
+            j->times[k].dispatches += now[i].dispatches;
+        }
+    }
+}
+
+enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
+{
+    j->done += j->looking ? 0 : rows; /* none of the picture's own */
+    if (j->aside) { /* who comes next need not wait, or measure, what is under way here */
+        enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
+        if (status)
+            return status;
+        keep_times(j);
+    }
+    double left = kd_clock_ms();
+    bool go_on = !j->progress || j->progress(j->user, fmin(j->done / j->weight, 1));
+    if (j->aside) {
+        j->away_ms += kd_clock_ms() - left;
+        kd_vk_times_reset(j->r->vk);
+    }
+    if (!go_on)
+        return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
+    bool part = j->glance && !j->looking && j->lit && j->lit < j->plan->height;
+    return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
+}
+
+static void add_timing(struct kd_frame *frame, const char *name, double ms)
+{
+    if (frame->n_timings >= KD_FRAME_MAX_TIMINGS)
+        return;
+    struct kd_timing *t = &frame->timings[frame->n_timings++];
+    snprintf(t->name, sizeof t->name, "%s", name);
+    t->ms = ms;
+}
+
+void kd_frame_collect_timings(struct kd_frame_job *j, struct kd_frame *frame, double total_ms)
+{
+    keep_times(j);
+    if (j->listed_ms > 0)
+        add_timing(frame, "trace", j->listed_ms);
+    if (j->audit_ms > 0)
+        add_timing(frame, "audit", j->audit_ms);
+    for (size_t i = 0; i < j->n_times; i++)
+        add_timing(frame, j->times[i].pass, j->times[i].ms);
+    add_timing(frame, "total", total_ms);
+}
