@@ -34,6 +34,15 @@ enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const
 enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* One step of a function that can fail: KD_TRY(f(...)) keeps what f returned in the function's own `enum kd_status status`, and unless that
+ * is KD_OK goes to the function's label `done`, where the good way ends too: there it lets go of what it holds, and returns status. What is
+ * read after `done` must be set before the first step; a loop needs no condition of its own, a step inside it leaves the function. */
+#define KD_TRY(step) \
+    do { \
+        if ((status = (step))) \
+            goto done; \
+    } while (0)
+
 /* A word for a status ("invalid input", "out of memory", ...). Never NULL. */
 const char *kd_status_name(enum kd_status status);
 

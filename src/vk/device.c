@@ -108,24 +108,19 @@ enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **ou
     if (!vk)
         return kd_error_set(error, KD_ENOMEM, "no memory for a device");
     vk->deadline_ns = (params->deadline_ms ? params->deadline_ms : 60000) * UINT64_C(1000000);
-    enum kd_status status = kd_vk_instance_init(&vk->instance, validation_wanted(params), error);
-    if (!status)
-        status = choose(vk, params->device, error);
+    enum kd_status status;
+    KD_TRY(kd_vk_instance_init(&vk->instance, validation_wanted(params), error));
     vk->fn = vk->instance.fn;
-    if (!status)
-        status = open_device(vk, error);
-    if (!status)
-        status = kd_vk_heap_init(vk, error);
-    if (!status)
-        status = kd_vk_cache_init(vk, params->cache_dir, error);
-    if (!status)
-        status = kd_vk_submit_init(vk, error);
-    if (status) {
-        kd_vk_destroy(vk);
-        return status;
-    }
+    KD_TRY(choose(vk, params->device, error));
+    KD_TRY(open_device(vk, error));
+    KD_TRY(kd_vk_heap_init(vk, error));
+    KD_TRY(kd_vk_cache_init(vk, params->cache_dir, error));
+    KD_TRY(kd_vk_submit_init(vk, error));
     *out = vk;
-    return KD_OK;
+done:
+    if (status)
+        kd_vk_destroy(vk);
+    return status;
 }
 
 static void close_device(struct kd_vk *vk)

@@ -40,14 +40,12 @@ enum kd_status kd_selftest_run(struct kd_renderer *renderer, const struct kd_sel
                                void *user, struct kd_error *error)
 {
     const struct kd_selftest test = { renderer, reference, row, user, error };
-    enum kd_status status = kd_selftest_orbits(&test);
-    if (!status)
-        status = kd_selftest_rays(&test);
-    if (!status)
-        status = kd_selftest_maps(&test);
-    if (!status)
-        status = kd_selftest_light(&test);
-    if (!status)
-        status = kd_selftest_same(&test);
+    enum kd_status status;
+    KD_TRY(kd_selftest_orbits(&test));
+    KD_TRY(kd_selftest_rays(&test));
+    KD_TRY(kd_selftest_maps(&test));
+    KD_TRY(kd_selftest_light(&test));
+    KD_TRY(kd_selftest_same(&test));
+done:
     return status;
 }

@@ -1,0 +1,71 @@
+/* Steps that can fail: each is taken once, none after the first that fails, and what is held is let go of either way. */
+#include "base/error.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define N_STEPS 3
+
+struct walk {
+    int fails;          /* the step that does, N_STEPS: none */
+    int taken[N_STEPS]; /* how often */
+    int let_go;
+};
+
+static enum kd_status step(struct walk *walk, int i)
+{
+    walk->taken[i]++;
+    return i == walk->fails ? KD_EIO : KD_OK;
+}
+
+static enum kd_status steps(struct walk *walk)
+{
+    enum kd_status status = KD_EBUSY; /* what it was before does not matter */
+    for (int i = 0; i < N_STEPS; i++)
+        if (i % 2) /* the macro is one statement, so that the else is not of another if */
+            KD_TRY(step(walk, i));
+        else
+            KD_TRY(step(walk, i));
+done:
+    walk->let_go++;
+    return status;
+}
+
+static void each_once_until_one_fails(void **state)
+{
+    (void)state;
+    for (int fails = 0; fails <= N_STEPS; fails++) {
+        struct walk walk = { .fails = fails };
+        assert_int_equal(steps(&walk), fails < N_STEPS ? KD_EIO : KD_OK);
+        assert_int_equal(walk.let_go, 1);
+        for (int i = 0; i < N_STEPS; i++)
+            assert_int_equal(walk.taken[i], i <= fails);
+    }
+}
+
+static void without_an_error_to_fill(void **state)
+{
+    (void)state;
+    struct kd_error error = { 0 };
+    assert_int_equal(kd_error_set(NULL, KD_EFULL, "%d", 1), KD_EFULL);
+    assert_int_equal(kd_error_field(NULL, "/disk", "%d", 1), KD_EINVAL);
+    assert_int_equal(kd_error_field(&error, "/disk", "%d is too many", 2), KD_EINVAL);
+    assert_int_equal(error.status, KD_EINVAL);
+    assert_string_equal(error.pointer, "/disk");
+    assert_string_equal(error.message, "2 is too many");
+    assert_int_equal(kd_error_set(&error, KD_EFULL, "full"), KD_EFULL);
+    assert_string_equal(error.pointer, "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_once_until_one_fails),
+        cmocka_unit_test(without_an_error_to_fill),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
