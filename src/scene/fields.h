@@ -3,12 +3,19 @@
  * Each row expands to the struct member, the default, the JSON parser, --set, the query
  * parameter, the JSON Schema and docs/scene.md. Add a field here and nowhere else.
  *
- *   REAL(section, name, default, minimum, maximum, unit, help)
- *   WORD(section, name, default, minimum, maximum, unit, help, word)   a real, or the word (stored as INFINITY)
- *   INT (section, name, default, minimum, maximum, unit, help)
- *   BOOL(section, name, default, help)
- *   ENUM(section, name, default, help, words)                          words "a|b|c": the value is the index
- *   ASSET(section, name, help)                                         bytes by their SHA-256, or none (scene/asset.h)
+ *   REAL(section, name, nature, place, default, minimum, maximum, unit, help)
+ *   WORD(section, name, nature, place, default, minimum, maximum, unit, help, word)   a real, or the word (stored as INFINITY)
+ *   INT (section, name, nature, place, default, minimum, maximum, unit, help)
+ *   BOOL(section, name, nature, place, default, help)
+ *   ENUM(section, name, nature, place, default, help, words)                          words "a|b|c": the value is the index
+ *   ASSET(section, name, nature, place, help)                                         bytes by their SHA-256, or none (scene/asset.h)
+ *
+ * The nature says what a reader may conclude from a picture that the field has changed. A row without one does not compile.
+ *   PHYSICS   an exact consequence of general relativity or radiative transfer follows from it, or how closely that is computed
+ *   MODEL     it chooses a model of matter or of a source, or a number of one
+ *   LOOK      it changes the picture, not the physics
+ * The place is where the page has it: FRONT with the few that everybody turns, REST among the others. A section has the group of the page
+ * that its fields stand in: LOOK, GAS, HOLE, CAMERA or MORE.
  *
  * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" is a pure number.
  * Order here is the order of the canonical form and of the reference. */
@@ -16,146 +23,146 @@
 #define KD_SCENE_FIELDS_H
 
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                      \
-    REAL(spacetime, spin, 0.7, -0.999999999999, 0.999999999999, "M",                                          \
-         "spin parameter a; a < 0 is a disk retrograde to its hole")                                          \
-    REAL(spacetime, mass_msun, 1e8, 1e-3, 1e12, "solar masses",                                               \
+    REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M",                                 \
+         "spin parameter a; a < 0 is a disk retrograde to its hole")                                                 \
+    REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses",                                       \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"")
 
 #define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                         \
-    WORD(camera, r, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")            \
-    REAL(camera, inclination_deg, 82.0, 0.0, 180.0, "degrees",                                                \
-         "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")              \
-    REAL(camera, azimuth_deg, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer")       \
-    ENUM(camera, observer, KD_OBSERVER_STATIC,                                                                \
-         "state of motion at a finite radius: at rest with respect to infinity, or with zero angular momentum", \
-         "static|zamo")                                                                                       \
-    ENUM(camera, projection, KD_PROJECTION_AUTO,                                                              \
-         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "       \
-         "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "     \
-         "only; auto: plane or pinhole, whichever fits camera.r",                                             \
-         "auto|plane|pinhole|ring")                                                                                \
-    REAL(camera, field_m, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)")                \
-    REAL(camera, fov_deg, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)")      \
-    REAL(camera, centre_alpha, 0.0, -1e7, 1e7, "M", "image-plane alpha at the middle of the picture (plane)") \
-    REAL(camera, centre_beta, 0.0, -1e7, 1e7, "M", "image-plane beta at the middle of the picture (plane)")   \
-    REAL(camera, yaw_deg, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (pinhole)")           \
-    REAL(camera, pitch_deg, 0.0, -90.0, 90.0, "degrees", "look above the hole (pinhole)")                     \
-    REAL(camera, roll_deg, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis; ring: the angle "   \
-         "in the middle of the picture, 0 at alpha > 0, rising to the right")                                   \
-    REAL(camera, ring_decades_max, 0.0, -12.0, 0.0, "decades",                                                \
-         "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)")  \
-    REAL(camera, ring_decades_min, -10.0, -13.0, -1.0, "decades",                                             \
+    WORD(camera, r, PHYSICS, FRONT, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")   \
+    REAL(camera, inclination_deg, PHYSICS, FRONT, 82.0, 0.0, 180.0, "degrees",                                       \
+         "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")                     \
+    REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer") \
+    ENUM(camera, observer, PHYSICS, REST, KD_OBSERVER_STATIC,                                                        \
+         "state of motion at a finite radius: at rest with respect to infinity, or with zero angular momentum",      \
+         "static|zamo")                                                                                              \
+    ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO,                                                         \
+         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "              \
+         "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "            \
+         "only; auto: plane or pinhole, whichever fits camera.r",                                                    \
+         "auto|plane|pinhole|ring")                                                                                  \
+    REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)")          \
+    REAL(camera, fov_deg, LOOK, FRONT, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)") \
+    REAL(camera, centre_alpha, LOOK, REST, 0.0, -1e7, 1e7, "M", "image-plane alpha at the middle of the picture (plane)") \
+    REAL(camera, centre_beta, LOOK, REST, 0.0, -1e7, 1e7, "M", "image-plane beta at the middle of the picture (plane)") \
+    REAL(camera, yaw_deg, LOOK, REST, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (pinhole)")      \
+    REAL(camera, pitch_deg, LOOK, REST, 0.0, -90.0, 90.0, "degrees", "look above the hole (pinhole)")                \
+    REAL(camera, roll_deg, LOOK, REST, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis; ring: the angle " \
+         "in the middle of the picture, 0 at alpha > 0, rising to the right")                                        \
+    REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades",                                           \
+         "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)")         \
+    REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades",                                        \
          "the same at the middle line, above which rays pass outside the curve and below which inside (ring)")
 
 #define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                           \
-    ENUM(disk, model, KD_DISK_NOVIKOV_THORNE,                                                                 \
-         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; "    \
-         "particles: the exact one, made of orbiting particles",                                              \
-         "none|novikov-thorne|shakura-sunyaev|particles")                                                               \
-    WORD(disk, inner, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco")                   \
-    REAL(disk, outer, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                           \
-    REAL(disk, taper, 0.7, 0.0, 1.0, "1",                                                                    \
-         "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                 \
-    REAL(disk, opacity, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")                  \
-    ENUM(disk, colour, KD_COLOUR_PEAK,                                                                        \
-         "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",       \
-         "peak|accretion")                                                                                    \
-    REAL(disk, peak_temperature_k, 5600.0, 300.0, 1e9, "K",                                                   \
-         "largest effective temperature of the disk, in its own frame (colour: peak)")                        \
-    REAL(disk, mdot_edd, 0.1, 1e-12, 1e3, "Eddington rates",                                                  \
-         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin")        \
-    REAL(disk, hardening, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature")                \
-    ENUM(disk, band, KD_BAND_BOLOMETRIC,                                                                      \
-         "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it", \
-         "bolometric|visible")                                                                                \
-    BOOL(disk, doppler, true, "the Doppler shift and beaming of the orbiting gas")                            \
-    BOOL(disk, redshift, true, "gravitational redshift and time dilation of the orbiting gas")                \
-    INT(disk, particles, 300000, 1000, 10000000, "1", "number of particles (model: particles)")               \
-    INT(disk, seed, 1, 0, 2147483647, "1", "another number, other particles (model: particles)")              \
-    REAL(disk, density_index, 2.0, 0.0, 4.0, "1",                                                             \
-         "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)") \
-    REAL(disk, plunging, 0.02, 0.0, 0.5, "1",                                                                 \
-         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner is not "     \
-         "\"isco\" (model: particles)")                                                                        \
-    REAL(disk, plunging_temperature, 0.7, 0.0, 1.0, "1",                                                      \
-         "temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles)")     \
-    REAL(disk, epicycles, 0.02, 0.0, 0.2, "1",                                                                \
+    ENUM(disk, model, MODEL, FRONT, KD_DISK_NOVIKOV_THORNE,                                                          \
+         "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; "           \
+         "particles: the exact one, made of orbiting particles",                                                     \
+         "none|novikov-thorne|shakura-sunyaev|particles")                                                            \
+    WORD(disk, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; never inside the ISCO", "isco")             \
+    REAL(disk, outer, MODEL, FRONT, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                    \
+    REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                               \
+         "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                        \
+    REAL(disk, opacity, MODEL, FRONT, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")           \
+    ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK,                                                                  \
+         "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",              \
+         "peak|accretion")                                                                                           \
+    REAL(disk, peak_temperature_k, MODEL, FRONT, 5600.0, 300.0, 1e9, "K",                                            \
+         "largest effective temperature of the disk, in its own frame (colour: peak)")                               \
+    REAL(disk, mdot_edd, MODEL, REST, 0.1, 1e-12, 1e3, "Eddington rates",                                            \
+         "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin")               \
+    REAL(disk, hardening, MODEL, REST, 1.0, 1.0, 3.0, "1", "colour temperature over effective temperature")          \
+    ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC,                                                                 \
+         "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it",     \
+         "bolometric|visible")                                                                                       \
+    BOOL(disk, doppler, PHYSICS, FRONT, true, "the Doppler shift and beaming of the orbiting gas")                   \
+    BOOL(disk, redshift, PHYSICS, REST, true, "gravitational redshift and time dilation of the orbiting gas")        \
+    INT(disk, particles, MODEL, REST, 300000, 1000, 10000000, "1", "number of particles (model: particles)")         \
+    INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other particles (model: particles)")        \
+    REAL(disk, density_index, MODEL, REST, 2.0, 0.0, 4.0, "1",                                                       \
+         "particles per area fall as r to this power; 2 puts as many into each octave of r (model: particles)")      \
+    REAL(disk, plunging, MODEL, REST, 0.02, 0.0, 0.5, "1",                                                           \
+         "share of the particles that fall from the ISCO on its energy and angular momentum; none do where disk.inner is not " \
+         "\"isco\" (model: particles)")                                                                              \
+    REAL(disk, plunging_temperature, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                \
+         "temperature of the plunging gas over the disk's largest; 0: it is not seen (model: particles)")            \
+    REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1",                                                          \
          "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes at " \
-         "the ISCO (model: particles)")                                                                       \
-    BOOL(disk, slow_light, false, "each ray shows particles and spots where they were when its light left them, instead of all at " \
+         "the ISCO (model: particles)")                                                                              \
+    BOOL(disk, slow_light, PHYSICS, REST, false, "each ray shows particles and spots where they were when its light left them, instead of all at " \
          "one coordinate time")
 
 #define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
-    REAL(spots, brightness, 0.0, 0.0, 1e6, "1",                                                                \
-         "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot")  \
-    REAL(spots, r, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO")  \
-    REAL(spots, phase_deg, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0")                   \
-    REAL(spots, size, 1.0, 1e-3, 1e5, "M", "distance from the centre at which the Gaussian has fallen to exp(-1/2)")  \
-    REAL(spots, index, 1.0, -4.0, 6.0, "1", "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen")  \
-    REAL(spots, temperature_k, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
+    REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1",                                                        \
+         "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot") \
+    REAL(spots, r, MODEL, FRONT, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO") \
+    REAL(spots, phase_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0")            \
+    REAL(spots, size, MODEL, FRONT, 1.0, 1e-3, 1e5, "M", "distance from the centre at which the Gaussian has fallen to exp(-1/2)") \
+    REAL(spots, index, MODEL, REST, 1.0, -4.0, 6.0, "1", "spectral index: I_nu falls as nu to this power, so that g^(3 + index) of it is seen") \
+    REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
-    ENUM(sky, model, KD_SKY_NONE,                                                                             \
-         "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")           \
-    REAL(sky, brightness, 0.2, 0.0, 100.0, "1", "brightness of the sky in units of the disk's brightest surface brightness at g = 1")  \
-    REAL(sky, grid_deg, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
+    ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
+         "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")                  \
+    REAL(sky, brightness, MODEL, FRONT, 0.2, 0.0, 100.0, "1", "brightness of the sky in units of the disk's brightest surface brightness at g = 1") \
+    REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
 
 #define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
-    INT(image, width, 1280, 1, 32768, "pixels", "width of the picture")                                       \
-    INT(image, height, 720, 1, 32768, "pixels", "height of the picture")                                      \
-    INT(image, samples, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")        \
-    INT(image, critical_factor, 4, 1, 16, "1",                                                                \
-        "so many times as many along each side of the pixels that the critical curve passes, where the photon ring is thinner "  \
-        "than they are; at most 16 in all")                                                                        \
-    INT(image, bit_depth, 8, 8, 16, "bits", "bits a channel: 8 or 16")
+    INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture")                                 \
+    INT(image, height, LOOK, FRONT, 720, 1, 32768, "pixels", "height of the picture")                                \
+    INT(image, samples, LOOK, FRONT, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")  \
+    INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1",                                                           \
+        "so many times as many along each side of the pixels that the critical curve passes, where the photon ring is thinner " \
+        "than they are; at most 16 in all")                                                                          \
+    INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16")
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
-    WORD(style, exposure, INFINITY, -40.0, 40.0, "stops",                                                     \
-         "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")        \
-    ENUM(style, tone_map, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")                \
-    BOOL(style, dither, true, "half a step of ordered noise before rounding, against banding")                \
-    REAL(style, ringdown, 0.0, 0.0, 1.0, "1",                                                                 \
-         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), the "   \
-         "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none")                                           \
-    REAL(style, ringdown_time, 0.0, -1e12, 1e12, "M", "time at which it was struck; before that nothing rings")
+    WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
+         "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")               \
+    ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")          \
+    BOOL(style, dither, LOOK, REST, true, "half a step of ordered noise before rounding, against banding")           \
+    REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1",                                                            \
+         "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), the " \
+         "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none")                                                  \
+    REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", "time at which it was struck; before that nothing rings")
 
 #define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                         \
-    REAL(motion, azimuth_rate_deg, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
-    REAL(motion, time_rate, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")
+    REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
+    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")
 
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                       \
-    ENUM(accuracy, profile, KD_PROFILE_BALANCED,                                                              \
-         "how closely rays are followed, coarse to fine; reference is double precision",                      \
-         "draft|interactive|balanced|high|reference")                                                         \
-    WORD(accuracy, tolerance, INFINITY, 1e-18, 0.1, "1",                                                      \
-         "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile",  \
-         "profile")                                                                                           \
-    ENUM(accuracy, engine, KD_ENGINE_WORD_AUTO,                                                               \
-         "what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6",           \
-         "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6")                                                     \
-    ENUM(accuracy, precision, KD_PRECISION_WORD_AUTO, "of the arithmetic; auto: what the profile means",      \
-         "auto|f32|f64")                                                                                      \
-    INT(accuracy, steps, 0, 0, 2048, "1",                                                                     \
-        "steps of the integrator a half turn, a multiple of 4; 0: what the profile means")                    \
-    INT(accuracy, orders, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
+    ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED,                                                     \
+         "how closely rays are followed, coarse to fine; reference is double precision",                             \
+         "draft|interactive|balanced|high|reference")                                                                \
+    WORD(accuracy, tolerance, PHYSICS, REST, INFINITY, 1e-18, 0.1, "1",                                              \
+         "relative error of the crossing radii to be held, by the accuracy table of the device, instead of the profile", \
+         "profile")                                                                                                  \
+    ENUM(accuracy, engine, PHYSICS, REST, KD_ENGINE_WORD_AUTO,                                                       \
+         "what traces the rays; auto: the closed form outside the orbits of light, else mino-rkn6",                  \
+         "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6")                                                  \
+    ENUM(accuracy, precision, PHYSICS, REST, KD_PRECISION_WORD_AUTO, "of the arithmetic; auto: what the profile means", \
+         "auto|f32|f64")                                                                                             \
+    INT(accuracy, steps, PHYSICS, REST, 0, 0, 2048, "1",                                                             \
+        "steps of the integrator a half turn, a multiple of 4; 0: what the profile means")                           \
+    INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
 
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
-    REAL(top, time, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
+    REAL(top, time, PHYSICS, FRONT, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
-/* The sections, in order: SECTION(name, rows, help), and LIST(name, element, rows, most, help) for up to `most` elements that have these
+/* The sections, in order: SECTION(name, rows, group, help), and LIST(name, element, rows, group, most, help) for up to `most` elements that have these
  * rows each. The rows of "top" are members of the document itself. */
-#define KD_SCENE_SECTIONS(SECTION, LIST)                                                                            \
-    SECTION(spacetime, KD_SPACETIME_FIELDS, "the hole")                                                       \
-    SECTION(camera, KD_CAMERA_FIELDS, "where the observer is and what it looks at")                           \
-    SECTION(disk, KD_DISK_FIELDS, "the accretion disk in the equatorial plane, turning towards +phi")         \
-    LIST(spots, spot, KD_SPOTS_FIELDS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
-    SECTION(sky, KD_SKY_FIELDS, "what lies at infinity")                                                      \
-    SECTION(image, KD_IMAGE_FIELDS, "the size of the picture")                                                \
-    SECTION(style, KD_STYLE_FIELDS, "from brightness to the colours of the file")                             \
-    SECTION(motion, KD_MOTION_FIELDS, "what goes on by itself in a live session; a still picture knows none of it") \
-    SECTION(accuracy, KD_ACCURACY_FIELDS, "how closely the rays are followed")                                \
-    SECTION(top, KD_TOP_FIELDS, "members of the document itself")
+#define KD_SCENE_SECTIONS(SECTION, LIST)                                                                             \
+    SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole")                                                        \
+    SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "where the observer is and what it looks at")                          \
+    SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi")           \
+    LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
+    SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
+    SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
+    SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
+    SECTION(motion, KD_MOTION_FIELDS, CAMERA, "what goes on by itself in a live session; a still picture knows none of it") \
+    SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed")                                 \
+    SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)

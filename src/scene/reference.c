@@ -54,8 +54,8 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
                                          "word", "asset" };
     char allowed[KD_ALLOWED_SIZE];
     kd_value_allowed(field, allowed);
-    kd_write(w, "| `%s%s%s%s` | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "", field->name,
-             types[field->kind]);
+    kd_write(w, "| `%s%s%s%s` | %s | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "", field->name,
+             kd_natures[field->nature].word, types[field->kind]);
     kd_write_value(w, field, field->initial);
     kd_write(w, "` | ");
     const char *whole = "whole numbers from "; /* the type column says so */
@@ -84,18 +84,26 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
         kd_write(w, "%c%s.\n\n", section->help[0] - 'a' + 'A', section->help + 1);
     if (section->most)
         write_list(w, section);
-    kd_write(w, "| field | type | default | allowed | meaning |\n|---|---|---|---|---|\n");
+    kd_write(w, "| field | nature | type | default | allowed | meaning |\n|---|---|---|---|---|---|\n");
     if (!*section->name)
-        kd_write(w, "| `version` | whole number | `%d` | %d | version of this document format |\n",
+        kd_write(w, "| `version` | | whole number | `%d` | %d | version of this document format |\n",
                  KD_SCENE_VERSION, KD_SCENE_VERSION);
     for (size_t i = 0; i < section->count; i++)
         write_field(w, &kd_fields[section->first + i]);
+}
+
+static void write_natures(struct kd_writer *w)
+{
+    kd_write(w, "\nEach field has a nature, which says what may be concluded from a picture that it has changed:\n\n");
+    for (size_t i = 0; i < KD_NATURE_COUNT; i++)
+        kd_write(w, "- **%s**: %s.\n", kd_natures[i].word, kd_natures[i].help);
 }
 
 enum kd_status kd_scene_reference(struct kd_buffer *out)
 {
     struct kd_writer writer = { .out = out }, *w = &writer;
     kd_write(w, "%s", introduction);
+    write_natures(w);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++)
         write_section(w, &kd_sections[i]);
     kd_write(w, "\n## Rules across fields\n\n");

@@ -21,11 +21,11 @@
 #define KD_M_ENUM(s, name, ...) int32_t name;
 #define KD_M_ASSET(s, name, ...) char name[KD_ASSET_NAME];
 #define KD_M_ROWS(ROWS) ROWS(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM, KD_M_ASSET)
-#define KD_M_SECTION(name, ROWS, help)                                                                       \
+#define KD_M_SECTION(name, ROWS, group, help)                                                                \
     struct kd_##name {                                                                                       \
         KD_M_ROWS(ROWS)                                                                                      \
     } name;
-#define KD_M_LIST(name, element, ROWS, most, help)                                                           \
+#define KD_M_LIST(name, element, ROWS, group, most, help)                                                    \
     struct kd_##name {                                                                                       \
         size_t count;                                                                                        \
         struct kd_##element {                                                                                \

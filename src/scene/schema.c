@@ -53,6 +53,11 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     }
 }
 
+static void write_group(struct kd_writer *w, const struct kd_section *section)
+{
+    kd_write(w, ",\"x-group\":\"%s\"", kd_groups[section->group]);
+}
+
 static void write_field(struct kd_writer *w, const struct kd_field *field)
 {
     kd_write(w, "\"%s\":{", field->name);
@@ -61,6 +66,11 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
     kd_write_value(w, field, field->initial);
     kd_write(w, ",\"description\":");
     kd_write_string(w, field->help);
+    kd_write(w, ",\"x-nature\":\"%s\"", kd_natures[field->nature].word);
+    if (field->place == KD_FIELD_FRONT)
+        kd_write(w, ",\"x-front\":true");
+    if (!*field->section)
+        write_group(w, kd_section_find(""));
     if (*field->unit && strcmp(field->unit, "1")) {
         kd_write(w, ",\"x-unit\":");
         kd_write_string(w, field->unit);
@@ -88,6 +98,7 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
 {
     kd_write(w, "\"%s\":{\"description\":", section->name);
     kd_write_string(w, section->help);
+    write_group(w, section);
     kd_write(w, ",");
     if (section->most)
         kd_write(w, "\"type\":\"array\",\"maxItems\":%zu,\"default\":[],\"items\":{", section->most);
@@ -104,15 +115,34 @@ static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
     write_object(w, kd_section_find(old->section));
 }
 
+/* What x-nature and x-group can be: natures with what they mean, groups in the order of the page. */
+static void write_words_of_fields(struct kd_writer *w)
+{
+    kd_write(w, "\"x-natures\":{");
+    for (size_t i = 0; i < KD_NATURE_COUNT; i++) {
+        kd_write(w, "%s\"%s\":", i ? "," : "", kd_natures[i].word);
+        kd_write_string(w, kd_natures[i].help);
+    }
+    kd_write(w, "},\"x-groups\":[");
+    for (size_t i = 0; i < KD_GROUP_COUNT; i++)
+        kd_write(w, "%s\"%s\"", i ? "," : "", kd_groups[i]);
+    kd_write(w, "],");
+}
+
 enum kd_status kd_scene_schema(struct kd_buffer *out)
 {
     struct kd_writer writer = { .out = out }, *w = &writer;
     kd_write(
         w,
         "{\"$schema\":\"https://json-schema.org/draft/2020-12/schema\",\"title\":\"kerrd scene, version %d\","
-        "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{"
+        "\"type\":\"object\",\"additionalProperties\":false,",
+        KD_SCENE_VERSION);
+    write_words_of_fields(w);
+    kd_write(
+        w,
+        "\"properties\":{"
         "\"version\":{\"const\":%d,\"description\":\"version of this document format\"}",
-        KD_SCENE_VERSION, KD_SCENE_VERSION);
+        KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         kd_write(w, ",");
         if (*kd_sections[i].name)

@@ -7,10 +7,18 @@
 
 enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM, KD_FIELD_ASSET };
 
+/* What a field means and where the page has it: the columns of scene/fields.h. */
+enum kd_field_nature { KD_FIELD_PHYSICS, KD_FIELD_MODEL, KD_FIELD_LOOK };
+enum kd_field_place { KD_FIELD_FRONT, KD_FIELD_REST };
+enum kd_section_group { KD_GROUP_LOOK, KD_GROUP_GAS, KD_GROUP_HOLE, KD_GROUP_CAMERA, KD_GROUP_MORE };
+enum { KD_NATURE_COUNT = KD_FIELD_LOOK + 1, KD_GROUP_COUNT = KD_GROUP_MORE + 1 };
+
 struct kd_field {
     const char *section; /* "" for a member of the document itself */
     const char *name;
     enum kd_field_kind kind;
+    enum kd_field_nature nature;
+    enum kd_field_place place;
     size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, or a text (ASSET) */
     size_t stride; /* from element to element of a list; 0 in a section that is none */
     double initial, minimum, maximum;
@@ -19,9 +27,14 @@ struct kd_field {
     const char *words; /* WORD: the word for INFINITY; ENUM: "a|b|c"; NULL otherwise */
 };
 
+struct kd_nature {
+    const char *word, *help;
+};
+
 struct kd_section {
     const char *name; /* "" for the document itself: always the last */
     const char *help;
+    enum kd_section_group group;
     size_t first, count; /* rows in kd_fields */
     size_t most;         /* elements of a list; 0: this is none */
     size_t size_at;      /* of a list: where struct kd_scene has the number of its elements, a size_t */
@@ -34,8 +47,8 @@ struct kd_old_name {
 };
 
 #define KD_ONE(...) +1
-#define KD_COUNT_ROWS(name, ROWS, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
-#define KD_COUNT_LIST_ROWS(name, element, ROWS, most, help) KD_COUNT_ROWS(name, ROWS, help)
+#define KD_COUNT_ROWS(name, ROWS, group, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
+#define KD_COUNT_LIST_ROWS(name, element, ROWS, group, most, help) KD_COUNT_ROWS(name, ROWS, group, help)
 enum {
     KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
     KD_SECTION_COUNT = 0 KD_SCENE_SECTIONS(KD_ONE, KD_ONE),
@@ -43,8 +56,8 @@ enum {
 };
 
 /* Elements of the longest list. */
-#define KD_NO_ROOM(name, ROWS, help)
-#define KD_ROOM(name, element, ROWS, most, help) char name[most];
+#define KD_NO_ROOM(name, ROWS, group, help)
+#define KD_ROOM(name, element, ROWS, group, most, help) char name[most];
 union kd_list_room {
     char none[1];
     KD_SCENE_SECTIONS(KD_NO_ROOM, KD_ROOM)
@@ -52,6 +65,8 @@ union kd_list_room {
 enum { KD_LIST_MOST = sizeof(union kd_list_room) };
 
 /* A list has its rows once. Whatever takes a field takes the index of the element beside it: 0 in a section that is no list. */
+extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
+extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 extern const struct kd_field kd_fields[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];

@@ -242,6 +242,8 @@ static void schema_names_each_field(void **state)
         assert_non_null(row);
         assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "description")->valuestring, field->help);
         assert_non_null(cJSON_GetObjectItemCaseSensitive(row, "default"));
+        assert_string_equal(cJSON_GetObjectItemCaseSensitive(row, "x-nature")->valuestring, kd_natures[field->nature].word);
+        assert_int_equal(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(row, "x-front")), field->place == KD_FIELD_FRONT);
         if (field->kind == KD_FIELD_REAL)
             assert_true(cJSON_GetObjectItemCaseSensitive(row, "maximum")->valuedouble == field->maximum);
     }
@@ -254,6 +256,22 @@ static void schema_names_each_field(void **state)
     }
     cJSON_Delete(schema);
     kd_buffer_finish(&text);
+}
+
+/* Of each group of the page some fields stand in front, so that none opens on nothing; and what is known to be of a nature is. */
+static void natures_and_groups(void **state)
+{
+    (void)state;
+    size_t in_front[KD_GROUP_COUNT] = { 0 };
+    for (size_t s = 0; s < KD_SECTION_COUNT; s++)
+        for (size_t i = 0; i < kd_sections[s].count; i++)
+            in_front[kd_sections[s].group] += kd_fields[kd_sections[s].first + i].place == KD_FIELD_FRONT;
+    for (size_t g = 0; g < KD_GROUP_COUNT; g++)
+        if (in_front[g] == 0)
+            fail_msg("no field stands in front of the group %s", kd_groups[g]);
+    assert_int_equal(kd_field_find("spacetime", "spin")->nature, KD_FIELD_PHYSICS);
+    assert_int_equal(kd_field_find("disk", "peak_temperature_k")->nature, KD_FIELD_MODEL);
+    assert_int_equal(kd_field_find("style", "tone_map")->nature, KD_FIELD_LOOK);
 }
 
 static void reference_is_current(void **state)
@@ -280,7 +298,8 @@ int main(void)
         cmocka_unit_test(bounds_are_inclusive),    cmocka_unit_test(words_are_exact),
         cmocka_unit_test(types_are_strict),        cmocka_unit_test(set_reads_numbers),
         cmocka_unit_test(set_names_unknown_paths), cmocka_unit_test(defaults_are_valid),
-        cmocka_unit_test(schema_names_each_field), cmocka_unit_test(reference_is_current),
+        cmocka_unit_test(schema_names_each_field), cmocka_unit_test(natures_and_groups),
+        cmocka_unit_test(reference_is_current),
     };
     return cmocka_run_group_tests_name("scene fields", tests, NULL, NULL);
 }

@@ -220,6 +220,43 @@ static void assets_have_names(void **state)
     }
 }
 
+/* What `object` says under the name `key`. */
+static const char *word_of(const cJSON *object, const char *key)
+{
+    return cJSON_GetObjectItemCaseSensitive(object, key)->valuestring;
+}
+
+static void schema_has_natures_places_and_groups(void **state)
+{
+    (void)state;
+    struct kd_buffer text = { 0 };
+    assert_int_equal(kd_scene_schema(&text), KD_OK);
+    cJSON *schema = cJSON_Parse((const char *)text.data);
+    const cJSON *all = cJSON_GetObjectItemCaseSensitive(schema, "properties");
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(all, "bodies"), *film = cJSON_GetObjectItemCaseSensitive(all, "film");
+    const cJSON *rows = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(bodies, "items"), "properties");
+    const char *natures[][2] = { { "dark", "look" }, { "shape", "model" }, { "texture", "look" }, { "moons", "physics" }, { "r", "model" } };
+    for (size_t i = 0; i < sizeof natures / sizeof *natures; i++) {
+        const cJSON *row = cJSON_GetObjectItemCaseSensitive(rows, natures[i][0]);
+        assert_string_equal(word_of(row, "x-nature"), natures[i][1]);
+        assert_int_equal(cJSON_HasObjectItem(row, "x-front"), i < 2);
+        assert_false(cJSON_HasObjectItem(row, "x-group")); /* its section has it */
+    }
+    assert_string_equal(word_of(bodies, "x-group"), "gas");
+    assert_string_equal(word_of(cJSON_GetObjectItemCaseSensitive(all, "stops"), "x-group"), "hole");
+    assert_string_equal(word_of(cJSON_GetObjectItemCaseSensitive(all, "place"), "x-group"), "camera");
+    assert_string_equal(word_of(film, "x-group"), "more");
+    assert_string_equal(word_of(film, "x-nature"), "look");
+    const cJSON *meanings = cJSON_GetObjectItemCaseSensitive(schema, "x-natures");
+    assert_string_equal(word_of(meanings, "look"), "changes the picture, not the physics");
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(schema, "x-groups")), 5);
+    cJSON_Delete(schema);
+    text.size = 0;
+    assert_int_equal(kd_scene_reference(&text), KD_OK);
+    assert_non_null(strstr((const char *)text.data, "| `bodies.N.moons` | physics | whole number |"));
+    kd_buffer_finish(&text);
+}
+
 static void schema_and_reference(void **state)
 {
     (void)state;
@@ -242,7 +279,7 @@ static void schema_and_reference(void **state)
     const char *page = (const char *)text.data;
     assert_non_null(strstr(page, "A list of up to 20, `[]` unless something else is said; N counts from 0.\n"));
     assert_non_null(strstr(page, "Old names are still read: `finish` is `stops.2`, `start` is `stops.0`.\n"));
-    assert_non_null(strstr(page, "| `stops.N.sound` | asset | `null` |"));
+    assert_non_null(strstr(page, "| `stops.N.sound` | look | asset | `null` |"));
     kd_buffer_finish(&text);
 }
 
@@ -260,7 +297,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(canonical_form),    cmocka_unit_test(lists_of_any_kind),    cmocka_unit_test(assets_are_resolved),
-        cmocka_unit_test(assets_on_a_command_line), cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference), cmocka_unit_test(sha256),
+        cmocka_unit_test(assets_on_a_command_line), cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference),
+        cmocka_unit_test(schema_has_natures_places_and_groups), cmocka_unit_test(sha256),
     };
     return cmocka_run_group_tests_name("scene table", tests, NULL, NULL);
 }

@@ -4,26 +4,26 @@
 #define KD_SCENE_FIELDS_H
 
 #define KD_PLACE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                  \
-    REAL(place, width, 2.0, 0.0, 10.0, "M", "how wide")                                                      \
-    ASSET(place, map, "what lies there")
+    REAL(place, width, PHYSICS, FRONT, 2.0, 0.0, 10.0, "M", "how wide")                                      \
+    ASSET(place, map, MODEL, REST, "what lies there")
 #define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                 \
-    BOOL(bodies, dark, true, "whether it is dark")                                                           \
-    ENUM(bodies, shape, 1, "its shape", "ball|disk|ring")                                                    \
-    ASSET(bodies, texture, "its surface")                                                                    \
-    INT(bodies, moons, 3, 0, 9, "1", "how many moons")                                                       \
-    WORD(bodies, r, INFINITY, 1.0, 50.0, "M", "where it is", "far")
+    BOOL(bodies, dark, LOOK, FRONT, true, "whether it is dark")                                              \
+    ENUM(bodies, shape, MODEL, FRONT, 1, "its shape", "ball|disk|ring")                                      \
+    ASSET(bodies, texture, LOOK, REST, "its surface")                                                        \
+    INT(bodies, moons, PHYSICS, REST, 3, 0, 9, "1", "how many moons")                                        \
+    WORD(bodies, r, MODEL, REST, INFINITY, 1.0, 50.0, "M", "where it is", "far")
 #define KD_STOPS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                  \
-    REAL(stops, time, 0.5, -1.0, 1.0, "M", "when")                                                           \
-    ASSET(stops, sound, "what is heard")
+    REAL(stops, time, PHYSICS, FRONT, 0.5, -1.0, 1.0, "M", "when")                                           \
+    ASSET(stops, sound, LOOK, FRONT, "what is heard")
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                    \
-    REAL(top, time, 0.0, -5.0, 5.0, "M", "time")                                                             \
-    ASSET(top, film, "all of it")
+    REAL(top, time, PHYSICS, FRONT, 0.0, -5.0, 5.0, "M", "time")                                             \
+    ASSET(top, film, LOOK, REST, "all of it")
 
 #define KD_SCENE_SECTIONS(SECTION, LIST)                                                                     \
-    LIST(bodies, body, KD_BODIES_FIELDS, 20, "bodies")                                                       \
-    SECTION(place, KD_PLACE_FIELDS, "a place")                                                               \
-    LIST(stops, stop, KD_STOPS_FIELDS, 3, "stops")                                                           \
-    SECTION(top, KD_TOP_FIELDS, "members of the document itself")
+    LIST(bodies, body, KD_BODIES_FIELDS, GAS, 20, "bodies")                                                  \
+    SECTION(place, KD_PLACE_FIELDS, CAMERA, "a place")                                                       \
+    LIST(stops, stop, KD_STOPS_FIELDS, HOLE, 3, "stops")                                                     \
+    SECTION(top, KD_TOP_FIELDS, MORE, "members of the document itself")
 #define KD_SCENE_OLD_NAMES(OLD) OLD(finish, stops, 2) OLD(start, stops, 0)
 
 struct kd_spot;
