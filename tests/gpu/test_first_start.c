@@ -48,7 +48,7 @@ static void test_once(void **state)
     r = start(true);
     known = kd_renderer_verdict(r);
     assert_true(known->result == KD_PASSED && known->now && known->checks > 50 && !known->failed);
-    assert_true(r->capacity.measured && r->capacity.ns_per_pixel_post > 0 && r->capacity.ns_per_pixel_post < 1e6);
+    assert_true(r->capacity.measured && r->capacity.ns[KD_NS_PIXEL_POST] > 0 && r->capacity.ns[KD_NS_PIXEL_POST] < 1e6);
     char *path = path_of(r);
     kd_renderer_destroy(r);
     read_all(path);

@@ -142,7 +142,7 @@ static void test_slices(void **state)
     scene.image.height = 700;
     struct kd_capacity c = capacity();
     struct kd_plan plan;
-    c.ns_per_ray_radius = c.ns_per_ray_full = c.ns_per_sample_transfer = 1e5;
+    c.ns[KD_NS_RAY_RADIUS] = c.ns[KD_NS_RAY_FULL] = c.ns[KD_NS_SAMPLE_TRANSFER] = 1e5;
     struct kd_frame a = render_with(&scene, &c, &plan);
     scene.camera.azimuth_deg = 1;
     struct kd_frame b = render(&scene);

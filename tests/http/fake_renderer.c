@@ -45,10 +45,10 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
         nanosleep(&(struct timespec) { .tv_sec = 5 }, NULL);
     *out = (struct kd_capacity) { .max_binding_bytes = 128u << 20,
                                   .memory_bytes = 1u << 30,
-                                  .ns_per_ray_radius = 1000,
-                                  .ns_per_ray_full = 1000,
-                                  .ns_per_sample_transfer = 1,
-                                  .ns_per_pixel_post = 1,
+                                  .ns[KD_NS_RAY_RADIUS] = 1000,
+                                  .ns[KD_NS_RAY_FULL] = 1000,
+                                  .ns[KD_NS_SAMPLE_TRANSFER] = 1,
+                                  .ns[KD_NS_PIXEL_POST] = 1,
                                   .float64 = true,
                                   .accuracy = kd_accuracy_built_in() };
 }

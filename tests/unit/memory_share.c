@@ -14,7 +14,7 @@
 static struct kd_capacity device(uint64_t bytes, bool host_memory)
 {
     return (struct kd_capacity) { .max_binding_bytes = 128 << 20, .max_allocation_bytes = GIB, .memory_bytes = bytes, .host_memory = host_memory,
-                                  .ns_per_ray_radius = 30, .ns_per_ray_full = 150, .ns_per_sample_transfer = 20, .ns_per_pixel_post = 30,
+                                  .ns[KD_NS_RAY_RADIUS] = 30, .ns[KD_NS_RAY_FULL] = 150, .ns[KD_NS_SAMPLE_TRANSFER] = 20, .ns[KD_NS_PIXEL_POST] = 30,
                                   .accuracy = kd_accuracy_built_in() };
 }
 

@@ -40,7 +40,7 @@ static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, c
         uint32_t left = end - push->first;
         push->count = left < slice ? left : (uint32_t)slice;
         const struct kd_vk_dispatch d = {
-            "particles", kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push,
+            kd_passes[KD_PASS_PARTICLES].name, kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push,
             { groups(push->count) },
         };
         status = kd_vk_dispatch(r->vk, &d, error);
@@ -59,7 +59,7 @@ static enum kd_status divide(struct kd_renderer *r, const struct kd_particles *p
     if (status)
         return status;
     const struct kd_vk_dispatch d = {
-        "particles", kernel,
+        kd_passes[KD_PASS_PARTICLES].name, kernel,
         { { p->grid, at, 0, false },
           { p->guides, expected, 0, false },
           { p->density, at, 0, true } },
@@ -110,7 +110,7 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
     if (!status)
         status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error);
     const struct kd_vk_dispatch d = {
-        "particles", kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
+        kd_passes[KD_PASS_PARTICLES].name, kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
         { groups(push.count) },
     };
     if (!status)

@@ -24,7 +24,7 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
     uint64_t device = free_bytes(info), wish = kd_memory_main(memory_bytes);
     bool narrower = memory_bytes && wish < device;
     double scale = info->type == KD_VK_CPU ? 1 : info->type == KD_VK_DISCRETE ? 0.005 : 0.05;
-    return (struct kd_capacity){
+    struct kd_capacity c = {
         .max_binding_bytes = info->max_binding_bytes,
         .max_allocation_bytes = info->max_allocation_bytes,
         .max_groups_x = info->max_groups_x,
@@ -32,14 +32,12 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
         .memory_bytes = narrower ? wish : device,
         .memory_by = narrower ? "--memory" : NULL,
         .host_memory = info->type == KD_VK_CPU || info->type == KD_VK_INTEGRATED,
-        .ns_per_ray_radius = 30 * scale,
-        .ns_per_ray_full = 150 * scale,
-        .ns_per_sample_transfer = 20 * scale,
-        .ns_per_pixel_post = 30 * scale,
-        .ns_per_particle = 40 * scale,
         .float64 = info->float64,
         .cores = kd_cores(),
     };
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        c.ns[i] = kd_figures[i].guess * scale;
+    return c;
 }
 
 /* The table that tolerances are looked up in: this device's own, if there is one and it can be read. */
@@ -184,11 +182,8 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     kd_json_end(json);
     kd_json_object(json, "ns_per_item");
     kd_json_string(json, "basis", c.measured ? "measured" : "guess");
-    kd_json_number(json, "ray_radius", c.ns_per_ray_radius);
-    kd_json_number(json, "ray_full", c.ns_per_ray_full);
-    kd_json_number(json, "sample_transfer", c.ns_per_sample_transfer);
-    kd_json_number(json, "pixel_post", c.ns_per_pixel_post);
-    kd_json_number(json, "particle", c.ns_per_particle);
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        kd_json_number(json, kd_figures[i].word, c.ns[i]);
     kd_json_end(json);
     kd_json_end(json);
     return kd_json_finish(json);

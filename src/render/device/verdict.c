@@ -33,18 +33,6 @@ static void name_of(const struct kd_renderer *r, char *out, size_t size)
              info->driver_version);
 }
 
-/* The figures of a capacity, by the names that /v1/device has for them. */
-static const struct figure { const char *name; size_t at; } figures[] = {
-    { "ray_radius", offsetof(struct kd_capacity, ns_per_ray_radius) },
-    { "ray_full", offsetof(struct kd_capacity, ns_per_ray_full) },
-    { "sample_transfer", offsetof(struct kd_capacity, ns_per_sample_transfer) },
-    { "pixel_post", offsetof(struct kd_capacity, ns_per_pixel_post) },
-    { "particle", offsetof(struct kd_capacity, ns_per_particle) },
-};
-_Static_assert(sizeof figures / sizeof *figures == KD_VERDICT_FIGURES, "those of the header");
-
-double *kd_verdict_figure(struct kd_capacity *c, int i) { return (double *)((char *)c + figures[i].at); }
-
 void kd_verdict_save(const struct kd_renderer *r, struct kd_capacity capacity)
 {
     const struct kd_verdict *s = &r->verdict;
@@ -58,8 +46,8 @@ void kd_verdict_save(const struct kd_renderer *r, struct kd_capacity capacity)
     kd_json_number(json, "checks", s->checks);
     kd_json_number(json, "seconds", s->seconds);
     kd_json_object(json, "ns_per_item");
-    for (int i = 0; i < KD_VERDICT_FIGURES && capacity.measured; i++)
-        kd_json_number(json, figures[i].name, *kd_verdict_figure(&capacity, i));
+    for (int i = 0; i < KD_FIGURE_COUNT && capacity.measured; i++)
+        kd_json_number(json, kd_figures[i].word, capacity.ns[i]);
     kd_json_end(json);
     kd_json_end(json);
     if (path && !kd_json_finish_line(json) && !kd_replace_file(path, text.data, text.size))
@@ -83,10 +71,10 @@ static void understand(struct kd_renderer *r, const char *text, size_t size)
                  cJSON_IsNumber(checks) && checks->valuedouble >= 1 && checks->valuedouble < 1e6 && cJSON_IsNumber(seconds);
     if (known)
         r->verdict = (struct kd_verdict) { KD_PASSED, false, (unsigned)checks->valuedouble, 0, seconds->valuedouble, "" };
-    for (int i = 0; i < KD_VERDICT_FIGURES && known; i++) {
-        const cJSON *ns = cJSON_GetObjectItemCaseSensitive(speed, figures[i].name);
+    for (int i = 0; i < KD_FIGURE_COUNT && known; i++) {
+        const cJSON *ns = cJSON_GetObjectItemCaseSensitive(speed, kd_figures[i].word);
         if (cJSON_IsNumber(ns) && ns->valuedouble > 1e-6 && ns->valuedouble < 1e9)
-            *kd_verdict_figure(c, i) = ns->valuedouble;
+            c->ns[i] = ns->valuedouble;
         else
             speed = NULL; /* and what follows stays a guess */
     }
@@ -115,8 +103,8 @@ void kd_verdict_keep(struct kd_renderer *r)
     struct kd_capacity capacity;
     bool changed = false;
     kd_renderer_capacity(r, &capacity);
-    for (int i = 0; i < KD_VERDICT_FIGURES; i++)
-        changed |= differs(*kd_verdict_figure(&capacity, i), *kd_verdict_figure(&r->kept, i));
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        changed |= differs(capacity.ns[i], r->kept.ns[i]);
     if (r->verdict.result == KD_PASSED && capacity.measured && changed)
         kd_verdict_save(r, capacity);
 }

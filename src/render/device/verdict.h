@@ -23,10 +23,6 @@ void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capa
 /* Keep what a pass costs by now, for the next start. Nothing where nothing is kept. */
 void kd_verdict_keep(struct kd_renderer *renderer);
 
-/* The figures of a capacity that are kept: what passes cost. */
-enum { KD_VERDICT_FIGURES = 5 };
-double *kd_verdict_figure(struct kd_capacity *capacity, int i);
-
 /* What is known of a renderer's device. Belongs to the renderer. */
 const struct kd_verdict *kd_renderer_verdict(const struct kd_renderer *renderer);
 /* "passed", "failed" or "not run". */

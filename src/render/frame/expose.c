@@ -17,7 +17,7 @@ static enum kd_status measure(struct kd_frame_job *j)
         const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         status = kd_vk_dispatch(vk,
-                                &(struct kd_vk_dispatch){ "expose",
+                                &(struct kd_vk_dispatch){ kd_passes[KD_PASS_EXPOSE].name,
                                                           expose,
                                                           { { s->radiance.buffers[band], 0, 0, false },
                                                             { s->histogram, 0, 0, true } },
@@ -26,7 +26,7 @@ static enum kd_status measure(struct kd_frame_job *j)
                                 j->error);
     }
     if (!status)
-        status = kd_vk_copy(vk, "expose", s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error);
+        status = kd_vk_copy(vk, kd_passes[KD_PASS_EXPOSE].name, s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error);
     if (!status)
         status = kd_vk_submit(vk, NULL, j->error);
     return status ? status : kd_vk_wait(vk, 0, j->error);

@@ -30,7 +30,7 @@ static enum kd_status run(struct kd_frame_job *j)
     frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (reused ? 2 : 3);
     if (j->plan->particles.count)
-        status = kd_particles_deposit(r, j->particles, j->scene, &j->plan->particles, c.ns_per_particle, j->error);
+        status = kd_particles_deposit(r, j->particles, j->scene, &j->plan->particles, c.ns[KD_NS_PARTICLE], j->error);
     if (!status)
         status = kd_frame_light(j, reused);
     if (!status && j->plan->light)

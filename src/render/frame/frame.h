@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 struct kd_timing { char name[24]; double ms; };
-#define KD_FRAME_MAX_TIMINGS 12
+#define KD_FRAME_MAX_TIMINGS 24
 
 struct kd_frame {
     uint32_t width, height;
@@ -20,7 +20,7 @@ struct kd_frame {
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
-    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* "trace", "rays", "transfer", ... (those that ran), "total" */
+    struct kd_timing timings[KD_FRAME_MAX_TIMINGS]; /* by the names of plan/pass.h, "upload", "fill", those that ran; "total" */
     size_t n_timings;
 };
 void kd_frame_finish(struct kd_frame *frame);

@@ -21,14 +21,12 @@ static double timing(const struct kd_frame *frame, const char *pass)
 void kd_frame_learn(struct kd_renderer *renderer, const struct kd_plan *plan, const struct kd_frame *frame)
 {
     struct kd_capacity *c = &renderer->capacity;
-    uint64_t pixels = (uint64_t)plan->width * plan->height;
-    const bool p = renderer->probing;
     pthread_mutex_lock(&renderer->lock);
-    if (plan->path != KD_LENS_LISTED)
-        smooth(kd_plan_is_radii(plan) ? &c->ns_per_ray_radius : &c->ns_per_ray_full, p, timing(frame, "trace"), kd_plan_rays(plan));
-    smooth(&c->ns_per_sample_transfer, p, timing(frame, "transfer"), kd_plan_rays(plan));
-    smooth(&c->ns_per_pixel_post, p, timing(frame, "post"), pixels);
-    smooth(&c->ns_per_particle, p, timing(frame, "particles"), plan->particles.count);
-    c->measured = c->measured || pixels >= 4096;
+    for (size_t i = 0; i < plan->n_passes; i++) {
+        const struct kd_plan_pass *pass = &plan->passes[i];
+        if (pass->figure != KD_NS_NONE)
+            smooth(&c->ns[pass->figure], renderer->probing, timing(frame, pass->name), pass->invocations);
+    }
+    c->measured = c->measured || (uint64_t)plan->width * plan->height >= 4096;
     pthread_mutex_unlock(&renderer->lock);
 }

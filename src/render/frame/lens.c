@@ -103,7 +103,7 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
     if (j->plan->path == KD_LENS_LISTED)
         return list_slice(j, s);
     struct kd_vk_dispatch d = {
-        "trace", pipeline, { { lens_buffer(j, s->band), 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 },
+        kd_passes[KD_PASS_TRACE].name, pipeline, { { lens_buffer(j, s->band), 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 },
     };
     return record(j, s, &d, true);
 }
@@ -112,7 +112,7 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
                                                struct kd_vk_buffer *lens, uint32_t band)
 {
     return (struct kd_vk_dispatch) {
-        "transfer",
+        kd_passes[KD_PASS_TRANSFER].name,
         pipeline,
         { { lens, 0, 0, false },
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
@@ -244,7 +244,7 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part
     enum kd_status status = upload_pixels(j, part);
     if (status || j->plan->path == KD_LENS_LISTED)
         return status ? status : list_part(j, part);
-    const struct kd_vk_dispatch d = { "trace", NULL, { { part->lens, 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 } };
+    const struct kd_vk_dispatch d = { kd_passes[KD_PASS_TRACE].name, NULL, { { part->lens, 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 } };
     return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
 }
 
@@ -295,12 +295,12 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     kd_renderer_capacity(j->r, &c);
     const struct kd_plan *p = j->plan;
     bool needed = !reused && p->planes;
-    double ns = c.ns_per_sample_transfer + (needed ? p->trace_ns : 0);
+    double ns = c.ns[KD_NS_SAMPLE_TRANSFER] + (needed ? p->trace_ns : 0);
     enum kd_status status = needed ? forget_undecided(j) : KD_OK;
     for (uint32_t band = 0; band < p->bands && !status; band++)
         status = light_band(j, band, needed, ns);
     if (!status && p->critical)
-        status = light_at_curve(j, needed, c.ns_per_sample_transfer);
+        status = light_at_curve(j, needed, c.ns[KD_NS_SAMPLE_TRANSFER]);
     return status;
 }
 
@@ -379,7 +379,7 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     struct kd_vk_time times[KD_VK_MAX_PASSES];
     size_t n = kd_vk_times(renderer->vk, times);
     for (size_t i = 0; i < n && trace_ms; i++)
-        if (!strcmp(times[i].pass, "trace"))
+        if (!strcmp(times[i].pass, kd_passes[KD_PASS_TRACE].name))
             *trace_ms = times[i].ms;
     return status;
 }

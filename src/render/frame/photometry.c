@@ -26,13 +26,13 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             .step_ = (float)(finite ? kd_camera_pixel(j->scene) : 0),
         };
         const struct kd_vk_dispatch d = {
-            "light", light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } }, &push,
+            kd_passes[KD_PASS_LIGHT].name, light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } }, &push,
             { per_band }, /* of the last, smaller band too: they write zeros */
         };
         status = kd_vk_dispatch(j->r->vk, &d, j->error);
     }
     if (!status)
-        status = kd_vk_copy(j->r->vk, "light", j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error);
+        status = kd_vk_copy(j->r->vk, kd_passes[KD_PASS_LIGHT].name, j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error);
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
 }
 

@@ -32,7 +32,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
             .pixels_x = frame->width,
         };
         status = kd_vk_dispatch(vk,
-                                &(struct kd_vk_dispatch){ "post",
+                                &(struct kd_vk_dispatch){ kd_passes[KD_PASS_POST].name,
                                                           post,
                                                           { { s->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false },
                                                             { s->words, 0, 0, true } },
@@ -40,7 +40,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
                                                           { kd_post_groups(pixels) } },
                                 j->error);
         if (!status)
-            status = kd_vk_copy(vk, "readback", s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);
+            status = kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);
         if (!status)
             status = kd_vk_submit(vk, NULL, j->error);
         if (!status)

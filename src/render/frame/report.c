@@ -59,10 +59,11 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
 }
 
+_Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 3, "those of the device; listed rays and audit on the host; the total");
+_Static_assert(KD_VK_MAX_PASSES >= KD_PASS_COUNT + 4, "all passes, copies, fills, what is of no pass");
+
 static void add_timing(struct kd_frame *frame, const char *name, double ms)
 {
-    if (frame->n_timings >= KD_FRAME_MAX_TIMINGS)
-        return;
     struct kd_timing *t = &frame->timings[frame->n_timings++];
     snprintf(t->name, sizeof t->name, "%s", name);
     t->ms = ms;
@@ -72,9 +73,9 @@ void kd_frame_collect_timings(struct kd_frame_job *j, struct kd_frame *frame, do
 {
     keep_times(j);
     if (j->listed_ms > 0)
-        add_timing(frame, "trace", j->listed_ms);
+        add_timing(frame, kd_passes[KD_PASS_TRACE].name, j->listed_ms);
     if (j->audit_ms > 0)
-        add_timing(frame, "audit", j->audit_ms);
+        add_timing(frame, kd_passes[KD_PASS_AUDIT].name, j->audit_ms);
     for (size_t i = 0; i < j->n_times; i++)
         add_timing(frame, j->times[i].pass, j->times[i].ms);
     add_timing(frame, "total", total_ms);

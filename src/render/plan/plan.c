@@ -81,61 +81,18 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     return status;
 }
 
-static void add_pass(struct kd_plan *plan, const char *name, const char *kernel, uint64_t n, double ns)
-{
-    plan->passes[plan->n_passes++] = (struct kd_plan_pass){ name, kernel, n, (double)n * ns * 1e-6 };
-    plan->estimate_ms += (double)n * ns * 1e-6;
-}
-
-static const char *kernel_of(const struct kd_plan *plan)
-{
-    switch (plan->path) {
-    case KD_LENS_CLOSED: return "lens_closed.comp";
-    case KD_LENS_MAP: return "lens_map.comp";
-    case KD_LENS_LISTED: break;
-    }
-    return plan->setting.engine == KD_ENGINE_CLOSED      ? ""
-           : plan->setting.engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp"
-                                                         : "rays.comp";
-}
-
-#define NS_PER_AUDIT 4000.0 /* the closed form in double, on the CPU, of three orders; the audit runs on one thread */
-#define NS_PER_CLOSED 3000.0
-
-/* What is made of listed rays is estimated from the table; what it does not know, from the steps. */
-static double ns_per_ray(const struct kd_plan *plan, const struct kd_capacity *c)
-{
-    const struct kd_setting *by = &plan->setting;
-    if (plan->path != KD_LENS_LISTED)
-        return kd_plan_is_radii(plan) ? c->ns_per_ray_radius : c->ns_per_ray_full;
-    if (by->engine == KD_ENGINE_CLOSED)
-        return NS_PER_CLOSED / (c->cores ? c->cores : 1);
-    for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
-        const struct kd_accuracy_row *row = &c->accuracy->rows[i];
-        double rate = row->sets[KD_ACCURACY_BULK].rays_per_s;
-        if (row->engine == by->engine && row->precision == by->precision && row->steps == by->steps && rate > 0)
-            return 1e9 / rate;
-    }
-    return c->ns_per_ray_full * by->steps * (by->engine >= KD_ENGINE_KS_EULER ? 10 : 0.5);
-}
-
 static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
-    uint64_t pixels = (uint64_t)plan->width * plan->height;
-    plan->trace_ns = ns_per_ray(plan, c);
-    if (plan->planes)
-        add_pass(plan, "trace", kernel_of(plan), kd_plan_rays(plan), plan->trace_ns);
-    if (plan->audit)
-        add_pass(plan, "audit", "", plan->audit, NS_PER_AUDIT);
-    if (plan->particles.count)
-        add_pass(plan, "particles", "particles.comp", plan->particles.count, c->ns_per_particle);
-    add_pass(plan, "transfer", "transfer.comp", kd_plan_rays(plan), c->ns_per_sample_transfer);
-    if (plan->light)
-        add_pass(plan, "light", "photometry.comp", pixels, 1.5 * c->ns_per_pixel_post);
-    if (isinf(scene->style.exposure))
-        add_pass(plan, "expose", "expose.comp", pixels, 0.25 * c->ns_per_pixel_post);
-    add_pass(plan, "post", "post.comp", pixels, c->ns_per_pixel_post);
-    add_pass(plan, "readback", "", pixels, 0.1 * c->ns_per_pixel_post);
+    plan->trace_ns = kd_pass_cost(&kd_passes[KD_PASS_TRACE], plan, c).ns;
+    for (int i = 0; i < KD_PASS_COUNT; i++) {
+        const struct kd_pass_cost cost = kd_pass_cost(&kd_passes[i], plan, c);
+        uint64_t n = kd_passes[i].invocations(plan, scene);
+        if (!n)
+            continue;
+        double ms = (double)n * cost.ns * 1e-6;
+        plan->passes[plan->n_passes++] = (struct kd_plan_pass) { kd_passes[i].name, cost.kernel, n, ms, cost.figure };
+        plan->estimate_ms += ms;
+    }
 }
 
 double kd_plan_exposure(const struct kd_plan *plan, double stops)

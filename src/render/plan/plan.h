@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "render/accuracy/engine.h"
 #include "render/emit/particles.h"
+#include "render/plan/pass.h"
 #include "scene/scene.h"
 #include "lens.h"
 
@@ -14,7 +15,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_PLAN_MAX_PASSES 10
 #define KD_PLAN_EMITTERS 16 /* at least those of shaders/shared/emitters.h, which those who include this need not see */
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
 #define KD_PLAN_MAX_APPROXIMATIONS 64 /* a test compares it with all there are */
@@ -27,7 +27,7 @@ struct kd_capacity {
     uint64_t host_bytes;                      /* else of pixels on the host; 0: not known */
     uint64_t max_allocation_bytes;            /* of one buffer; 0: 2^30, the least that Vulkan 1.2 has */
     uint32_t max_groups_x, max_groups_y;      /* workgroups of one dispatch; 0: 65535, the least that Vulkan has */
-    double ns_per_ray_radius, ns_per_ray_full, ns_per_sample_transfer, ns_per_pixel_post, ns_per_particle;
+    double ns[KD_FIGURE_COUNT]; /* what an item costs, KD_NS_... of pass.h */
     bool measured; /* false: the figures are a default guess for this type of device */
     bool float64;  /* the device has double precision */
     unsigned cores; /* of the host, that the closed form in double runs on */
@@ -36,10 +36,10 @@ struct kd_capacity {
 };
 
 struct kd_plan_pass {
-    const char *name;   /* "trace", "audit", "particles", "transfer", "light", "expose", "post", "readback" */
-    const char *kernel; /* file under shaders/comp, "" for a copy and for the CPU */
+    const char *name, *kernel; /* as in pass.h */
     uint64_t invocations;
     double estimate_ms;
+    enum kd_figure_id figure;  /* that its time is learned as, KD_NS_NONE: none */
 };
 
 struct kd_plan {
@@ -66,7 +66,7 @@ struct kd_plan {
     bool cacheable;                 /* the whole lens map fits in memory and can be kept */
     uint32_t audit;                 /* rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
     uint64_t lens_bytes, device_bytes, host_bytes;
-    struct kd_plan_pass passes[KD_PLAN_MAX_PASSES];
+    struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
     double estimate_ms, trace_ns;     /* of all; of one ray */
     /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this share of the way

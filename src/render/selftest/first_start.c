@@ -32,8 +32,8 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
     enum kd_status status = KD_OK;
     struct kd_capacity *c = &r->capacity;
     const struct kd_capacity guess = *c;
-    for (int i = 0; i < KD_VERDICT_FIGURES; i++)
-        *kd_verdict_figure(c, i) = INFINITY;
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        c->ns[i] = INFINITY;
     r->probing = true;
     for (int k = 0; k < 8 && !status; k++) {
         struct kd_scene scene;
@@ -49,8 +49,8 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         kd_frame_finish(&frame);
     }
     r->probing = false;
-    for (int i = 0; i < KD_VERDICT_FIGURES; i++) /* that of particles, and all without timestamps */
-        *kd_verdict_figure(c, i) = isfinite(*kd_verdict_figure(c, i)) ? *kd_verdict_figure(c, i) : *kd_verdict_figure((struct kd_capacity *)&guess, i);
+    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* that of particles, and all without timestamps */
+        c->ns[i] = isfinite(c->ns[i]) ? c->ns[i] : guess.ns[i];
     return status;
 }
 

@@ -50,7 +50,7 @@ static enum kd_status draw_by_rows(const struct kd_selftest *test, const struct 
     struct kd_renderer *r = test->renderer;
     pthread_mutex_lock(&r->lock);
     struct kd_capacity kept = r->capacity;
-    r->capacity.ns_per_ray_full = r->capacity.ns_per_ray_radius = r->capacity.ns_per_sample_transfer = 1e9;
+    r->capacity.ns[KD_NS_RAY_FULL] = r->capacity.ns[KD_NS_RAY_RADIUS] = r->capacity.ns[KD_NS_SAMPLE_TRANSFER] = 1e9;
     pthread_mutex_unlock(&r->lock);
     enum kd_status status = draw(test, capacity, out, NULL);
     pthread_mutex_lock(&r->lock);

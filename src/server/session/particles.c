@@ -147,7 +147,7 @@ static enum MHD_Result submit(struct kd_request *request)
         .claim.class = KD_CLASS_RAYS, .run = list_slice, .socket = kd_connection_socket(request->connection), .done = done,
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
-    job->device.plan.estimate_ms = (double)job->list.n * capacity.ns_per_particle * 1e-6;
+    job->device.plan.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
     /* First: it may be done before push returns. Suspended, the request and its socket outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);

@@ -118,12 +118,9 @@ void kd_session_drop(struct kd_session *s)
 
 static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
 {
-    if (!strcmp(pass, "trace") || !strcmp(pass, "transfer"))
-        cost->rays_ms += ms;
-    else if (!strcmp(pass, "light") || !strcmp(pass, "expose") || !strcmp(pass, "post") || !strcmp(pass, "readback"))
-        cost->pixels_ms += ms;
-    else if (!strcmp(pass, "audit") || !strcmp(pass, "particles"))
-        cost->fixed_ms += ms;
+    const struct kd_pass *known = kd_pass_find(pass);
+    if (known)
+        *(known->scale == KD_SCALE_RAYS ? &cost->rays_ms : known->scale == KD_SCALE_PIXELS ? &cost->pixels_ms : &cost->fixed_ms) += ms;
     else if (!strcmp(pass, "total"))
         cost->total_ms = ms;
 }
@@ -150,7 +147,7 @@ void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
     for (size_t i = 0; i < plan->n_passes; i++) {
         const struct kd_plan_pass *pass = &plan->passes[i];
         add_cost(&traced, pass->name, pass->estimate_ms);
-        if (!strcmp(pass->name, "trace") || !strcmp(pass->name, "audit"))
+        if (kd_pass_find(pass->name)->when == KD_EACH_MAP)
             reused.total_ms -= pass->estimate_ms;
         else
             add_cost(&reused, pass->name, pass->estimate_ms);

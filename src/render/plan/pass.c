@@ -1,0 +1,78 @@
+#include "render/plan/pass.h"
+
+#include "render/accuracy/table.h"
+#include "render/plan/plan.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The closed form in double, on one thread of the CPU: of three orders, as the audit has it. */
+#define NS_PER_AUDIT 4000.0
+#define NS_PER_CLOSED 3000.0
+
+/* What is made of listed rays is estimated from the table; what it does not know, from the steps. */
+static double ns_listed(const struct kd_setting *by, const struct kd_capacity *c)
+{
+    for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
+        const struct kd_accuracy_row *row = &c->accuracy->rows[i];
+        double rate = row->sets[KD_ACCURACY_BULK].rays_per_s;
+        if (row->engine == by->engine && row->precision == by->precision && row->steps == by->steps && rate > 0)
+            return 1e9 / rate;
+    }
+    return c->ns[KD_NS_RAY_FULL] * by->steps * (by->engine >= KD_ENGINE_KS_EULER ? 10 : 0.5);
+}
+
+static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    const struct kd_setting *by = &plan->setting;
+    const enum kd_figure_id figure = kd_plan_is_radii(plan) ? KD_NS_RAY_RADIUS : KD_NS_RAY_FULL;
+    switch (plan->path) {
+    case KD_LENS_CLOSED: return (struct kd_pass_cost) { "lens_closed.comp", c->ns[figure], figure };
+    case KD_LENS_MAP: return (struct kd_pass_cost) { "lens_map.comp", c->ns[figure], figure };
+    case KD_LENS_LISTED: break;
+    }
+    if (by->engine == KD_ENGINE_CLOSED)
+        return (struct kd_pass_cost) { "", NS_PER_CLOSED / (c->cores ? c->cores : 1), KD_NS_NONE };
+    return (struct kd_pass_cost) { by->engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp" : "rays.comp", ns_listed(by, c), KD_NS_NONE };
+}
+
+static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    (void)plan, (void)c;
+    return (struct kd_pass_cost) { "", NS_PER_AUDIT, KD_NS_NONE };
+}
+
+#define INVOCATIONS(name, n)                                                                                                     \
+    static uint64_t name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, n; }
+INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
+INVOCATIONS(audited, plan->audit)
+INVOCATIONS(particles, plan->particles.count)
+INVOCATIONS(lit, kd_plan_rays(plan))
+INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
+INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
+INVOCATIONS(exposed, isinf(scene->style.exposure) ? pixels(plan, scene) : 0)
+
+#define FIGURE(id, word, guess) [KD_NS_##id] = { word, guess },
+const struct kd_figure kd_figures[KD_FIGURE_COUNT] = { KD_FIGURES(FIGURE) };
+
+#define WHOLE(of, by_figure) .kernel = of, .figure = KD_NS_##by_figure, .share = 1, .whole = true
+#define PART(of, by_figure, part) .kernel = of, .figure = KD_NS_##by_figure, .share = part
+#define BY(function) .by = function
+#define PASS(id, called, n, cost, grows_with, each)                                                                              \
+    [KD_PASS_##id] = { .name = called, .invocations = n, cost, .scale = KD_SCALE_##grows_with, .when = KD_EACH_##each },
+const struct kd_pass kd_passes[KD_PASS_COUNT] = { KD_PASSES(PASS) };
+
+const struct kd_pass *kd_pass_find(const char *name)
+{
+    for (int i = 0; i < KD_PASS_COUNT; i++)
+        if (!strcmp(kd_passes[i].name, name))
+            return &kd_passes[i];
+    return NULL;
+}
+
+struct kd_pass_cost kd_pass_cost(const struct kd_pass *pass, const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    if (pass->by)
+        return pass->by(plan, c);
+    return (struct kd_pass_cost) { pass->kernel, pass->share * c->ns[pass->figure], pass->whole ? pass->figure : KD_NS_NONE };
+}

@@ -1,0 +1,110 @@
+/* A frame runs the passes of its plan, under their names, and no other; and what they take is what the next plan estimates. */
+#include "render_support.h"
+
+#include "render/device/internal.h"
+#include "render/frame/frame.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const scenes[] = {
+    "{\"image\": {\"width\": 96, \"height\": 64}}",
+    "{\"image\": {\"width\": 96, \"height\": 64}, \"sky\": {\"model\": \"grid\"}, \"style\": {\"exposure\": 0}}",
+    "{\"image\": {\"width\": 96, \"height\": 64}, \"disk\": {\"model\": \"particles\", \"particles\": 100000}}",
+    "{\"image\": {\"width\": 96, \"height\": 64}, \"spots\": [{\"brightness\": 1}]}",
+    "{\"image\": {\"width\": 96, \"height\": 64}, \"camera\": {\"r\": 3}}",
+    "{\"image\": {\"width\": 96, \"height\": 64}, \"accuracy\": {\"engine\": \"ks-rk4\"}}",
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+static struct kd_frame drawn(const char *json, struct kd_plan *plan)
+{
+    struct kd_scene scene;
+    struct kd_capacity c;
+    struct kd_frame frame = { 0 };
+    struct kd_error error = { 0 };
+    kd_scene_defaults(&scene);
+    kd_renderer_capacity(renderer, &c);
+    if (kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error) ||
+        kd_plan_make(&scene, &c, plan, &error) || kd_render(renderer, &scene, plan, NULL, NULL, &frame, &error))
+        fail_msg("%s: %s", json, error.message);
+    return frame;
+}
+
+static double timing(const struct kd_frame *frame, const char *name)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, name))
+            return frame->timings[i].ms;
+    return 0;
+}
+
+static bool planned(const struct kd_plan *plan, const char *name)
+{
+    for (size_t i = 0; i < plan->n_passes; i++)
+        if (!strcmp(plan->passes[i].name, name))
+            return true;
+    /* "rays": the device's share of a "trace" by listed rays */
+    return !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") || !strcmp(name, "total");
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SCENES; k++) {
+        struct kd_plan plan;
+        struct kd_frame frame = drawn(scenes[k], &plan);
+        for (size_t i = 0; i < plan.n_passes; i++)
+            if (timing(&frame, plan.passes[i].name) <= 0)
+                fail_msg("%s: the pass \"%s\" is planned and did not run", scenes[k], plan.passes[i].name);
+        for (size_t i = 0; i < frame.n_timings; i++)
+            if (!planned(&plan, frame.timings[i].name))
+                fail_msg("%s: \"%s\" ran and is not planned", scenes[k], frame.timings[i].name);
+        kd_frame_finish(&frame);
+        frame = drawn(scenes[k], &plan); /* with the lens map that is kept */
+        assert_true(frame.lens_reused);
+        for (int i = 0; i < KD_PASS_COUNT; i++)
+            if (kd_passes[i].when == KD_EACH_MAP)
+                assert_true(timing(&frame, kd_passes[i].name) == 0);
+        kd_frame_finish(&frame);
+    }
+}
+
+/* Fifteen frames draw a figure that is far off to what their passes take; one that no pass of theirs is measured by stays. */
+static void test_learned(void **state)
+{
+    (void)state;
+    static const char *const scene = "{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"particles\", \"particles\": 100000}}";
+    struct kd_plan plan;
+    struct kd_frame frame;
+    bool learns[KD_FIGURE_COUNT + 1] = { false };
+    double last[KD_FIGURE_COUNT] = { 0 };
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        renderer->capacity.ns[i] = 1e5;
+    for (int k = 0; k < 15; k++) {
+        renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] = renderer->store.maps[3].key[0] = 0;
+        frame = drawn(scene, &plan);
+        for (size_t i = 0; i < plan.n_passes; i++) {
+            learns[plan.passes[i].figure] = true;
+            if (plan.passes[i].figure != KD_NS_NONE)
+                last[plan.passes[i].figure] = timing(&frame, plan.passes[i].name) * 1e6 / (double)plan.passes[i].invocations;
+        }
+        kd_frame_finish(&frame);
+    }
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        if (learns[i] ? !(renderer->capacity.ns[i] < 1e4 && renderer->capacity.ns[i] > 0.1 * last[i]) : renderer->capacity.ns[i] != 1e5)
+            fail_msg("\"%s\" is %g ns, the last frame took %g", kd_figures[i].word, renderer->capacity.ns[i], last[i]);
+    assert_true(learns[KD_NS_RAY_FULL] && learns[KD_NS_SAMPLE_TRANSFER] && learns[KD_NS_PIXEL_POST] && learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
+}
+
+int main(void)
+{
+    int status = open_renderer();
+    if (status)
+        return status;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_learned),
+    };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}

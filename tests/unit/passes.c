@@ -1,0 +1,121 @@
+/* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is measured by. */
+#include "render/accuracy/table.h"
+#include "render/frame/frame.h"
+#include "render/plan/plan.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct kd_capacity device(void)
+{
+    struct kd_capacity c = { .max_binding_bytes = 128u << 20, .memory_bytes = 1u << 30, .accuracy = kd_accuracy_built_in() };
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        c.ns[i] = 10 * (i + 1);
+    return c;
+}
+
+static struct kd_plan planned(const char *json, const struct kd_capacity *c)
+{
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_error error = { 0 };
+    kd_scene_defaults(&scene);
+    if (kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error) || kd_plan_make(&scene, c, &plan, &error))
+        fail_msg("%s: %s", json, error.message);
+    return plan;
+}
+
+/* A scene for each pass and each figure: who adds one adds a scene that has it. */
+static const char *const scenes[] = {
+    "{}",
+    "{\"sky\": {\"model\": \"grid\"}}",
+    "{\"disk\": {\"model\": \"particles\"}}",
+    "{\"spots\": [{\"brightness\": 1}]}",
+    "{\"accuracy\": {\"engine\": \"mino-rkn6\", \"precision\": \"f32\", \"steps\": 8}}",
+    "{\"accuracy\": {\"engine\": \"closed\", \"precision\": \"f64\"}}",
+    "{\"style\": {\"exposure\": 0}}",
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+static void names_are_names(void **state)
+{
+    (void)state;
+    for (int i = 0; i < KD_PASS_COUNT; i++) {
+        assert_true(*kd_passes[i].name && strlen(kd_passes[i].name) < sizeof ((struct kd_timing *)0)->name);
+        assert_ptr_equal(kd_pass_find(kd_passes[i].name), &kd_passes[i]); /* once each */
+        assert_non_null(kd_passes[i].invocations);
+    }
+    assert_null(kd_pass_find("total"));
+}
+
+/* Names that whoever reads GET /v1/device, or an older file of the cache, relies on. */
+static void words_stay(void **state)
+{
+    (void)state;
+    const char *const relied_on[] = { "ray_radius", "ray_full", "sample_transfer", "pixel_post", "particle" };
+    for (size_t i = 0; i < sizeof relied_on / sizeof *relied_on; i++)
+        assert_string_equal(kd_figures[i].word, relied_on[i]);
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        assert_true(kd_figures[i].guess > 0);
+}
+
+static void each_is_in_a_plan_and_each_figure_learned(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = device();
+    bool seen[KD_PASS_COUNT] = { false }, learned[KD_FIGURE_COUNT + 1] = { false };
+    for (int k = 0; k < SCENES; k++) {
+        const struct kd_plan plan = planned(scenes[k], &c);
+        double sum = 0;
+        int last = -1;
+        for (size_t i = 0; i < plan.n_passes; i++) {
+            const struct kd_plan_pass *pass = &plan.passes[i];
+            const struct kd_pass *of = kd_pass_find(pass->name);
+            assert_non_null(of);
+            assert_true(of - kd_passes > last && pass->invocations > 0 && pass->estimate_ms > 0 && pass->kernel);
+            last = (int)(of - kd_passes);
+            sum += pass->estimate_ms;
+            seen[last] = learned[pass->figure] = true;
+        }
+        assert_true(fabs(sum - plan.estimate_ms) < 1e-9 * sum);
+    }
+    for (int i = 0; i < KD_PASS_COUNT; i++)
+        if (!seen[i])
+            fail_msg("no scene has the pass \"%s\"", kd_passes[i].name);
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
+        if (!learned[i])
+            fail_msg("no pass is measured for \"%s\"", kd_figures[i].word);
+}
+
+/* By hand, of the passes that a plan has by default: what is learned from a frame is what the next plan estimates. */
+static void estimates_are_figures(void **state)
+{
+    (void)state;
+    const struct kd_capacity c = device();
+    const struct kd_plan plan = planned("{\"image\": {\"width\": 100, \"height\": 50, \"critical_factor\": 1}}", &c);
+    const struct { const char *name; double ms; } expected[] = {
+        { "trace", 5000 * 10e-6 }, { "audit", 768 * 4e-3 },      { "transfer", 5000 * 30e-6 }, { "expose", 5000 * 0.25 * 40e-6 },
+        { "post", 5000 * 40e-6 },  { "readback", 5000 * 4e-6 },
+    };
+    assert_int_equal(plan.n_passes, sizeof expected / sizeof *expected);
+    for (size_t i = 0; i < plan.n_passes; i++) {
+        assert_string_equal(plan.passes[i].name, expected[i].name);
+        assert_true(fabs(plan.passes[i].estimate_ms - expected[i].ms) < 1e-9);
+    }
+    assert_true(plan.trace_ns == 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_names),
+        cmocka_unit_test(words_stay),
+        cmocka_unit_test(each_is_in_a_plan_and_each_figure_learned),
+        cmocka_unit_test(estimates_are_figures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
