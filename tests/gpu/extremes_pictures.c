@@ -72,6 +72,10 @@ static const struct picture pictures[] = {
     { "a 0.9, at the photon orbit",
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":1.5578546274,\"observer\":\"zamo\",\"yaw_deg\":90,\"inclination_deg\":90,"
       "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, which g of an orbit there is divided by, vanishes in 32 bits in some thirty pixels. */
+    { "inside the orbit of light, E = Omega L",
+      "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,\"field_m\":5e-5},"
+      "\"image\":{\"width\":96,\"height\":96}}", false, 0 },
     { "1e7 M away, a millionth of a degree",
       "{\"camera\":{\"r\":1e7,\"fov_deg\":1e-6},\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       false, 0 },

@@ -4,8 +4,10 @@
 scripts.py SCRIPTS BUILD
 """
 import pathlib
+import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 BUILD = sys.argv.pop()
@@ -42,6 +44,17 @@ class Scripts(unittest.TestCase):
                 code, text = run(*command)
                 self.assertEqual((code, text.count('\n')), (2, 1), text)
                 self.assertTrue(text.startswith(f'scripts/{command[0]}: '), text)
+
+    def test_help_needs_nothing(self):
+        """Not even scripts/setup, which is not there."""
+        with tempfile.TemporaryDirectory() as alone:
+            script = shutil.copy(SCRIPTS / 'test', alone)
+            for options in (['--help'], ['-h'], ['--clang', '--help']):
+                done = subprocess.run([script, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual((done.returncode, done.stderr), (0, ''))
+                self.assertTrue(done.stdout.startswith('Set up, run every test'), done.stdout)
+                self.assertIn('scripts/test --help ', done.stdout)
+                self.assertNotIn('pipefail', done.stdout)
 
     def test_they_are_shell(self):
         for script in ('setup', 'test', 'serve', 'matrix', 'chroot', 'cross'):
