@@ -20,10 +20,11 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_EMIT_CODE
 #include "shared/emitters.h"
 
-/* Whether anything is to be seen at crossings. */
+/* Whether anything is to be seen at crossings, and whether the luminance of some of it is kept apart. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
 const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
+const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
 
 /* All emitters of a place are in it together: none hides another's light. */
 void kd_beam_at(inout kd_beam beam, kd_sample s)

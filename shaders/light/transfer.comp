@@ -94,6 +94,6 @@ void main()
     radiance[3 * o] = share * sum.r;
     radiance[3 * o + 1] = share * sum.g;
     radiance[3 * o + 2] = share * sum.b;
-    if (APART) /* behind the band's pixels */
+    if (KD_APART) /* behind the band's pixels */
         radiance[3 * emission.frame.band_pixels + o] = share * apart;
 }

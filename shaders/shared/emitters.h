@@ -25,8 +25,10 @@
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B)
 #define KD_EMIT_TABLES(T) KD_TABLES_colour(T) KD_TABLES_disk(T) KD_TABLES_plunge(T)
 
-/* The first bit of each word: the scene has it. */
+/* Bits that each word has: the scene has the emitter; its luminance is kept apart as well, so that its flux and centroid are measured by
+ * themselves. There is room for that of one. */
 #define KD_TRAIT_PRESENT 1u
+#define KD_TRAIT_APART 32u
 
 #endif
 #include "emit/frame.glsl"

@@ -12,11 +12,11 @@
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) B(4, FINITE, false)                     \
     U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0)
 
-/* SIDE: rays along each side of a pixel; APART: luminance is kept apart as well. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
+/* SIDE: rays along each side of a pixel. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) B(3, FINITE, false)                                      \
-    U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) B(7, APART, false)
-#define KD_SPEC_TRAITS 8
+    U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0)
+#define KD_SPEC_TRAITS 7
 
 /* Of rays.comp and rays_kerr_schild.comp: METHOD is a Nystroem order, or one of Kerr-Schild's. */
 #define KD_SPEC_RAYS(U, B) U(0, ORDERS, 3) U(1, STEPS, 16) U(2, METHOD, 6)
@@ -24,8 +24,8 @@
 /* SWING: there are epicycles; LIST: places instead of a deposit; PLUNGE: those at hand fall, of a list those with low numbers. */
 #define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
 
-/* SPOTS: some light is kept apart as well; FINITE: solid angles from a near observer. */
-#define KD_SPEC_PHOTOMETRY(U, B) B(0, SPOTS, false) B(1, FINITE, false)
+/* APART: the luminance of some emitter is kept apart as well; FINITE: solid angles from a near observer. */
+#define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false)
 
 /* ACES: the film-like curve; WIDE: 16 bits a channel. */
 #define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false)

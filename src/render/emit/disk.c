@@ -18,11 +18,6 @@ static uint32_t needs(const struct kd_scene *scene)
     return KD_LENS_W;
 }
 
-uint32_t kd_orbit_traits(const struct kd_scene *scene)
-{
-    return (scene->disk.doppler ? KD_TRAIT_DOPPLER : 0) | (scene->disk.redshift ? KD_TRAIT_REDSHIFT : 0);
-}
-
 uint32_t kd_disk_traits(const struct kd_scene *scene)
 {
     return kd_orbit_traits(scene) | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0);

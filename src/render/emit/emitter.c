@@ -29,12 +29,20 @@ uint32_t kd_emit_needs(const struct kd_scene *scene)
     return needs;
 }
 
+bool kd_emit_at_crossings(const struct kd_scene *scene)
+{
+#define OR_PRESENT(number, name) || kd_emit_##name.present(scene)
+#define ELSEWHERE(number, name)
+    return false KD_EMITTERS(OR_PRESENT, ELSEWHERE, ELSEWHERE, ELSEWHERE);
+}
+
 bool kd_emit_apart(const struct kd_scene *scene)
 {
+    uint32_t traits[KD_EMITTER_COUNT], all = 0;
+    kd_emit_traits(scene, traits);
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->apart && kd_emitters[i]->present(scene))
-            return true;
-    return false;
+        all |= traits[i];
+    return all & KD_TRAIT_APART;
 }
 
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),

@@ -38,7 +38,6 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies; NULL: never */
-    bool apart;                                       /* its flux and centroid are measured by themselves: as those of the spots, of which alone there is room */
     /* Numbers; and tables, which may take milliseconds. Called anew when a part of the scene that they depend on has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
@@ -57,8 +56,9 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
 /* Words of the specialisation constants, 0 for what the scene has not. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* What the lens map must hold, and whether some light is kept apart. */
+/* What the lens map must hold; whether anything shines at crossings of the plane; whether the luminance of some of it is kept apart. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
+bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
 /* Call take(user, text) for each approximation that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),
@@ -79,8 +79,10 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
 extern const struct kd_emitter kd_emit_disk;
 /* For those that shine by the smooth disk's numbers and tables. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
-/* Doppler and redshift of gas on orbits, as KD_TRAIT_... */
+/* For those that go round: Doppler shift and redshift as KD_TRAIT_..., needs, and how they vary. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
+uint32_t kd_orbit_needs(const struct kd_scene *scene);
+unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* Largest effective temperature of the disk in K, in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
 /* Colours of black bodies; how luminous they are. Of no scene; 15 ms each. */

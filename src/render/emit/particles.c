@@ -288,17 +288,6 @@ static uint32_t traits(const struct kd_scene *scene)
     return kd_disk_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0);
 }
 
-static uint32_t needs(const struct kd_scene *scene)
-{
-    return KD_LENS_W | KD_LENS_PHI | (scene->disk.slow_light ? KD_LENS_DELAY : 0);
-}
-
-static unsigned varies(const struct kd_scene *scene)
-{
-    (void)scene;
-    return KD_MOVES_WITH_TIME | KD_MOVES_WITH_AZIMUTH;
-}
-
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_particle_grid grid = kd_particle_grid(scene);
@@ -323,8 +312,8 @@ const struct kd_emitter kd_emit_particles = {
     .name = "particles",
     .present = present,
     .traits = traits,
-    .needs = needs,
-    .varies = varies,
+    .needs = kd_orbit_needs,
+    .varies = kd_orbit_varies,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(accuracy) },
     .sentences = sentences,

@@ -12,16 +12,7 @@ static bool present(const struct kd_scene *scene)
     return scene->disk.plunging_temperature > 0 && kd_plunging_is_on(scene) && kd_particle_grid(scene).plunging > 0;
 }
 
-static uint32_t needs(const struct kd_scene *scene)
-{
-    return KD_LENS_W | KD_LENS_PHI | KD_LENS_SLOPE | (scene->disk.slow_light ? KD_LENS_DELAY : 0);
-}
-
-static unsigned varies(const struct kd_scene *scene)
-{
-    (void)scene;
-    return KD_MOVES_WITH_TIME | KD_MOVES_WITH_AZIMUTH;
-}
+static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scene) | KD_LENS_SLOPE; }
 
 /* Both t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the other. */
 struct range { double first, last; };
@@ -77,7 +68,7 @@ const struct kd_emitter kd_emit_plunge = {
     .present = present,
     .traits = kd_disk_traits,
     .needs = needs,
-    .varies = varies,
+    .varies = kd_orbit_varies,
     .fill = fill,
     .tables = tables,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(accuracy) },

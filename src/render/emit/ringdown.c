@@ -10,8 +10,7 @@
 
 static bool present(const struct kd_scene *scene)
 {
-    return scene->style.ringdown > 0 && (kd_emitters[KD_EMITTER_disk]->present(scene) || kd_emitters[KD_EMITTER_particles]->present(scene) ||
-                                         kd_emitters[KD_EMITTER_spots]->present(scene));
+    return scene->style.ringdown > 0 && kd_emit_at_crossings(scene);
 }
 
 /* Whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a step, then. */

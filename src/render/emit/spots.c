@@ -20,19 +20,8 @@ static bool present(const struct kd_scene *scene)
 static uint32_t traits(const struct kd_scene *scene)
 {
     const struct kd_spot *on[KD_SPOTS];
-    return kd_orbit_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
+    return kd_orbit_traits(scene) | KD_TRAIT_APART | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) |
            (uint32_t)kd_scene_spots(scene, on) << KD_TRAIT_SPOTS_SHIFT;
-}
-
-static uint32_t needs(const struct kd_scene *scene)
-{
-    return KD_LENS_W | KD_LENS_PHI | (scene->disk.slow_light ? KD_LENS_DELAY : 0);
-}
-
-static unsigned varies(const struct kd_scene *scene)
-{
-    (void)scene;
-    return KD_MOVES_WITH_TIME | KD_MOVES_WITH_AZIMUTH;
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -73,9 +62,8 @@ const struct kd_emitter kd_emit_spots = {
     .name = "spots",
     .present = present,
     .traits = traits,
-    .needs = needs,
-    .varies = varies,
-    .apart = true,
+    .needs = kd_orbit_needs,
+    .varies = kd_orbit_varies,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(top) },
     .sentences = sentences,

@@ -54,7 +54,7 @@ static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_cr
     const struct kd_plan *p = j->plan;
     struct kd_spec_transfer spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .FINITE = !isinf(j->scene->camera.r),
-        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift, .APART = p->apart,
+        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
     };
     memcpy(spec.traits, p->traits, sizeof spec.traits);
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, &spec.QUANTITIES, sizeof spec / 4, out, j->error);

@@ -12,9 +12,9 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
     const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
-    const struct kd_spec_photometry spec = { .SPOTS = p->apart, .FINITE = finite };
+    const struct kd_spec_photometry spec = { .APART = p->apart, .FINITE = finite };
     const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.SPOTS, sizeof spec / 4, &light, j->error);
+    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error);
     for (uint32_t band = 0; band < p->bands && !status; band++) {
         const struct kd_light_push push = {
             .pixels_x = p->width,

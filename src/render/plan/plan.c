@@ -20,7 +20,7 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 
 /* Approximations that are no emitter's. */
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
-WHEN(crossings, plan->traits[KD_EMITTER_disk] || plan->traits[KD_EMITTER_particles] || plan->apart)
+WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(film, scene->style.tone_map == KD_TONE_ACES)
 WHEN(projected, plan->ring)

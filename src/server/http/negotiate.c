@@ -80,25 +80,43 @@ static int entry_weight(const char *parameters)
     return q;
 }
 
+/* An entry of a weighted list: its name, which lies in its text, and its weight, -1 where that is malformed. */
+struct entry {
+    char text[256];
+    struct span name;
+    int weight;
+};
+
+/* The next entry that is there and no longer than there is room for; *list moves behind it. False at the end. */
+static bool next_entry(const char **list, struct entry *out)
+{
+    while (*list) {
+        struct span entry = take(list, ',');
+        if (!entry.size || entry.size >= sizeof out->text)
+            continue;
+        memcpy(out->text, entry.at, entry.size);
+        out->text[entry.size] = 0;
+        const char *rest = out->text;
+        out->name = take(&rest, ';');
+        out->weight = entry_weight(rest);
+        return true;
+    }
+    return false;
+}
+
 /* In thousandths; 0: it is not admitted. */
 static int type_weight(const char *accept, const char *type)
 {
+    struct entry entry;
     int best = 0, best_weight = 0;
 
     if (!accept || !accept[strspn(accept, " \t")])
         return 1000;
-    while (accept) {
-        struct span entry = take(&accept, ',');
-        char text[256];
-        if (!entry.size || entry.size >= sizeof text)
-            continue;
-        memcpy(text, entry.at, entry.size);
-        text[entry.size] = 0;
-        const char *rest = text;
-        int how = fit(take(&rest, ';'), type), q = entry_weight(rest);
-        if (q >= 0 && (how > best || (how == best && q > best_weight))) {
+    while (next_entry(&accept, &entry)) {
+        int how = fit(entry.name, type);
+        if (entry.weight >= 0 && (how > best || (how == best && entry.weight > best_weight))) {
             best = how;
-            best_weight = q;
+            best_weight = entry.weight;
         }
     }
     return best ? best_weight : 0;
@@ -122,21 +140,14 @@ size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i
 
 bool kd_accepts_coding(const char *accept_encoding, const char *coding)
 {
+    struct entry entry;
     int named = -1, any = -1;
 
-    while (accept_encoding) {
-        struct span entry = take(&accept_encoding, ',');
-        char text[256];
-        if (!entry.size || entry.size >= sizeof text)
-            continue;
-        memcpy(text, entry.at, entry.size);
-        text[entry.size] = 0;
-        const char *rest = text;
-        struct span name = take(&rest, ';');
-        if (equals(name, coding))
-            named = entry_weight(rest);
-        else if (equals(name, "*"))
-            any = entry_weight(rest);
+    while (next_entry(&accept_encoding, &entry)) {
+        if (equals(entry.name, coding))
+            named = entry.weight;
+        else if (equals(entry.name, "*"))
+            any = entry.weight;
     }
     return (named >= 0 ? named : any) > 0;
 }
