@@ -5,6 +5,7 @@ import { caption, showAccuracy } from './accuracy.js';
 import { persistent } from './again.js';
 import { buildControls } from './controls.js';
 import { describe, entitle, followScene } from './describe.js';
+import { buildFull } from './full.js';
 import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { buildLiving, hasSpots } from './living.js';
@@ -148,7 +149,7 @@ async function watch(scene) {
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);
   }
   followScene(scene);
-  const complain = buildControls(byId('fields'), scene, byId('living'));
+  const complain = buildControls(scene, byId('living'));
   buildLiving(stage, scene, source);
   const drawOverlays = buildOverlays(byId('overlays'), stage, scene);
   const showShare = share(scene, size);
@@ -180,6 +181,7 @@ async function watch(scene) {
       input.dispatchEvent(new Event('change'));
     }
   });
+  buildFull(stage);
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));
   byId('farther').addEventListener('click', () => zoom(1.25));

@@ -1,45 +1,9 @@
-// Controls of a scene, made from the schema: a row a field.
-import { el } from './dom.js';
-import { element, named, number, section, tell, unit, word } from './i18n.js';
-import { hasSpots, showsTime } from './living.js';
+// Controls of a scene, made from the schema: a row a field, in the groups of the page.
+import { byId, el } from './dom.js';
+import { element, named, nature, number, section, t, tell, unit, word } from './i18n.js';
+import { beside_time, first, left_out, meansSomething, useful } from './known.js';
+import { shows } from './living.js';
 import { scale, stepByArrows } from './slider.js';
-
-// What sliders span where the schema allows much more than anybody sweeps; the number beside takes all of it.
-const useful = {
-  'spacetime.spin': [-0.998, 0.998],
-  'spacetime.mass_msun': [1, 1e10],
-  'camera.r': [2.1, 1000],
-  'camera.field_m': [4, 400],
-  'camera.fov_deg': [2, 120],
-  'camera.azimuth_deg': [-180, 180],
-  'camera.centre_alpha': [-50, 50],
-  'camera.centre_beta': [-50, 50],
-  'camera.roll_deg': [-180, 180],
-  'disk.inner': [1, 50],
-  'disk.outer': [3, 200],
-  'disk.peak_temperature_k': [1000, 1e5],
-  'disk.mdot_edd': [1e-3, 10],
-  'sky.brightness': [0, 5],
-  'style.exposure': [-10, 10],
-  'accuracy.tolerance': [1e-12, 1e-2],
-  'disk.seed': [0, 1000],
-  time: [-1000, 1000],
-  'style.ringdown_time': [-1000, 1000],
-  'motion.time_rate': [-100, 100],
-};
-const first = { 'camera.r': 60, 'disk.inner': 6, 'style.exposure': 0, 'accuracy.tolerance': 1e-6 }; // when a word is given up
-const only = {
-  // fields that mean something with one choice alone
-  projection: {
-    plane: ['field_m', 'centre_alpha', 'centre_beta'],
-    pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
-    ring: ['ring_decades_max', 'ring_decades_min'],
-  },
-  model: { particles: ['particles', 'seed', 'density_index', 'plunging', 'plunging_temperature', 'epicycles'] },
-};
-const open = ['spacetime', 'camera'];
-const living = ['time', 'motion.time_rate', 'disk.particles', 'disk.seed']; // stand beside what starts and stops time
-const left_out = ['image.width', 'image.height']; // the window's
 
 function numberRow(field, scene, id, hint) {
   const { minimum, maximum, word: special, type } = field;
@@ -114,18 +78,36 @@ function switchRow(field, scene, id, hint) {
   };
 }
 
+// What kind of a field it is, in a word; the legend says what the words mean, and so does a pointer that rests on one.
+function badge(name, help, id) {
+  const { word, text, lang } = nature(name, help);
+  return el('span', { class: `badge nature-${name}`, id, title: text, lang }, word);
+}
+
+function legend(natures) {
+  return Object.entries(natures).map(([name, help]) => {
+    const { text, lang } = nature(name, help);
+    return el('div', {}, el('dt', {}, badge(name, help)), el('dd', { lang }, text));
+  });
+}
+
 function row(field, scene) {
   const id = 'field-' + field.path,
     { label, help, helpLang } = named(field.path, field.help),
     mark = unit(field.unit);
   const make = { choice: choiceRow, switch: switchRow }[field.type] ?? numberRow;
-  const control = make(field, scene, id, id + '-help');
+  const control = make(field, scene, id, `${id}-help ${id}-nature`);
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true });
   const node = el(
     'div',
     { class: 'field', 'data-path': field.path },
-    el('label', { for: id, class: control.inside && 'switch' }, control.inside, label, mark && el('span', { class: 'unit' }, mark)),
+    el(
+      'div',
+      { class: 'head' },
+      el('label', { for: id, class: control.inside && 'switch' }, control.inside, label, mark && el('span', { class: 'unit' }, mark)),
+      badge(field.nature, scene.natures[field.nature], `${id}-nature`),
+    ),
     control.nodes,
     el('p', { class: 'help', id: id + '-help', lang: helpLang }, help),
     fault,
@@ -134,6 +116,7 @@ function row(field, scene) {
     node,
     show: control.show,
     path: field.path,
+    front: field.front,
     complain(text) {
       tell(fault, text);
       fault.hidden = !text;
@@ -141,49 +124,74 @@ function row(field, scene) {
   };
 }
 
-export function buildControls(root, scene, living_root) {
+// Which details are open outlives a reload, but goes with the tab: a link says what is seen, not how its sender worked.
+function remember(details, usual) {
+  const key = 'open ' + details.id;
+  try {
+    details.open = (sessionStorage.getItem(key) ?? String(usual)) === 'true';
+    details.addEventListener('toggle', () => sessionStorage.setItem(key, details.open));
+  } catch {
+    details.open = usual; // a browser that keeps nothing
+  }
+}
+
+const in_front = 'hole'; // the group that is open at first
+
+export function buildControls(scene, living_root) {
   const rows = [],
     lists = [];
+  for (const details of document.querySelectorAll('#panel > details, #fields > details')) remember(details, details.id === 'group-' + in_front);
+
   // home: 'camera', 'spots.0', or '' for the document itself.
   function add(home) {
     const own = [...scene.fields.values()].filter(({ path }) => path.slice(0, Math.max(0, path.lastIndexOf('.'))) === home && !left_out.includes(path));
     return own.map(field => rows[rows.push(row(field, scene)) - 1]);
   }
-  function group(name, title, home) {
-    const shown = add(home).filter(r => !living.includes(r.path)).map(r => r.node);
-    return shown.length ? [el('details', { open: open.includes(name), class: 'group' }, el('summary', {}, title), shown)] : [];
+
+  // The fields that stand in front, and the others behind a summary.
+  function parts(home, title) {
+    const own = add(home).filter(r => !beside_time.includes(r.path)),
+      [front, rest] = [true, false].map(yes => own.filter(r => Boolean(r.front) === yes).map(r => r.node));
+    if (!rest.length) return front;
+    const more = el('details', { class: 'rest', id: 'rest-' + home }, el('summary', {}, t(`More: ${title}`, `Altro: ${title}`)), rest);
+    remember(more, !front.length);
+    return [...front, more];
   }
-  for (const { name, help, most } of scene.sections) {
-    if (most) root.append(lists[lists.push({ name, most, groups: [], node: el('div', {}) }) - 1].node);
-    else root.append(...group(name, section(name, help), name));
+
+  for (const { name, help, group, most } of scene.sections) {
+    const title = section(name, help),
+      alone = most || scene.sections.filter(s => s.group === group).length === 1,
+      node = el('section', { class: 'part', 'aria-label': title }, !alone && el('h2', {}, title));
+    (byId('group-' + group) ?? byId('group-more')).querySelector('.parts').append(node);
+    if (most) lists.push({ name, most, groups: [], node });
+    else node.append(...parts(name, title));
   }
   add('');
-  living_root.append(...living.map(path => rows.find(r => r.path === path).node));
+  living_root.append(...beside_time.map(path => rows.find(r => r.path === path).node));
+  byId('natures').append(...legend(scene.natures));
 
   // Of a list, the elements that there are and the next one.
   function grow({ name, most, groups, node }) {
     const wanted = Math.min(most, scene.count(name) + 1);
     for (let i = groups.length; i < wanted; i++) {
-      groups.push(...group(name, element(name, i), `${name}.${i}`));
+      const title = element(name, i);
+      groups.push(el('details', { class: 'element', id: `element-${name}-${i}` }, el('summary', {}, title), parts(`${name}.${i}`, title)));
+      remember(groups[i], false);
       node.append(groups[i]);
     }
     groups.forEach((g, i) => (g.hidden = i >= wanted));
   }
-  function means_something(path) {
-    const [section, ...names] = path.split('.'),
-      name = names.at(-1);
-    if (path === 'time' || path === 'motion.time_rate') return showsTime(scene);
-    if (path === 'disk.slow_light') return hasSpots(scene) || scene.get('disk.model') === 'particles';
-    if (section === 'spots' && name !== 'brightness') return scene.get(`${section}.${names[0]}.brightness`) > 0;
-    const projection = scene.get('camera.projection');
-    const seen = projection !== 'auto' ? projection : scene.get('camera.r') === 'infinity' ? 'plane' : 'pinhole';
-    const [choices, chosen] = { camera: [only.projection, seen], disk: [only.model, scene.get('disk.model')] }[section] ?? [{}];
-    return Object.entries(choices).every(([choice, names]) => choice === chosen || !names.includes(name));
+
+  // What has no field that means anything here is not there either.
+  function showParts() {
+    for (const rest of document.querySelectorAll('.parts .rest, .part')) rest.hidden = !rest.querySelector('.field:not([hidden])');
   }
 
   function show() {
     lists.forEach(grow);
-    for (const r of rows) ((r.node.hidden = !means_something(r.path)), r.show());
+    const now = shows(scene);
+    for (const r of rows) ((r.node.hidden = !meansSomething(scene, r.path, now)), r.show());
+    showParts();
   }
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);
   const time = rows.find(r => r.path === 'time');
@@ -195,7 +203,10 @@ export function buildControls(root, scene, living_root) {
     const path = (pointer ?? '').slice(1).replaceAll('/', '.');
     for (const r of rows) r.complain(r.path === path ? text : '');
     const at = rows.find(r => r.path === path);
-    if (at && text) ((at.node.hidden = false), (at.node.closest('details').open = true));
-    return Boolean(at);
+    if (!at || !text) return Boolean(at);
+    at.node.hidden = false;
+    showParts();
+    for (let around = at.node.closest('details'); around; around = around.parentElement.closest('details')) around.open = true;
+    return true;
   };
 }

@@ -97,6 +97,11 @@ function helpOf(help) {
 
 export const section = (name, help) => words?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
 export const element = (list, index) => `${words?.fields[list]?.[0] ?? labels[list] ?? spell(list)} ${index + 1}`;
+// A nature of fields in a word and a sentence.
+export function nature(name, help) {
+  const [word, text] = words?.natures[name] ?? [];
+  return { word: word ?? name, text: text ?? helpOf(help).help, lang: words && !text ? 'en' : null };
+}
 export const word = value => words?.values[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title;
 

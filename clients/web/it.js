@@ -49,6 +49,12 @@ export const values = {
   unbound: 'non legata',
 };
 
+export const natures = {
+  physics: ['fisica', 'Conseguenza esatta della relatività generale o del trasporto radiativo, o quanto bene è calcolata'],
+  model: ['modello', 'Un modello scelto della materia o di una sorgente, o un suo numero'],
+  look: ['aspetto', 'Cambia l’immagine, non la fisica'],
+};
+
 // path or name: [label, help]; help may be left out. A list stands here for each of its elements.
 export const fields = {
   spacetime: ['Il buco'],

@@ -15,6 +15,9 @@ const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) ||
 // Time is seen where the disk is not the same all round, or rings.
 export const showsTime = scene => hasParticles(scene) || hasSpots(scene) || (canRing(scene) && scene.get('style.ringdown') > 0);
 
+// What of it a moment later would be seen elsewhere or otherwise.
+export const shows = scene => ({ time: showsTime(scene), bodies: hasParticles(scene) || hasSpots(scene) });
+
 export function buildLiving(stage, scene, source) {
   const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId),
     fault = byId('strike-fault');

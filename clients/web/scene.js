@@ -8,7 +8,7 @@ import * as link from './link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
-const known = ['view', 'lang', 'over', 'preset', 'pause']; // what a link has without a dot
+const known = ['view', 'lang', 'over', 'preset', 'pause', 'full']; // what a link has without a dot
 
 // Elements of a list have paths of their own: spots.0.r.
 function* flatten(schema, prefix = '') {
@@ -17,7 +17,7 @@ function* flatten(schema, prefix = '') {
     if (spec.items) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
     else if (spec.properties) yield* flatten(spec, name + '.');
     else if (!('const' in spec))
-      yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description };
+      yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'] };
   }
 }
 
@@ -51,9 +51,10 @@ export class Scene extends EventTarget {
   static async load() {
     const schema = await getJson('v1/schema'),
       scene = new Scene();
+    scene.natures = schema['x-natures'];
     scene.sections = Object.entries(schema.properties)
       .filter(([, spec]) => (spec.properties || spec.items) && !spec.deprecated)
-      .map(([name, spec]) => ({ name, help: spec.description, most: spec.items && spec.maxItems }));
+      .map(([name, spec]) => ({ name, help: spec.description, group: spec['x-group'], most: spec.items && spec.maxItems }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
     scene.#renew(schema);
     for (const [path, field] of scene.fields) {

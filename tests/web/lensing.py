@@ -15,6 +15,7 @@ class Lensing(Browser):
     def test_it_loads_and_is_light(self):
         page = self.open(wait=FINE)
         self.shot(page, 'lensing')
+        self.open_groups(page)
         self.assertEqual(page.title(), 'Lensing: spin 0.7, inclination 82° – kerrd')
         self.assertEqual(page.get_attribute('#picture', 'alt'),
                          'A black hole, spin 0.7, inclination 82°, seen from infinity, 46 M across. A thin disk from the ISCO to 22 M.')
@@ -179,6 +180,7 @@ class Lensing(Browser):
 
     def test_presets_and_refusals(self):
         page = self.open()
+        self.open_groups(page)
         before = self.pixels(page)
         page.select_option('#preset', 'gargantua')
         self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.r') == '74.1'))
@@ -243,6 +245,7 @@ class Lensing(Browser):
     def test_overlays_are_the_numbers_of_the_server(self):
         page = self.open('lang=en&spacetime.spin=0.9&camera.inclination_deg=60&camera.field_m=30&over=shadow,photons,isco,ergosphere,orders,flamm')
         page.wait_for_selector('#overlay .over-flamm path', state='attached')
+        self.open_groups(page)
         box = page.evaluate('() => { const b = document.querySelector("#overlay .over-shadow path").getBBox(); return [b.width, b.height]; }')
         shadow = self.physics('shadow', spin=0.9, inclination_deg=60)
         per_m = page.locator('#stage').bounding_box()['width'] / 30

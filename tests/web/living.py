@@ -49,6 +49,7 @@ class Living(Browser):
     def test_other_particles_and_a_spot(self):
         page = self.open('lang=en&camera.inclination_deg=60')
         self.assertFalse(page.is_visible('#play'))
+        self.open_groups(page)
         page.click('#as-particles')
         page.wait_for_selector('#play:has-text("Pause")')
         page.click('#play')
@@ -116,6 +117,7 @@ class Living(Browser):
 
     def test_the_light_of_a_spot(self):
         page = self.open('lang=en&preset=hot-spot', '#light canvas')
+        page.click('#group-gas > summary')
         page.fill('[data-path="motion.time_rate"] input[type=number]', '60')
         page.keyboard.press('Enter')
         start = self.clock(page)
@@ -155,12 +157,14 @@ class Living(Browser):
 
     def test_no_light_curve_of_a_ring(self):
         page = self.open('lang=en&preset=photon-rings', '#stage[data-final]')
+        self.open_groups(page)
         page.click('#spot')
         page.wait_for_selector('#light >> text=no light curve')
         self.assertFalse(page.is_visible('#light figure'))
 
     def test_a_struck_hole_rings(self):
         page = self.open('lang=en&camera.inclination_deg=30', FINE)
+        self.open_groups(page)
         before = self.pixels(page)
         page.click('#strike')
         seen = set()

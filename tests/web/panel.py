@@ -1,0 +1,129 @@
+"""The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
+import json
+import urllib.request
+
+from browser import AT_REST, Browser, main
+import daemon
+
+GROUPS = ('look', 'gas', 'hole', 'camera', 'more')
+SIZES = ((390, 844), (1024, 700), (1440, 900))
+
+
+def rows(schema):
+    """(path, row, group, list or None) of each field of a schema; of a list the rows of its first element."""
+    for name, spec in schema['properties'].items():
+        if 'deprecated' in spec or 'const' in spec:
+            continue
+        if 'x-nature' in spec:
+            yield name, spec, spec['x-group']
+        for field, row in spec.get('properties', {}).items():
+            yield f'{name}.{field}', row, spec['x-group']
+        for field, row in spec.get('items', {}).get('properties', {}).items():
+            yield f'{name}.0.{field}', row, spec['x-group']
+
+
+class Panel(Browser):
+    def schema(self):
+        with urllib.request.urlopen(self.base + 'v1/schema') as answer:
+            return json.load(answer)
+
+    def test_each_field_stands_in_its_group(self):
+        """In front where the field table says so, else behind a summary; what starts and stops time has its fields beside it."""
+        page, schema = self.open(), self.schema()
+        self.assertEqual(tuple(schema['x-groups']), GROUPS)
+        there = page.evaluate('''() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
+            [node.closest('.group')?.id ?? '', Boolean(node.closest('.rest'))]]))''')
+        wanted = {path: [f'group-{group}', 'x-front' not in row] for path, row, group in rows(schema)}
+        for path in ('time', 'motion.time_rate'):
+            wanted[path] = ['', False]
+        for path in ('image.width', 'image.height'):
+            del wanted[path]
+        self.assertEqual(there, wanted)
+        for lang, titles in (('en', ['Look', 'Gas', 'Hole', 'Camera', 'More']), ('it', ['Aspetto', 'Gas', 'Buco', 'Camera', 'Altro'])):
+            self.assertEqual(self.open('lang=' + lang).locator('#fields > details > summary').all_inner_texts(), titles)
+
+    def test_a_newcomer_is_not_drowned(self):
+        page = self.open()
+        self.assertEqual([d for d in page.locator('#panel details[open]').evaluate_all('all => all.map(n => n.id)')], ['group-hole'])
+        self.assertLessEqual(page.locator('#panel [data-path]:visible').count(), 3)
+        for group in GROUPS:
+            page.evaluate('id => { for (const d of document.querySelectorAll("#panel details")) d.open = d.id === id; }', 'group-' + group)
+            self.assertLessEqual(page.locator('#panel [data-path]:visible').count(), 8, group)
+
+    def test_what_is_open_outlives_a_reload(self):
+        page = self.open()
+        page.focus('#group-gas > summary')
+        page.keyboard.press('Enter')
+        page.focus('#rest-disk > summary')
+        page.keyboard.press('Space')
+        page.click('#group-hole > summary')
+        page.wait_for_selector('[data-path="disk.hardening"] input >> nth=0')
+        address = page.url
+        page.reload()
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(page.locator('#panel details[open]').evaluate_all('all => all.map(n => n.id)'), ['group-gas', 'rest-disk'])
+        self.assertEqual(page.url, address, 'a link is of the scene')
+
+    def test_each_control_says_what_it_changes(self):
+        schema = self.schema()
+        words = {'en': {'physics': 'physics', 'model': 'model', 'look': 'look'}, 'it': {'physics': 'fisica', 'model': 'modello', 'look': 'aspetto'}}
+        for lang in words:
+            page = self.open('lang=' + lang)
+            marks = page.evaluate('''() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => {
+                const control = node.querySelector('input, select'), ids = control.getAttribute('aria-describedby').split(' ');
+                const badge = node.querySelector('.badge');
+                return [node.dataset.path, [badge.textContent, badge.title, ids.includes(badge.id)]];
+            }))''')
+            legend = dict(page.locator('#natures div').evaluate_all('all => all.map(n => [...n.children].map(c => c.textContent))'))
+            self.assertEqual(list(legend), list(words[lang].values()))
+            for path, row, _ in rows(schema):
+                if path in marks:
+                    word = words[lang][row['x-nature']]
+                    self.assertEqual(marks[path], [word, legend[word], True], path)
+            for nature, help_ in schema['x-natures'].items():
+                same = legend[words[lang][nature]].lower() == help_.lower()
+                self.assertEqual(same, lang == 'en', nature)
+
+    def test_a_refusal_opens_what_it_stands_in(self):
+        self.expected = '422'
+        page = self.open('lang=en&disk.inner=1', '#status[data-wrong]')
+        page.wait_for_selector('[data-path="disk.inner"] .fault >> text=the ISCO')
+        self.assertEqual(page.locator('#group-gas[open] #rest-disk[open]').count(), 1)
+
+    def test_what_means_nothing_is_not_there(self):
+        page = self.open()
+        self.open_groups(page)
+        seen = lambda path: page.is_visible(f'[data-path="{path}"]')
+        self.assertEqual([seen(p) for p in ('sky.brightness', 'spots.0.r', 'disk.particles', 'camera.fov_deg', 'camera.field_m')], [False] * 4 + [True])
+        self.assertFalse(page.is_visible('#rest-sky'), 'nothing is behind it')
+        page.select_option('[data-path="sky.model"] select', 'grid')
+        page.select_option('[data-path="disk.model"] select', 'particles')
+        page.uncheck('[data-path="camera.r"] input[type=checkbox]')
+        self.assertEqual([seen(p) for p in ('sky.brightness', 'spots.0.r', 'disk.particles', 'camera.fov_deg', 'camera.field_m')],
+                         [True, False, True, True, False])
+        self.assertTrue(page.is_visible('#rest-sky'))
+
+    def test_layouts(self):
+        """At no size does anything stand over anything else, or out of the window."""
+        for width, height in SIZES:
+            for lang in ('en', 'it'):
+                with self.subTest(width=width, lang=lang):
+                    page = self.open(f'lang={lang}&spots.0.brightness=4&pause=1', viewport={'width': width, 'height': height})
+                    self.shot(page, f'panel-{width}-{lang}')
+                    self.open_groups(page)
+                    self.assertLessEqual(page.evaluate('() => document.documentElement.scrollWidth'), width)
+                    wrong = page.evaluate('''() => {
+                        const wrong = [], panel = document.getElementById('panel').getBoundingClientRect();
+                        for (const head of document.querySelectorAll('.head')) {
+                            if (!head.offsetParent) continue;
+                            const [label, badge] = [...head.children].map(n => n.getBoundingClientRect()), below = head.nextElementSibling.getBoundingClientRect();
+                            if (label.right > badge.left || badge.bottom > below.top + 1 || badge.right > panel.right) wrong.push(head.textContent);
+                        }
+                        return wrong;
+                    }''')
+                    self.assertEqual(wrong, [])
+                    self.shot(page, f'panel-{width}-{lang}-open', full_page=width < 500)
+
+
+if __name__ == '__main__':
+    main()
