@@ -230,8 +230,8 @@ const refusals = [
   ['{} is {}, allowed is less than {}, {}', '{} è {}, ammesso è meno di {}, {}'],
   ['{} is {} with {} {}, allowed is {}', '{} è {} con {} {}, ammesso è {}'],
   [
-    '{} is {}, allowed for a static observer at this inclination is more than {}, the ergosphere; camera.observer {} can be inside',
-    '{} è {}, ammesso per un osservatore fermo a questa inclinazione è più di {}, l’ergosfera; camera.observer {} può stare dentro',
+    '{} is {}, allowed for camera.observer {} at this inclination is more than {}, the ergosphere; camera.observer {} can be inside',
+    '{} è {}, ammesso per camera.observer {} a questa inclinazione è più di {}, l’ergosfera; camera.observer {} può stare dentro',
   ],
   ['{} is {} with {} {}; a pinhole needs a finite {}, at infinity use {}', '{} è {} con {} {}; la proiezione stenopeica vuole un {} finito, all’infinito usa {}'],
   ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a un raggio finito usa {}'],

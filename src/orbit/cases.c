@@ -36,7 +36,7 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin)
         spec.form = KD_ORBIT_STATE;
         spec.place_r = 2 * kd_kerr_isco(spec.spin);
         spec.theta_deg = 90;
-        spec.frame = KD_ORBIT_ZAMO;
+        spec.frame = KD_OBSERVER_ZAMO;
         spec.v[2] = 0.2;
         return spec;
     case KD_CASE_ISCO: spec.p = kd_kerr_isco(spec.spin); return spec;

@@ -36,7 +36,7 @@ void kd_orbit_request_finish(struct kd_orbit_request *request)
 
 static struct kd_orbit_spec empty_spec(void)
 {
-    return (struct kd_orbit_spec) { .form = KD_ORBIT_FORMS, .spin = NAN, .r = NAN, .theta_deg = 90, .frame = KD_ORBIT_ZAMO };
+    return (struct kd_orbit_spec) { .form = KD_ORBIT_FORMS, .spin = NAN, .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO };
 }
 
 /* A table and what it fills. */

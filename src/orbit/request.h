@@ -42,7 +42,7 @@ struct kd_orbit_spec {
     double energy, momentum, carter, r; /* r: NAN if not given */
     bool outward;
     double place_r, theta_deg, phi_deg, v[3];
-    enum kd_orbit_frame frame;
+    enum kd_observer frame;
     enum kd_orbit_case named;
     unsigned seen; /* which fields were given, a bit each */
 };

@@ -11,7 +11,7 @@ enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
-    double right, up2, inwards;
+    double right, up2, inwards, energy; /* the latter at infinity, over what is measured */
     double x, y2; /* as seen from the centre; at a finite radius components of the direction */
 };
 
@@ -30,18 +30,19 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* The direction in which the photon arrives: m of tetrad.h, looked at from its front, and R(r_o) of a double
- * root. */
+/* The direction in which the photon arrives, with R(r_o) of a double root. Its p_theta, which may be the root of a negative number here,
+ * is left out: in a level frame it is seen in `up` alone. */
 static void look(const struct kd_critical *c, struct place *p)
 {
-    const struct kd_tetrad *t = &c->tetrad;
     const struct kd_shell_orbit *o = &p->orbit;
-    double r = c->observer.radius, q = o->a / o->r;
-    p->right = (t->e0 * p->alpha + t->l0) / (t->l1 + t->e1 * p->alpha);
-    double energy = t->e0 - t->e1 * p->right;
-    p->up2 = p->beta2 * (energy / t->p) * (energy / t->p);
-    double root = sqrt(fmax(r * r + 2 * o->r * r - q * q * o->eta, 0));
-    p->inwards = (r - o->r) * root * energy / (t->p * t->root_delta);
+    double r = c->observer.radius, q = o->a / o->r, root = sqrt(fmax(r * r + 2 * o->r * r - q * q * o->eta, 0));
+    const struct kd_covector photon = { .energy = 1, .momentum = -p->alpha, .radial = (r - o->r) * root };
+    const struct kd_look seen = kd_tetrad_look(&c->tetrad, &photon);
+    double up = seen.energy / c->tetrad.theta.polar; /* over beta */
+    p->right = seen.right;
+    p->inwards = seen.inwards;
+    p->energy = seen.energy;
+    p->up2 = p->beta2 * up * up;
 }
 
 static struct place see(const struct kd_critical *c, double at)
@@ -86,7 +87,7 @@ static bool valid(const struct kd_critical_observer *o)
 {
     return fabs(o->spin) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
            o->radius > kd_kerr_horizon(o->spin) &&
-           (o->frame == KD_CRITICAL_STATIC || o->frame == KD_CRITICAL_ZAMO);
+           (unsigned)o->frame < KD_OBSERVER_COUNT;
 }
 
 struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
@@ -99,10 +100,12 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     c.sine = o->sin_theta > 0 ? o->sin_theta : sqrt((1 - u) * (1 + u));
     c.shell = kd_shell_of(a);
     if (isfinite(o->radius)) {
-        if (o->frame == KD_CRITICAL_STATIC && !(o->radius > kd_kerr_ergosphere(a, u)))
-            c.status = KD_CRITICAL_IN_ERGOSPHERE;
-        c.tetrad =
-            (o->frame == KD_CRITICAL_ZAMO ? kd_tetrad_zamo : kd_tetrad_static)(a, o->radius, u, c.sine);
+        const struct kd_vantage at = { a, o->radius, u, c.sine };
+        if (!kd_observer_exists(o->frame, &at))
+            c.status = KD_CRITICAL_NO_OBSERVER;
+        c.tetrad = kd_observer_tetrad(o->frame, &at);
+        if (!c.status && !kd_tetrad_is_level(&c.tetrad))
+            c.status = KD_CRITICAL_NOT_LEVEL;
     }
     c.low = end(&c, c.shell.prograde);
     c.high = end(&c, c.shell.retrograde);
@@ -160,9 +163,8 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
         q.beta = below * y;
         return q;
     }
-    double energy = c->tetrad.e0 - c->tetrad.e1 * p.right;
     q.right = p.right, q.up = below * y, q.inwards = p.inwards;
-    q.beta = q.up * c->tetrad.p / energy;
+    q.beta = q.up * c->tetrad.theta.polar / p.energy;
     q.rho = atan2(rho, p.inwards * cos(c->centre) + p.right * sin(c->centre));
     return q;
 }
@@ -179,7 +181,7 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
         return q;
     }
     q.right = p.right, q.up = y, q.inwards = p.inwards;
-    q.beta = y * c->tetrad.p / (c->tetrad.e0 - c->tetrad.e1 * p.right);
+    q.beta = y * c->tetrad.theta.polar / p.energy;
     q.rho = atan2(hypot(p.x, y), p.inwards * cos(c->centre) + p.right * sin(c->centre));
     return q;
 }

@@ -32,24 +32,23 @@
 #define KD_PHYSICS_CRITICAL_H
 
 #include "physics/photon_shell.h"
-#include "physics/tetrad.h"
+#include "physics/observer.h"
 
 #include <stdbool.h>
-
-enum kd_critical_frame { KD_CRITICAL_STATIC, KD_CRITICAL_ZAMO };
 
 struct kd_critical_observer {
     double spin;      /* |spin| < 1                                                      */
     double radius;    /* outside the horizon; INFINITY                                   */
     double cos_theta; /* [-1, 1], exact 0 and +-1 included                               */
     double sin_theta; /* 0: taken from cos_theta, as in null_geodesic.h                  */
-    enum kd_critical_frame frame; /* at a finite radius; STATIC outside the ergosphere only */
+    enum kd_observer frame; /* at a finite radius, where there is this observer           */
 };
 
 enum kd_critical_status {
     KD_CRITICAL_OK,
     KD_CRITICAL_BAD_INPUT,     /* NaN, or outside the ranges above                  */
-    KD_CRITICAL_IN_ERGOSPHERE, /* nothing is at rest there                          */
+    KD_CRITICAL_NO_OBSERVER,   /* there is none such there                          */
+    KD_CRITICAL_NOT_LEVEL,     /* the frame moves along theta: the lower half is not the mirror image of the upper one */
 };
 
 /* The curve of one observer. */

@@ -178,26 +178,12 @@ double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, 
     return 0;
 }
 
-struct local {
-    double energy, momentum; /* L / sin(theta) */
-};
-
-/* E and L/sin(theta) of the local momentum: the tetrads of Bardeen, Press & Teukolsky 1972 (zamo) and of g_tt, g_tphi. */
-static struct local from_frame(double a, double r, double u, enum kd_orbit_frame frame, double gamma, double m_phi)
-{
-    double s2 = (1 - u) * (1 + u), sigma = r * r + a * a * u * u, delta = r * (r - 2) + a * a;
-    if (frame == KD_ORBIT_ZAMO) {
-        double area = (r * r + a * a) * (r * r + a * a) - a * a * delta * s2, dragging = 2 * a * r / area;
-        double scale = sqrt(area / sigma);
-        return (struct local) { gamma * sqrt(sigma * delta / area) + dragging * scale * sqrt(s2) * m_phi, scale * m_phi };
-    }
-    double lapse = sqrt(1 - 2 * r / sigma);
-    return (struct local) { gamma * lapse, (sqrt(delta) * m_phi - 2 * a * r * sqrt(s2) / sigma * gamma) / lapse };
-}
-
-static enum kd_status check_state(double a, double r, double theta_deg, enum kd_orbit_frame frame, const double v[3],
+static enum kd_status check_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
                                   struct kd_error *error)
 {
+    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_observer_row *row = &kd_observers[frame];
+    char others[KD_OBSERVER_TEXT];
     enum kd_status status = kd_orbit_check_spin(a, error);
     double speed = hypot(hypot(v[0], v[1]), v[2]);
     if (status)
@@ -206,42 +192,40 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
         return kd_error_field(error, "/position/r", "r is %.16g, allowed is above the horizon at %.9g", r, kd_kerr_horizon(a));
     if (!(theta_deg >= 0 && theta_deg <= 180))
         return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g, allowed is 0 to 180", theta_deg);
-    if (frame == KD_ORBIT_STATIC && !(r > kd_kerr_ergosphere(a, kd_cos_deg(theta_deg))))
-        return kd_error_field(error, "/velocity/frame",
-                              "nothing is at rest at r = %.16g, inside the ergosphere, which ends at %.9g here: use \"zamo\"", r,
-                              kd_kerr_ergosphere(a, kd_cos_deg(theta_deg)));
+    if (!kd_observer_exists(frame, &at))
+        return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s", row->why, r,
+                              row->edge, row->outside(a, at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.16g, allowed is below 1, that of light", speed);
     return KD_OK;
 }
 
-enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_orbit_frame frame, const double v[3],
+enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
                                    struct kd_orbit *o, struct kd_orbit_state *start, struct kd_error *error)
 {
     enum kd_status status = check_state(a, r, theta_deg, frame, v, error);
     if (status)
         return status;
-    double s = kd_sin_deg(theta_deg), u = kd_cos_deg(theta_deg);
-    double sigma = r * r + a * a * u * u, delta = r * (r - 2) + a * a;
+    const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
+    const struct kd_tetrad tetrad = kd_observer_tetrad(frame, &at);
     double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
-    struct local local = from_frame(a, r, u, frame, gamma, gamma * v[2]);
-    double p_theta = sqrt(sigma) * gamma * v[1], across = local.momentum;
-    *o = (struct kd_orbit) { .a = a, .energy = local.energy, .binding = (1 - local.energy) * (1 + local.energy) };
-    o->momentum = across * s;
-    o->carter = p_theta * p_theta + u * u * (a * a * o->binding + across * across);
+    const struct kd_covector p = kd_tetrad_covector(&tetrad, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
+    *o = (struct kd_orbit) { .a = a, .energy = p.energy, .binding = (1 - p.energy) * (1 + p.energy) };
+    o->momentum = p.momentum * at.s;
+    o->carter = p.polar * p.polar + at.u * at.u * (a * a * o->binding + p.momentum * p.momentum);
     kd_orbit_set_constants(o);
     *start = (struct kd_orbit_state) {
         .w = 1 / r,
-        .w_rate = -sqrt(sigma * delta) * gamma * v[0] / (r * r),
-        .u = u,
-        .u_rate = -p_theta * s,
+        .w_rate = -p.radial / (r * r),
+        .u = at.u,
+        .u_rate = -p.polar * at.s,
     };
     if (!find_range(o, start->w)) { /* at rest at a turning point, and rounding puts it beyond */
-        double near = v[0] == 0 ? start->w * (kd_orbit_radial_slope(o, start->w) > 0 ? 1 + 1e-12 : 1 - 1e-12) : start->w;
+        double near = start->w_rate == 0 ? start->w * (kd_orbit_radial_slope(o, start->w) > 0 ? 1 + 1e-12 : 1 - 1e-12) : start->w;
         if (!find_range(o, near))
             return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision", r);
     }
-    if (v[0] == 0) { /* exactly at the turning point that is there */
+    if (start->w_rate == 0) { /* exactly at the turning point that is there */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
         *(outer ? &o->w_low : &o->w_high) = start->w;
         if (o->circular)

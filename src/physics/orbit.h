@@ -11,6 +11,7 @@
 #define KD_PHYSICS_ORBIT_H
 
 #include "base/error.h"
+#include "physics/observer.h"
 
 #include <stdbool.h>
 
@@ -49,10 +50,9 @@ double kd_orbit_separatrix(double a, double e, double x);
 enum kd_status kd_orbit_from_constants(double a, double energy, double momentum, double carter, double r, struct kd_orbit *orbit,
                                        struct kd_error *error);
 
-/* A place outside the horizon and the velocity (r, theta, phi components, |v| < 1) that an observer there sees: at rest
- * (outside the ergosphere), or with zero angular momentum. KD_EINVAL with pointer "/position/r", "/velocity" ... */
-enum kd_orbit_frame { KD_ORBIT_STATIC, KD_ORBIT_ZAMO };
-enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_orbit_frame frame, const double v[3],
+/* A place outside the horizon and the velocity (r, theta, phi components, |v| < 1) that an observer there sees, if there is
+ * such an observer. KD_EINVAL with pointer "/position/r", "/velocity" ... */
+enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
                                    struct kd_orbit *orbit, struct kd_orbit_state *start, struct kd_error *error);
 
 /* Starts at the ascending node, at r (NAN: periastron if there is one, else the outer end), outwards or inwards. r at a

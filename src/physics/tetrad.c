@@ -4,40 +4,79 @@
 
 #include <math.h>
 
-static double delta_of(double a, double r)
+struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const double x[4])
 {
-    return (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    const struct kd_covector *t = &frame->t, *r = &frame->r, *h = &frame->theta, *f = &frame->phi;
+    return (struct kd_covector) {
+        .energy = x[0] * t->energy + x[1] * r->energy + x[2] * h->energy + x[3] * f->energy,
+        .momentum = x[0] * t->momentum + x[1] * r->momentum + x[2] * h->momentum + x[3] * f->momentum,
+        .polar = x[0] * t->polar + x[1] * r->polar + x[2] * h->polar + x[3] * f->polar,
+        .radial = x[0] * t->radial + x[1] * r->radial + x[2] * h->radial + x[3] * f->radial,
+    };
 }
 
-struct kd_tetrad kd_tetrad_zamo(double a, double r, double u, double s)
+static void swap(double *a, double *b)
 {
-    double sigma = r * r + a * a * u * u, delta = delta_of(a, r), w2 = r * r + a * a;
-    double big = w2 * w2 - a * a * delta * s * s; /* g_phiphi = big sin^2 / sigma */
-    double root = sqrt(big / sigma);
-    return (struct kd_tetrad) { .e0 = sqrt(sigma * delta / big),
-                                .e1 = kd_kerr_dragging(a, r, u) * root * s,
-                                .l0 = 0,
-                                .l1 = root,
-                                .p = sqrt(sigma),
-                                .root_delta = sqrt(delta) };
+    for (int i = 0; i < 5; i++) {
+        double kept = a[i];
+        a[i] = b[i];
+        b[i] = kept;
+    }
 }
 
-struct kd_tetrad kd_tetrad_static(double a, double r, double u, double s)
+/* The largest entry of a row: its unknowns are pure numbers, so rows are compared in units of it. */
+static double size(const double row[5])
 {
-    double sigma = r * r + a * a * u * u, delta = delta_of(a, r);
-    double lapse = sqrt((sigma - 2 * r) / sigma); /* sqrt(-g_tt) */
-    return (struct kd_tetrad) { .e0 = lapse,
-                                .e1 = 0,
-                                .l0 = -2 * a * r * s / (sigma * lapse),
-                                .l1 = sqrt(delta) / lapse,
-                                .p = sqrt(sigma),
-                                .root_delta = sqrt(delta) };
+    return fmax(fmax(fabs(row[0]), fabs(row[1])), fmax(fabs(row[2]), fabs(row[3])));
 }
 
-/* alpha = -L/(E sin(theta)) and beta = p_theta/E, with m_phi = -right and m_theta = up, solved for them. */
-struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, double alpha, double beta)
+/* Gauss's elimination with scaled partial pivoting. What a frame does not mix stays exact. */
+void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4])
 {
-    double right = (frame->e0 * alpha + frame->l0) / (frame->l1 + frame->e1 * alpha), energy = frame->e0 - frame->e1 * right;
-    double up = beta * energy / frame->p;
-    return (struct kd_look) { right, up, sqrt(fmax(0, 1 - right * right - up * up)), energy };
+    const struct kd_covector *t = &frame->t, *r = &frame->r, *h = &frame->theta, *f = &frame->phi;
+    double m[4][5] = {
+        { t->energy, r->energy, h->energy, f->energy, p->energy },
+        { t->momentum, r->momentum, h->momentum, f->momentum, p->momentum },
+        { t->polar, r->polar, h->polar, f->polar, p->polar },
+        { t->radial, r->radial, h->radial, f->radial, p->radial },
+    };
+    for (int i = 0; i < 4; i++) {
+        int pivot = i;
+        for (int k = i + 1; k < 4; k++)
+            if (fabs(m[k][i]) * size(m[pivot]) > fabs(m[pivot][i]) * size(m[k]))
+                pivot = k;
+        swap(m[i], m[pivot]);
+        for (int k = i + 1; k < 4; k++) {
+            double share = m[k][i] / m[i][i];
+            for (int j = i; j < 5; j++)
+                m[k][j] -= share * m[i][j];
+        }
+    }
+    for (int i = 3; i >= 0; i--) {
+        x[i] = m[i][4];
+        for (int j = i + 1; j < 4; j++)
+            x[i] -= m[i][j] * x[j];
+        x[i] /= m[i][i];
+    }
+}
+
+int kd_tetrad_is_level(const struct kd_tetrad *frame)
+{
+    return frame->t.polar == 0 && frame->r.polar == 0 && frame->phi.polar == 0 && frame->theta.energy == 0 &&
+           frame->theta.momentum == 0 && frame->theta.radial == 0;
+}
+
+struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon)
+{
+    double x[4];
+    kd_tetrad_components(frame, photon, x);
+    return (struct kd_look) { -x[3] / x[0], x[2] / x[0], x[1] / x[0], photon->energy / x[0] };
+}
+
+/* R = ((r^2 + a^2) E - a L)^2 - Delta (p_theta^2 + (L/sin(theta) - a E sin(theta))^2), by the norm of a photon. */
+struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta)
+{
+    double a = at->spin, r = at->r, across = alpha + a * at->s, along = r * r + a * a + a * alpha * at->s;
+    double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
+    return (struct kd_covector) { 1, -alpha, beta, sqrt(fmax(0, along * along - delta * (beta * beta + across * across))) };
 }

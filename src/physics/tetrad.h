@@ -1,27 +1,42 @@
-/* Local frames of observers in Kerr, for light. Double precision, pure functions, any thread. Units G = c = M = 1.
+/* Orthonormal frames in Kerr. Double precision, pure functions, any thread. Units G = c = M = 1; Boyer-Lindquist coordinates.
  *
- * A photon of local energy 1 that flies along the unit vector m = (m_r, m_theta, m_phi) of the frame has
+ * A frame is four covectors: the legs e_t (minus this is what a clock at rest in the frame reads along a motion), e_r, e_theta, e_phi
+ * with their indices lowered. What has the local components x = (x_t, x_r, x_theta, x_phi) is the covector sum of x_i e_i: for a photon
+ * of local energy 1 that flies along the unit vector m, x = (1, m), for a body of velocity v, x = gamma (1, v).
  *
- *   E = e0 + e1 m_phi      L/sin(theta) = l0 + l1 m_phi      p_theta = p m_theta      |p_r| Delta = p sqrt(Delta) |m_r|
- *
- * Source: Bardeen, Press & Teukolsky 1972, ApJ 178, 347, sections II and III. */
+ * Each covector p is held by its covariant components in the form that kernels start from and that stays finite on the axis and at a
+ * horizon: E = -p_t, L/sin(theta) = p_phi/sin(theta), p_theta, and Delta p_r = Sigma p^r, the velocity dr/dlambda in Mino time. */
 #ifndef KD_PHYSICS_TETRAD_H
 #define KD_PHYSICS_TETRAD_H
 
-struct kd_tetrad {
-    double e0, e1, l0, l1, p;
-    double root_delta; /* sqrt(r^2 - 2r + a^2) */
+struct kd_covector {
+    double energy, momentum, polar, radial; /* E, L/sin(theta), p_theta, Delta p_r */
 };
 
-/* The frame of an observer of zero angular momentum; r > r+. u = cos(theta), s = sin(theta). */
-struct kd_tetrad kd_tetrad_zamo(double a, double r, double u, double s);
+/* Where a frame is: spin, |spin| < 1; radius; cosine and sine of the polar angle, one of which may be 0. */
+struct kd_vantage {
+    double spin, r, u, s;
+};
 
-/* The frame of an observer at rest with respect to infinity; outside the ergosphere, else NaN. */
-struct kd_tetrad kd_tetrad_static(double a, double r, double u, double s);
+struct kd_tetrad {
+    struct kd_vantage at;
+    struct kd_covector t, r, theta, phi;
+};
 
-/* Where the photon with the labels alpha, beta of null_geodesic.h is seen that arrives moving outwards: a unit vector, right along
- * +phi, up along -theta, inwards along -r; what flies along m is seen along -m. energy: at infinity, over the one measured. */
+/* The covector of the components x, and the components of a covector; the latter not at a horizon itself, where E, L and Delta p_r say
+ * one thing less (NaN or infinity). */
+struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const double x[4]);
+void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4]);
+
+/* Whether left and right, in and out are alike above and below: only e_theta has a p_theta, and it has nothing else. */
+int kd_tetrad_is_level(const struct kd_tetrad *frame);
+
+/* Where a photon is seen that arrives: a unit vector, right along +phi, up along -theta, inwards along -r; what flies along m is seen
+ * along -m. energy: its E over what is measured in the frame. */
 struct kd_look { double right, up, inwards, energy; };
-struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, double alpha, double beta);
+struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon);
+
+/* The photon with the labels alpha, beta of null_geodesic.h, E = 1, that passes `at` outwards; radial is 0 where there is none. */
+struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta);
 
 #endif

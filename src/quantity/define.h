@@ -11,6 +11,7 @@
 #ifndef KD_QUANTITY_DEFINE_H
 #define KD_QUANTITY_DEFINE_H
 
+#include "physics/observer.h"
 #include "quantity/quantity.h"
 
 #include <math.h>
@@ -44,11 +45,17 @@
       .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")
 #define KD_PARAMETER_MASS(P)                                                                                          \
     P(mass_msun, .unit = "solar masses", .initial = "1e8", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole")
+#define KD_PARAMETER_OBSERVER(P)                                                                                      \
+    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",                \
+      .help = "radius of the observer")                                                                                \
+    P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, .help = "state of motion at a finite radius" KD_OBSERVER_HELP)
 
 /* KD_EINVAL with "/name": "r is 1.2, " and the reason, which ends in what is allowed. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
 /* r at or outside the horizon of spin a, or that error. */
 enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error);
+/* Whether there is such an observer, or the error for /observer_r. */
+enum kd_status kd_quantity_observer_exists(enum kd_observer observer, const struct kd_vantage *at, struct kd_error *error);
 
 #endif

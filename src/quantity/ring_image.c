@@ -3,16 +3,12 @@
 #include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/ring_image.h"
-#include "physics/tetrad.h"
 
 #define PARAMETERS(P)                                                                                                  \
     KD_PARAMETER_SPIN(P)                                                                                               \
     P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180,                               \
       .help = "polar angle of the observer; not within 0.1 of 90")                                                     \
-    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",                \
-      .help = "radius of the observer")                                                                                \
-    P(observer, .initial = "static", .words = "static|zamo",                                                           \
-      .help = "at a finite radius: at rest with respect to infinity, or with zero angular momentum")                   \
+    KD_PARAMETER_OBSERVER(P)                                                                                           \
     P(r, .unit = "M", .initial = "6", .minimum = 1, .maximum = 1e4, .word = "isco", .help = "radius of the ring")      \
     P(order, .unit = "1", .initial = "0", .minimum = 0, .maximum = 1, .whole = true,                                   \
       .help = "of the image: 0 direct, 1 past the other side of the hole")                                             \
@@ -42,16 +38,13 @@ struct memory {
 
 static enum kd_status make_frame(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
-    double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg), edge = kd_kerr_ergosphere(p->spin, u);
-    if (isinf(p->observer_r))
+    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+    const enum kd_observer observer = (enum kd_observer)p->observer;
+    if (isinf(at.r))
         return KD_OK;
-    if (!(p->observer_r > kd_kerr_horizon(p->spin)))
-        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.9g M",
-                                   kd_kerr_horizon(p->spin));
-    if (p->observer == 0 && !(p->observer_r > edge))
-        return kd_quantity_outside(error, "observer_r", p->observer_r,
-                                   "in the ergosphere, where nothing is at rest; allowed is outside %.9g M, or observer zamo", edge);
-    m->frame = (p->observer == 1 ? kd_tetrad_zamo : kd_tetrad_static)(p->spin, p->observer_r, u, s);
+    if (kd_quantity_observer_exists(observer, &at, error))
+        return KD_EINVAL;
+    m->frame = kd_observer_tetrad(observer, &at);
     return KD_OK;
 }
 
@@ -72,8 +65,10 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         return kd_quantity_outside(error, "r", r, "too large for this observer, or too near the horizon: its light does not come from "
                                                   "further in; allowed are rings well inside observer_r");
     struct kd_look look = { NAN, NAN, NAN, NAN };
-    if (!isinf(p->observer_r))
-        look = kd_tetrad_look(&m->frame, at.alpha, side * at.beta);
+    if (!isinf(p->observer_r)) {
+        const struct kd_covector photon = kd_tetrad_outgoing(&m->frame.at, at.alpha, side * at.beta);
+        look = kd_tetrad_look(&m->frame, &photon);
+    }
     o->alpha = at.alpha, o->beta = side * at.beta, o->right = look.right, o->up = look.up, o->inwards = look.inwards;
     o->phi_deg = at.phi * (180 / M_PI), o->delay = at.delay;
     return KD_OK;

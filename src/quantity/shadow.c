@@ -2,15 +2,11 @@
 
 #include "physics/angle.h"
 #include "physics/critical.h"
-#include "physics/kerr.h"
 
 #define PARAMETERS(P)                                                                                                  \
     KD_PARAMETER_SPIN(P)                                                                                               \
     P(inclination_deg, .unit = "degrees", .initial = "60", .minimum = 0, .maximum = 180, .help = "polar angle of the observer") \
-    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",                \
-      .help = "radius of the observer")                                                                                \
-    P(observer, .initial = "static", .words = "static|zamo",                                                           \
-      .help = "at a finite radius: at rest with respect to infinity, or with zero angular momentum")                   \
+    KD_PARAMETER_OBSERVER(P)                                                                                           \
     P(angle_deg, .unit = "degrees", .initial = "0:355:72", .minimum = -360, .maximum = 720, .along = true,             \
       .help = "where on the curve: about its centre, from the right over the top")
 #define OUTPUTS(O)                                                                                                     \
@@ -42,17 +38,13 @@ struct memory { struct kd_critical curve; };
 
 static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
-    const double horizon = kd_kerr_horizon(p->spin);
-    struct kd_critical_observer observer = { .spin = p->spin, .radius = p->observer_r, .frame = p->observer == 1 ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC };
-    observer.cos_theta = kd_cos_deg(p->inclination_deg);
-    observer.sin_theta = kd_sin_deg(p->inclination_deg);
-    if (!(p->observer_r > horizon))
-        return kd_quantity_outside(error, "observer_r", p->observer_r, "not outside the horizon at %.9g M", horizon);
+    const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+    const struct kd_critical_observer observer = {
+        .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .frame = (enum kd_observer)p->observer,
+    };
+    if (kd_quantity_observer_exists(observer.frame, &at, error))
+        return KD_EINVAL;
     m->curve = kd_critical_of(&observer);
-    if (m->curve.status == KD_CRITICAL_IN_ERGOSPHERE)
-        return kd_quantity_outside(error, "observer_r", p->observer_r,
-                                   "in the ergosphere, where nothing is at rest; allowed is outside %.9g M, or observer zamo",
-                                   kd_kerr_ergosphere(p->spin, observer.cos_theta));
     if (m->curve.status)
         return kd_error_field(error, "/observer_r", "there is no critical curve for this observer");
     struct kd_critical_measures s = kd_critical_measure(&m->curve);

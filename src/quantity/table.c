@@ -50,3 +50,16 @@ enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *
     double horizon = kd_kerr_horizon(a);
     return r >= horizon ? KD_OK : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; allowed is outside", horizon);
 }
+
+enum kd_status kd_quantity_observer_exists(enum kd_observer observer, const struct kd_vantage *at, struct kd_error *error)
+{
+    const struct kd_observer_row *row = &kd_observers[observer];
+    const double horizon = kd_kerr_horizon(at->spin);
+    char others[KD_OBSERVER_TEXT];
+    if (!(at->r > horizon))
+        return kd_quantity_outside(error, "observer_r", at->r, "not outside the horizon at %.9g M", horizon);
+    if (kd_observer_exists(observer, at))
+        return KD_OK;
+    return kd_quantity_outside(error, "observer_r", at->r, "in %s, where %s; allowed is outside %.9g M, or observer %s", row->edge, row->why,
+                               row->outside(at->spin, at->u), kd_observer_others(at, others));
+}

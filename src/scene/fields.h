@@ -22,6 +22,8 @@
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
 
+#include "physics/observer.h"
+
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                      \
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M",                                 \
          "spin parameter a; a < 0 is a disk retrograde to its hole")                                                 \
@@ -34,8 +36,7 @@
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")                     \
     REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer") \
     ENUM(camera, observer, PHYSICS, REST, KD_OBSERVER_STATIC,                                                        \
-         "state of motion at a finite radius: at rest with respect to infinity, or with zero angular momentum",      \
-         "static|zamo")                                                                                              \
+         "state of motion at a finite radius" KD_OBSERVER_HELP, KD_OBSERVER_WORDS)                                   \
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO,                                                         \
          "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "              \
          "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "            \
@@ -167,7 +168,6 @@
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
-enum kd_observer { KD_OBSERVER_STATIC, KD_OBSERVER_ZAMO };
 enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "physics/angle.h"
 #include "physics/qnm.h"
 #include "physics/ringdown.h"
 
@@ -15,6 +16,12 @@ bool kd_scene_time_goes_on(const struct kd_scene *scene)
 {
     double rate = scene->motion.time_rate;
     return rate != 0 && scene->top.time != copysign(TIME_END, rate);
+}
+
+struct kd_vantage kd_scene_vantage(const struct kd_scene *scene)
+{
+    const double i = scene->camera.inclination_deg;
+    return (struct kd_vantage) { scene->spacetime.spin, scene->camera.r, kd_cos_deg(i), kd_sin_deg(i) };
 }
 
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS])

@@ -1,6 +1,5 @@
 #include "scene/rules.h"
 
-#include "physics/angle.h"
 #include "physics/kerr.h"
 #include "physics/qnm.h"
 #include "scene/number.h"
@@ -107,17 +106,18 @@ static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *err
                           show(r).text, show_bound(least).text, show(scene->spacetime.spin).text);
 }
 
-static enum kd_status ergosphere(const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status observer(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
-    double least = kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(camera->inclination_deg));
-    if (camera->observer != KD_OBSERVER_STATIC || camera->r > least)
+    const struct kd_observer_row *row = &kd_observers[camera->observer];
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    char others[KD_OBSERVER_TEXT];
+    if (kd_observer_exists((enum kd_observer)camera->observer, &at))
         return KD_OK;
     return kd_error_field(
         error, "/camera/r",
-        "camera.r is %s M, allowed for a static observer at this inclination is more than %s M, the "
-        "ergosphere; camera.observer \"zamo\" can be inside",
-        show(camera->r).text, show_bound(least).text);
+        "camera.r is %s M, allowed for camera.observer \"%s\" at this inclination is more than %s M, %s; camera.observer %s can be inside",
+        show(camera->r).text, row->word, show_bound(row->outside(at.spin, at.u)).text, row->edge, kd_observer_others(&at, others));
 }
 
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
@@ -186,7 +186,7 @@ const struct kd_rule kd_rules[] = {
       aim },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2).", horizon },
-    { "A static observer is outside the ergosphere, r > 1 + sqrt(1 - a^2 cos^2 i).", ergosphere },
+    { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

@@ -5,6 +5,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
+#include "physics/tetrad.h"
 #include "scene/fields.h"
 
 #include <math.h>
@@ -79,6 +80,9 @@ enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *
  * is for the emitters to say (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
+
+/* Where the observer is. */
+struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 
 /* The spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);

@@ -309,7 +309,7 @@ static void states_are_what_is_seen(void **state)
         struct kd_orbit o;
         struct kd_orbit_state s;
         struct kd_error error = { 0 };
-        if (kd_orbit_from_state(a, at[0], at[1] * (180 / M_PI), zamo ? KD_ORBIT_ZAMO : KD_ORBIT_STATIC, v, &o, &s, &error))
+        if (kd_orbit_from_state(a, at[0], at[1] * (180 / M_PI), zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC, v, &o, &s, &error))
             fail_msg("row %zu: %s", i, error.message);
         double r = at[0], sine2 = sin(at[1]) * sin(at[1]), u = cos(at[1]);
         double sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a;
@@ -342,7 +342,7 @@ static void from_any_phase(void **state)
         struct kd_orbit o;
         struct kd_orbit_state s;
         struct kd_orbit_path path;
-        assert_int_equal(kd_orbit_from_state(0.6, 14, 70, KD_ORBIT_ZAMO, v[i], &o, &s, NULL), KD_OK);
+        assert_int_equal(kd_orbit_from_state(0.6, 14, 70, KD_OBSERVER_ZAMO, v[i], &o, &s, NULL), KD_OK);
         assert_int_equal(o.fate, KD_ORBIT_BOUND);
         struct kd_orbit_bound b = kd_orbit_bound_of(&o, &s);
         kd_orbit_path_init(&path, &o, &s, KD_ORBIT_YOSHIDA6);
@@ -374,7 +374,7 @@ static void azimuth_has_no_pole(void **state)
             struct kd_orbit_state s;
             struct kd_orbit_path path;
             double sum = 0, drag = 0, h = 1e-4, end = 0.6;
-            assert_int_equal(kd_orbit_from_state(0.98, 12, rows[i].theta * (180 / M_PI), KD_ORBIT_ZAMO, rows[i].v, &o, &s, NULL), KD_OK);
+            assert_int_equal(kd_orbit_from_state(0.98, 12, rows[i].theta * (180 / M_PI), KD_OBSERVER_ZAMO, rows[i].v, &o, &s, NULL), KD_OK);
             assert_int_equal(o.carter < 0, rows[i].vortical);
             kd_orbit_path_init(&path, &o, &s, (enum kd_orbit_method)method);
             for (int k = 0; k < (int)(end / h); k++) { /* Simpson's rule over pairs of steps */
@@ -499,10 +499,10 @@ static void bad_input(void **state)
     refused("/r", kd_orbit_from_constants(0, 0.95, 3, 0, 1.9, &o, &error), &error);
     refused("/r", kd_orbit_from_constants(0, 0.95, 4, 0, 1000, &o, &error), &error);
     refused("/energy", kd_orbit_from_constants(0, -0.95, 4, 0, NAN, &o, &error), &error);
-    refused("/position/r", kd_orbit_from_state(0, 2, 57, KD_ORBIT_ZAMO, still, &o, &s, &error), &error);
-    refused("/position/theta_deg", kd_orbit_from_state(0, 5, 181, KD_ORBIT_ZAMO, still, &o, &s, &error), &error);
-    refused("/velocity", kd_orbit_from_state(0, 5, 57, KD_ORBIT_ZAMO, fast, &o, &s, &error), &error);
-    refused("/velocity/frame", kd_orbit_from_state(0.9, 1.9, 86, KD_ORBIT_STATIC, still, &o, &s, &error), &error);
+    refused("/position/r", kd_orbit_from_state(0, 2, 57, KD_OBSERVER_ZAMO, still, &o, &s, &error), &error);
+    refused("/position/theta_deg", kd_orbit_from_state(0, 5, 181, KD_OBSERVER_ZAMO, still, &o, &s, &error), &error);
+    refused("/velocity", kd_orbit_from_state(0, 5, 57, KD_OBSERVER_ZAMO, fast, &o, &s, &error), &error);
+    refused("/velocity/frame", kd_orbit_from_state(0.9, 1.9, 86, KD_OBSERVER_STATIC, still, &o, &s, &error), &error);
 }
 
 int main(void)

@@ -4,7 +4,7 @@
 #include "physics/embedding.h"
 #include "physics/kerr.h"
 #include "physics/ring_image.h"
-#include "physics/tetrad.h"
+#include "physics/observer.h"
 
 #include "kerr_schild.h"
 #include "ring_reference.h"
@@ -77,8 +77,10 @@ static void with_spin(void **state)
  * energy at infinity is the one that goes with the direction. */
 static void seen_from(double a, double i, double observer_r, bool zamo, double r, int order, const struct kd_ring_image_point *p)
 {
-    struct kd_tetrad frame = (zamo ? kd_tetrad_zamo : kd_tetrad_static)(a, observer_r, cos(i), sin(i));
-    struct kd_look look = kd_tetrad_look(&frame, p->alpha, p->beta);
+    const struct kd_vantage at = { a, observer_r, cos(i), sin(i) };
+    struct kd_tetrad frame = kd_observer_tetrad(zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC, &at);
+    struct kd_covector seen = kd_tetrad_outgoing(&at, p->alpha, p->beta);
+    struct kd_look look = kd_tetrad_look(&frame, &seen);
     struct ks_photon photon = ks_from_camera(a, observer_r, i, zamo, (double[]) { -look.inwards, -look.up, look.right });
     struct ks_path path = ks_trace(photon, order + 1);
     double bound = 1e-10 * (order ? 1e3 : 30); /* as above, with nothing that stands for infinity */

@@ -45,7 +45,7 @@ static const struct rule rules[] = {
       "the horizon" },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.81,\"observer\":\"zamo\"}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.9,\"inclination_deg\":90}}", "/camera/r",
-      "camera.r is 1.9 M, allowed for a static observer at this inclination is more than 2 M" },
+      "camera.r is 1.9 M, allowed for camera.observer \"static\" at this inclination is more than 2 M" },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":1.9,\"inclination_deg\":90}}", "/camera/r",
       "\"zamo\"" },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"r\":2,\"inclination_deg\":90}}", "/camera/r",

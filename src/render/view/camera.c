@@ -2,7 +2,7 @@
 
 #include "physics/angle.h"
 #include "physics/kerr.h"
-#include "physics/tetrad.h"
+#include "physics/observer.h"
 
 #include <math.h>
 
@@ -42,19 +42,17 @@ static void pinhole(struct kd_camera_exact *o, const struct kd_camera *c, double
     set_directions(o, forward, mix(step * cr, side, -step * sr, upward), mix(step * sr, side, step * cr, upward));
 }
 
-/* E and L/sin(theta) of a photon of unit local energy and direction m. */
-static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, double u, double s)
+/* E and L/sin(theta) of a photon of unit local energy and direction m. A valid scene has no observer where there is none such. */
+static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const struct kd_vantage *at)
 {
-    double a = scene->spacetime.spin, r = scene->camera.r;
-    bool zamo = scene->camera.observer == KD_OBSERVER_ZAMO; /* a valid scene has no static one in the ergosphere */
-    struct kd_tetrad t = (zamo ? kd_tetrad_zamo : kd_tetrad_static)(a, r, u, s);
-    o->e0 = t.e0;
-    o->e1 = t.e1;
-    o->l0 = t.l0;
-    o->l1 = t.l1;
-    o->cp = t.p;
-    o->cw = -t.p * t.root_delta / (r * r);
-    o->w0 = 1 / r;
+    const struct kd_tetrad t = kd_observer_tetrad((enum kd_observer)scene->camera.observer, at);
+    o->e0 = t.t.energy;
+    o->e1 = t.phi.energy;
+    o->l0 = t.t.momentum;
+    o->l1 = t.phi.momentum;
+    o->cp = t.theta.polar;
+    o->cw = -t.r.radial / (at->r * at->r);
+    o->w0 = 1 / at->r;
 }
 
 double kd_camera_pixel(const struct kd_scene *scene)
@@ -69,21 +67,21 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     const struct kd_camera *c = &scene->camera;
     double width = (double)scene->image.width * scene->image.samples;
     double height = (double)scene->image.height * scene->image.samples;
-    double u = kd_cos_deg(c->inclination_deg), s = kd_sin_deg(c->inclination_deg);
+    const struct kd_vantage at = kd_scene_vantage(scene);
 
     o.middle_x = 0.5 * width - 0.5;
     o.middle_y = 0.5 * height - 0.5;
     o.width = (uint32_t)width;
     o.spin = scene->spacetime.spin;
-    o.u = u;
-    o.s = s;
+    o.u = at.u;
+    o.s = at.s;
     o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
     o.horizon = 1 / kd_kerr_horizon(scene->spacetime.spin);
     if (isinf(c->r)) {
         plane(&o, c, kd_camera_pixel(scene) / scene->image.samples);
     } else {
         pinhole(&o, c, kd_camera_pixel(scene) / scene->image.samples);
-        frame(&o, scene, u, s);
+        frame(&o, scene, &at);
     }
     return o;
 }

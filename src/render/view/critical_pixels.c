@@ -169,7 +169,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     };
     const struct kd_critical_observer observer = {
         .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,
-        .frame = scene->camera.observer == KD_OBSERVER_ZAMO ? KD_CRITICAL_ZAMO : KD_CRITICAL_STATIC,
+        .frame = (enum kd_observer)scene->camera.observer,
     };
     atomic_fetch_add(&made, 1);
     *out = (struct kd_critical_pixels) { 0 };
