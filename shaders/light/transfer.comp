@@ -53,7 +53,8 @@ kd_beam follow(uvec2 place, uint at)
         if (w <= 0.0)
             break;
         float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0;
-        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, quantity(KD_LENS_SLOPE, plane), ray.e, momentum, n));
+        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, quantity(KD_LENS_SLOPE, plane), ray.e, momentum,
+                                   quantity(KD_LENS_FOOTPRINT, plane), n));
         if (beam.through <= 0.0)
             break;
     }
@@ -62,7 +63,7 @@ kd_beam follow(uvec2 place, uint at)
         if (fate == KD_FATE_UNDECIDED)
             kd_beam_given_up(beam);
         if (fate == KD_FATE_ESCAPED)
-            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at)));
+            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at)));
     }
     return beam;
 }

@@ -26,6 +26,15 @@
     U(list)                 /* of listed pixels, where it begins in the lens map. Of these, row0 is the first of a slice, rows \
                                how many, band0 the first row of pixels of the band that light is written to */
 
+/* Of footprint.comp. Rows are those of rays that the buffer holds. */
+#define KD_FOOTPRINT_FIELDS_(F, U)                                                                             \
+    U(width)                /* rays a row */                                                                   \
+    U(rows)                 /* all of them; of listed pixels how many these are */                             \
+    U(first) U(end)         /* those that are wanted; on listed pixels, rays */                                \
+    U(stride)               /* rays from plane to plane */                                                     \
+    U(list)                 /* where the listed pixels are */
+#define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than all that is */
+
 /* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
 #define KD_GUIDE_FIELDS_(F, U)                                                                                 \
     U(phi) U(radial) U(vertical)                                                                               \

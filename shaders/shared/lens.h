@@ -5,15 +5,20 @@
  *   PHI      its azimuth, source minus observer, radians
  *   DELAY    of light, t_observed - t_emitted, M (less r_o + 2 ln r_o at infinity)
  *   SLOPE    w', in Mino time, of the ray traced back
+ *   FOOTPRINT size on the disk of what one ray stands for, M: how far apart, along the direction in which they are furthest, the
+ *            places in (r, r phi) lie that rays a step of the camera apart cross at (comp/footprint.comp)
  *   ALPHA    impact parameter of the ray, M, where rays are not on the camera's grid
  *   SKY_U    cosine of the polar angle in which the ray escapes
  *   SKY_PHI  and its azimuth, source minus observer, radians
- *   FATE     KD_FATE_... of interface.h */
+ *   FATE     KD_FATE_... of interface.h
+ *   SKY_FOOTPRINT  the same of directions, radians
+ *
+ * Footprints need W and PHI, or SKY_U, SKY_PHI and FATE, and are KD_FOOTPRINT_EDGE where a ray has no neighbours. */
 #ifndef KD_LENS_H
 #define KD_LENS_H
 
-#define KD_LENS_OF_CROSSINGS(Q) Q(0, W) Q(1, PHI) Q(2, DELAY) Q(3, SLOPE)
-#define KD_LENS_OF_RAYS(Q) Q(4, ALPHA) Q(5, SKY_U) Q(6, SKY_PHI) Q(7, FATE)
+#define KD_LENS_OF_CROSSINGS(Q) Q(0, W) Q(1, PHI) Q(2, DELAY) Q(3, SLOPE) Q(4, FOOTPRINT)
+#define KD_LENS_OF_RAYS(Q) Q(5, ALPHA) Q(6, SKY_U) Q(7, SKY_PHI) Q(8, FATE) Q(9, SKY_FOOTPRINT)
 
 #ifdef VULKAN /* GLSL */
 #define Q(number, name) const uint KD_LENS_##name = 1u << number;

@@ -12,6 +12,11 @@
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) B(4, FINITE, false)                     \
     U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0)
 
+/* X1 to Y4: vectors between neighbours of the lattice, as 32-bit integers of either sign. */
+#define KD_SPEC_FOOTPRINT(U, B)                                                                                \
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0)                    \
+    U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
+
 /* SIDE: rays along each side of a pixel. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) B(3, FINITE, false)                                      \

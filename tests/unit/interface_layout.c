@@ -3,6 +3,7 @@
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 
+#include "footprint.spv.h"
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
 #include "photometry.spv.h"
@@ -142,6 +143,11 @@ static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
 static const struct field light_fields[] = { KD_LIGHT_FIELDS_(F, U) };
 #undef F
 #undef U
+#define F(name) { #name, offsetof(struct kd_footprint_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_footprint_push, name), OP_TYPE_INT },
+static const struct field footprint_fields[] = { KD_FOOTPRINT_FIELDS_(F, U) };
+#undef F
+#undef U
 #define F(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_INT },
 static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
@@ -152,7 +158,7 @@ static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
 static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), particles = SPIRV(particles),
-                          light = SPIRV(photometry);
+                          light = SPIRV(photometry), footprint = SPIRV(footprint);
 
 static void camera(void **state)
 {
@@ -176,6 +182,13 @@ static void light_push(void **state)
     (void)state;
     same(&light, "Push", light_fields, COUNT(light_fields), 0);
     assert_int_equal(sizeof(struct kd_light_push), 4 * COUNT(light_fields));
+}
+
+static void footprint_push(void **state)
+{
+    (void)state;
+    same(&footprint, "kd_footprint", footprint_fields, COUNT(footprint_fields), 0);
+    assert_int_equal(sizeof(struct kd_footprint_push), 4 * COUNT(footprint_fields));
 }
 
 static void particles_kernel(void **state)
@@ -237,6 +250,7 @@ int main(void)
         cmocka_unit_test(camera),
         cmocka_unit_test(post_push),
         cmocka_unit_test(light_push),
+        cmocka_unit_test(footprint_push),
         cmocka_unit_test(particles_kernel),
         cmocka_unit_test(emission),
     };

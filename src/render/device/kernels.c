@@ -4,6 +4,7 @@
 
 #include "density.spv.h"
 #include "expose.spv.h"
+#include "footprint.spv.h"
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
 #include "photometry.spv.h"
@@ -31,6 +32,7 @@ static const struct {
 } sources[] = {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 2, sizeof(struct kd_camera_push) },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 2, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1, sizeof(struct kd_footprint_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
     [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },

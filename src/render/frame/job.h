@@ -4,6 +4,7 @@
 
 #include "render/device/internal.h"
 #include "render/frame/frame.h"
+#include "render/view/critical_pixels.h"
 #include "render/view/layout.h"
 
 struct kd_frame_job {
@@ -59,6 +60,14 @@ void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, 
 
 /* The lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
+/* Footprints of rows of rays of a buffer, or of a range of rays on listed pixels, all of which are traced with those next to them.
+ * Recorded, not submitted. Nothing where the plan has none. */
+struct kd_footprint_area {
+    struct kd_vk_buffer *lens;
+    const struct kd_critical_lattice *lattice; /* NULL: the grid */
+    struct kd_footprint_push push;
+};
+enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 

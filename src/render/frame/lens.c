@@ -124,19 +124,49 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
     };
 }
 
-/* Record and submit. needed: the lens map as well. */
-static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s, bool needed)
+/* Of a slice that was just traced, the rows that can be finished. Footprints need the row of rays below too, and two at the upper edge:
+ * they are held back by so much, until the band ends. */
+static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
-    const struct kd_vk_pipeline *trace = NULL, *transfer;
-    enum kd_status status = needed ? trace_kernel(j, &on_grid, &trace) : KD_OK;
-    if (!status && needed)
-        status = trace_slice(j, s, trace);
+    if (!kd_plan_has_footprints(j->plan))
+        return *s;
+    uint32_t first = kd_frame_band_first(j, s->band), end = s->first + s->count, back = j->plan->side == 1 ? 2 : 1;
+    uint32_t from = s->first > first + back ? s->first - back : first, to = end > first + back ? end - back : first;
+    return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
+}
+
+static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s)
+{
+    const struct kd_plan *p = j->plan;
+    const uint32_t row0 = s->first - kd_frame_band_first(j, s->band), width = p->width * p->side;
+    const struct kd_footprint_area area = {
+        .lens = lens_buffer(j, s->band),
+        .push = { .width = width, .rows = kd_frame_band_rows(j, s->band) * p->side, .first = row0 * p->side,
+                  .end = (row0 + s->count) * p->side, .stride = width * p->band_rows * p->side },
+    };
+    return kd_frame_footprint(j, &area);
+}
+
+/* Trace a slice, and finish what then can be. */
+static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *traced, const struct slice *whole)
+{
+    const struct kd_vk_pipeline *trace;
+    enum kd_status status = trace_kernel(j, &on_grid, &trace);
     if (!status)
-        status = transfer_kernel(j, &on_grid, &transfer);
+        status = trace_slice(j, traced, trace);
+    return status ? status : footprint_slice(j, whole);
+}
+
+/* Record and submit; s: what is lit. */
+static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
+{
+    const struct kd_vk_pipeline *transfer;
+    enum kd_status status = transfer_kernel(j, &on_grid, &transfer);
     if (status)
         return status;
     struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band);
-    status = record(j, s, &d, false);
+    if (s->count)
+        status = record(j, s, &d, false);
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
 }
 
@@ -148,8 +178,13 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
     uint32_t step = slice_rows(ns * p->width * p->side * p->side, rows);
     enum kd_status status = KD_OK;
     for (uint32_t done = 0; done < rows && !status; done += step) {
-        const struct slice s = { band, first + done, rows - done < step ? rows - done : step };
-        status = light_slice(j, &s, needed);
+        struct slice s = { band, first + done, rows - done < step ? rows - done : step };
+        const struct slice whole = needed ? complete(j, &s) : s;
+        if (needed)
+            status = map_slice(j, &s, &whole);
+        s = whole;
+        if (!status)
+            status = light_slice(j, &s);
         j->lit = s.first + s.count;
         if (!status)
             status = kd_frame_report(j, needed ? 2 * s.count : s.count);
@@ -239,6 +274,25 @@ static enum kd_status list_part(struct kd_frame_job *j, const struct part *part)
     return status;
 }
 
+/* Footprints of a part that is traced, in slices. */
+static enum kd_status footprint_part(struct kd_frame_job *j, const struct part *part)
+{
+    const struct kd_critical_lattice lattice = kd_critical_lattice(j->plan->critical);
+    struct kd_footprint_area area = { .lens = part->lens, .lattice = &lattice, .push = { .rows = (uint32_t)part->n, .list = part->push.list, .stride = part->push.stride } };
+    const uint32_t rays = (uint32_t)(part->n * j->plan->critical), step = slice_rows(j->plan->trace_ns, rays);
+    enum kd_status status = KD_OK;
+    for (uint32_t from = 0; kd_plan_has_footprints(j->plan) && from < rays && !status; from += step) {
+        area.push.first = from;
+        area.push.end = from + (rays - from < step ? rays - from : step);
+        status = kd_frame_footprint(j, &area);
+        if (!status)
+            status = kd_vk_submit(j->r->vk, NULL, j->error);
+        if (!status)
+            status = kd_frame_report(j, 0);
+    }
+    return status;
+}
+
 static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part)
 {
     enum kd_status status = upload_pixels(j, part);
@@ -278,6 +332,8 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double
         struct part part = part_of(j, k);
         if (needed)
             status = trace_part(j, &part);
+        if (!status && needed)
+            status = footprint_part(j, &part);
         if (!status)
             status = transfer_part(j, &part, transfer_ns);
     }
@@ -349,7 +405,6 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
         .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
         .error = error,
     };
-    const struct kd_vk_pipeline *trace;
     struct kd_vk_buffer *host = NULL;
     bool reused;
     kd_vk_times_reset(renderer->vk);
@@ -359,14 +414,13 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
                                      KD_VK_READBACK, "lens map on the host", &host, error);
     if (!status)
         status = forget_undecided(&job);
-    if (!status)
-        status = trace_kernel(&job, &on_grid, &trace);
     for (uint32_t band = 0; band < plan->bands && !status; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
         uint32_t step = slice_rows(plan->trace_ns * plan->width * plan->side * plan->side, rows);
         for (uint32_t done = 0; done < rows && !status; done += step) {
             const struct slice s = { band, kd_frame_band_first(&job, band) + done, rows - done < step ? rows - done : step };
-            status = trace_slice(&job, &s, trace);
+            const struct slice whole = complete(&job, &s);
+            status = map_slice(&job, &s, &whole);
             if (!status)
                 status = kd_vk_submit(renderer->vk, NULL, error);
         }

@@ -45,6 +45,7 @@ static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_cap
 #define INVOCATIONS(name, n)                                                                                                     \
     static uint64_t name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, n; }
 INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
+INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
 INVOCATIONS(audited, plan->audit)
 INVOCATIONS(particles, plan->particles.count)
 INVOCATIONS(lit, kd_plan_rays(plan))

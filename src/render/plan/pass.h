@@ -40,6 +40,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
  * A kernel is a file under shaders/comp, "" for a copy and for the CPU. */
 #define KD_PASSES(P)                                                                                                             \
     P(TRACE, "trace", traced, BY(trace), RAYS, MAP)                                                                              \
+    P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP)                                      \
     P(AUDIT, "audit", audited, BY(audit), FIXED, MAP)                                                                            \
     P(PARTICLES, "particles", particles, WHOLE("particles.comp", PARTICLE), FIXED, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \

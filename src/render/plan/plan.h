@@ -99,6 +99,11 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
 
 static inline bool kd_plan_holds(const struct kd_plan *plan, uint32_t quantities) { return (plan->quantities & quantities) == quantities; }
 
+static inline bool kd_plan_has_footprints(const struct kd_plan *plan)
+{
+    return plan->quantities & (KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT);
+}
+
 /* Whether the lens map is one of crossing radii alone, by the closed form: the cheapest there is. */
 static inline bool kd_plan_is_radii(const struct kd_plan *plan)
 {

@@ -221,6 +221,35 @@ static uint32_t apart(uint32_t rays, uint32_t generator)
 
 static uint32_t common(uint32_t a, uint32_t b) { return b ? common(b, a % b) : a; }
 
+/* The shortest vector of the lattice that is no multiple of (bx, by); of any, where that is 0. */
+static void shortest(const struct kd_critical_lattice *l, int32_t bx, int32_t by, int32_t *x, int32_t *y)
+{
+    const int32_t n = (int32_t)l->rays;
+    int64_t least = INT64_MAX;
+    for (int32_t dx = 0; dx <= n; dx++)
+        for (int32_t dy = (int32_t)((int64_t)dx * l->generator % n) - n, last = dy + n; dy <= last; dy += n) {
+            int64_t size = (int64_t)dx * dx + (int64_t)dy * dy;
+            bool along = (bx || by) && (int64_t)dx * by == (int64_t)dy * bx;
+            if (size && size < least && !along) {
+                least = size;
+                *x = dx;
+                *y = dy;
+            }
+        }
+}
+
+struct kd_critical_neighbours kd_critical_neighbours(const struct kd_critical_lattice *lattice)
+{
+    struct kd_critical_neighbours n = { 0 };
+    shortest(lattice, 0, 0, &n.to[0].x, &n.to[0].y);
+    shortest(lattice, n.to[0].x, n.to[0].y, &n.to[1].x, &n.to[1].y);
+    n.to[2].x = n.to[0].x + n.to[1].x;
+    n.to[2].y = n.to[0].y + n.to[1].y;
+    n.to[3].x = n.to[0].x - n.to[1].x;
+    n.to[3].y = n.to[0].y - n.to[1].y;
+    return n;
+}
+
 struct kd_critical_lattice kd_critical_lattice(uint32_t rays)
 {
     struct kd_critical_lattice l = { .rays = rays, .generator = 1 };

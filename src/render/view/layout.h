@@ -20,6 +20,7 @@ static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_F
 #define F(name) float name;
 #define U(name) uint32_t name;
 struct kd_camera_push { KD_CAMERA_FIELDS_(F, U) };
+struct kd_footprint_push { KD_FOOTPRINT_FIELDS_(F, U) };
 struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
 struct kd_light_push { KD_LIGHT_FIELDS_(F, U) };
@@ -50,6 +51,7 @@ _Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that ev
     LIST(CHECK, CHECK)
 #define CHECK_CLOSED(id, name, value) SPEC_CHECK(kd_spec_lens_closed, id, name)
 #define CHECK_MAP(id, name, value) SPEC_CHECK(kd_spec_lens_map, id, name)
+#define CHECK_FOOTPRINT(id, name, value) SPEC_CHECK(kd_spec_footprint, id, name)
 #define CHECK_TRANSFER(id, name, value) SPEC_CHECK(kd_spec_transfer, id, name)
 #define CHECK_RAYS(id, name, value) SPEC_CHECK(kd_spec_rays, id, name)
 #define CHECK_PARTICLES(id, name, value) SPEC_CHECK(kd_spec_particles, id, name)
@@ -58,6 +60,7 @@ _Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that ev
 #define TRAIT(number, name) +1
 SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
+SPEC(kd_spec_footprint, KD_SPEC_FOOTPRINT, CHECK_FOOTPRINT, )
 SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT)];)
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
 SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
@@ -69,6 +72,7 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, 
 #undef SPEC
 #undef CHECK_CLOSED
 #undef CHECK_MAP
+#undef CHECK_FOOTPRINT
 #undef CHECK_TRANSFER
 #undef CHECK_RAYS
 #undef CHECK_PARTICLES

@@ -1,0 +1,182 @@
+/* The footprint of each ray: the size of what it stands for, on the disk for each crossing, and in the sky (shared/lens.h).
+ *
+ * A step of the camera is a square in the picture; the map takes it, to first order, to a parallelogram, and a disc one step across to
+ * an ellipse. The footprint is the long axis of that ellipse: the largest singular value of the map's derivative J,
+ *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
+ * The derivative comes from differences to the neighbouring rays of the same order or fate. The rays next to it
+ * on both sides give it to second order; so do two on one side, at the edge of the picture or of what the buffer holds; one ray alone
+ * gives it to first order. Where neither side has any, the ray is by itself at an edge, and its footprint is KD_FOOTPRINT_EDGE.
+ * Half the second difference counts as well: where the map turns back within a step it has a size all the same. It is of second
+ * order, too.
+ *
+ * Rays on listed pixels stand on a lattice (ray/place.glsl). There J is the linear map that fits best, by least squares, the differences to
+ * the neighbours in this pixel and those beside it, for a step of the side of the area that one ray has; what the fit leaves is counted like the
+ * second difference.
+ *
+ * Differences are those of 32-bit numbers: a footprint of less than some 1e-6 of r, or 1e-6 radians, is noise. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_FOOTPRINT(KD_SPEC_U_, KD_SPEC_B_)
+#include "shared/math.glsl"
+#include "ray/planes.glsl"
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+#define F(name) float name;
+#define U(name) uint name;
+struct kd_footprint { KD_FOOTPRINT_FIELDS_(F, U) };
+layout(push_constant) uniform Push { kd_footprint push_; };
+kd_footprint push; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
+layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
+
+/* Where a ray comes to: of a crossing (w, phi), of the sky a unit vector. */
+struct kd_spot { vec3 at; bool there; };
+
+/* n: which crossing; ORDERS: the sky. */
+kd_spot spot(uint n, uint at, bool there)
+{
+    if (n < ORDERS) {
+        float w = lens[at + n * push.stride];
+        return kd_spot(vec3(w, lens[at + (kd_plane(KD_LENS_PHI) + n) * push.stride], 0.0), there && w > 0.0);
+    }
+    float u = lens[at + kd_plane(KD_LENS_SKY_U) * push.stride], s = sqrt(max(1.0 - u * u, 0.0));
+    kd_phasor phi = kd_cos_sin(lens[at + kd_plane(KD_LENS_SKY_PHI) * push.stride]);
+    bool escapes = lens[at + kd_plane(KD_LENS_FATE) * push.stride] == KD_FATE_ESCAPED;
+    return kd_spot(vec3(s * phi.c, s * phi.s, u), there && escapes);
+}
+
+/* From the ray's own spot to another's, azimuths the short way round. */
+vec3 apart(uint n, kd_spot own, kd_spot other)
+{
+    vec3 d = other.at - own.at;
+    if (n < ORDERS)
+        d.y -= 2.0 * KD_PI * floor(d.y / (2.0 * KD_PI) + 0.5);
+    return d;
+}
+
+/* The change from ray to ray along one axis of the picture, and half the second difference. */
+struct kd_change { vec3 slope, bend; bool there; };
+
+/* At this place of so many along the axis, a step of which is `step_` in a plane of the map. */
+kd_change change(uint n, kd_spot own, uint at, uint place, uint places, uint step_)
+{
+    bool first = place == 0, last = place + 1 == places;
+    int o = first ? 1 : -1, p = first ? 2 : last ? -2 : 1; /* the two neighbours */
+    bool has_o = places > 1, has_p = int(place) + p >= 0 && int(place) + p < int(places);
+    kd_spot near = spot(n, has_o ? at + o * step_ : at, has_o), other = spot(n, has_p ? at + p * step_ : at, has_p);
+    vec3 d = apart(n, own, near), e = apart(n, own, other);
+    float fo = float(o), fp = float(p), unit = 1.0 / (fo * fp * (fp - fo));
+    if (near.there && other.there) /* the parabola through all three */
+        return kd_change((fp * fp * d - fo * fo * e) * unit, (fo * e - fp * d) * unit, true);
+    if (near.there)
+        return kd_change(fo * d, vec3(0.0), true);
+    return kd_change(fp * e, vec3(0.0), other.there && abs(p) == 1);
+}
+
+/* The metric of a spot: steps of w and phi in M; of the sky they are radians. */
+vec3 scale(uint n, kd_spot own)
+{
+    float r = 1.0 / own.at.x;
+    return n < ORDERS ? vec3(r * r, r, 0.0) : vec3(1.0);
+}
+
+float longest(float a, float b, float c)
+{
+    float half_ = 0.5 * (a - b), size = sqrt(0.5 * (a + b) + sqrt(half_ * half_ + c * c));
+    return kd_is_finite(size) ? min(size, KD_FOOTPRINT_EDGE) : KD_FOOTPRINT_EDGE;
+}
+
+float on_grid(uint n, uint at, uint x, uint y)
+{
+    kd_spot own = spot(n, at, true);
+    kd_change across = change(n, own, at, x, push.width, 1), down = change(n, own, at, y, push.rows, push.width);
+    vec3 m = scale(n, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend, bend_j = m * down.bend;
+    float size = longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j));
+    return across.there && down.there ? size : KD_FOOTPRINT_EDGE;
+}
+
+/* Sums for the linear map that fits best: of v v^T, of d v^T, and of d.d; how many neighbours lack what the ray has. */
+struct kd_fit { float xx, xy, yy; vec3 dx, dy; float dd, count, lacks; };
+
+/* Which pixels beside this one are listed too: they are next to it in the list. */
+struct kd_beside { bool left, right; };
+
+vec2 listed(uint pixel) { return vec2(lens[push.list + 2 * pixel], lens[push.list + 2 * pixel + 1]); }
+
+kd_beside beside(uint pixel)
+{
+    vec2 own = listed(pixel), before = listed(max(pixel, 1) - 1), after = listed(min(pixel + 1, push.rows - 1));
+    return kd_beside(before == own - vec2(1.0, 0.0), after == own + vec2(1.0, 0.0));
+}
+
+/* Count the neighbour of ray k in the pixel that is a vector away. */
+void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
+{
+    int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
+    bool inside = (x >= 0 || all.left) && (x < int(CRITICAL) || all.right) && y >= 0 && y < int(CRITICAL);
+    kd_spot other = spot(n, inside ? at + vx : at, inside);
+    vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
+    float there = other.there ? 1.0 : 0.0;
+    if (!other.there)
+        d = vec3(0.0); /* it may be no number */
+    fit.xx += there * v.x * v.x;
+    fit.xy += there * v.x * v.y;
+    fit.yy += there * v.y * v.y;
+    fit.dx += d * v.x;
+    fit.dy += d * v.y;
+    fit.dd += dot(d, d);
+    fit.count += there;
+    fit.lacks += inside ? 1.0 - there : 0.0;
+}
+
+float on_lattice(uint n, uint at)
+{
+    uint k = at % max(CRITICAL, 1);
+    kd_beside all = beside(at / max(CRITICAL, 1));
+    kd_spot own = spot(n, at, true);
+    kd_fit fit = kd_fit(0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    vec3 m = scale(n, own);
+#define BOTH(vx, vy) count(fit, n, own, m, all, at, k, int(vx), int(vy)); count(fit, n, own, m, all, at, k, -int(vx), -int(vy));
+    BOTH(X1, Y1) BOTH(X2, Y2) BOTH(X3, Y3) BOTH(X4, Y4)
+    float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
+    vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
+    float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
+    float size = longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j));
+    /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all directions. */
+    if (det < 0.5 * area * area)
+        size = fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE : longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0);
+    return size;
+}
+
+float footprint(uint n, uint at, uint x, uint y)
+{
+    return CRITICAL > 0 ? on_lattice(n, at) : on_grid(n, at, x, y);
+}
+
+void main()
+{
+    push = push_;
+    uint x = gl_GlobalInvocationID.x, y = push.first + gl_WorkGroupID.y, at = y * push.width + x;
+    if (CRITICAL > 0) {
+        at = push.first + x;
+        if (at >= push.end)
+            return;
+    } else if (x >= push.width) {
+        return;
+    }
+    if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
+        uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
+        for (; n < ORDERS; n++) { /* crossings come without gaps */
+            if (lens[at + n * push.stride] <= 0.0)
+                break;
+            lens[plane + n * push.stride] = footprint(n, at, x, y);
+        }
+        for (; n < ORDERS; n++)
+            lens[plane + n * push.stride] = 0.0;
+    }
+    if ((QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u) {
+        bool escapes = lens[at + kd_plane(KD_LENS_FATE) * push.stride] == KD_FATE_ESCAPED;
+        lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, x, y) : 0.0;
+    }
+}

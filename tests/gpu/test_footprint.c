@@ -1,0 +1,393 @@
+/* Footprints of the lens map against the derivative of the map by the Kerr-Schild oracle, which traces rays a thousandth of a step
+ * apart in double precision (tests/oracle). They share no formula: here the singular value comes from the angle that maximises it. */
+#include "kerr_schild.h"
+#include "physics/kerr.h"
+#include "render/device/internal.h"
+#include "render/render.h"
+#include "render/view/layout.h"
+#include "render/view/ring.h"
+
+#include "interface.h"
+#include "render_support.h"
+
+#include <math.h>
+
+#define WIDTH 160
+#define HEIGHT 90
+#define ORDERS 3
+#define NUDGE 1e-3 /* of a step: its square is what the oracle's own differences are off by; 1e-12 over it, their rounding */
+
+struct view {
+    const char *name;
+    double a, inclination, r; /* r: INFINITY, or a pinhole camera there */
+    double field;             /* M, or degrees */
+    int steps;                /* 0: the closed form */
+    bool listed;
+    bool ring;
+};
+
+static const struct view views[] = {
+    { "a 0, i 60", 0, 60, INFINITY, 30, 0, false, false },
+    { "a 0.9, i 82", 0.9, 82, INFINITY, 46, 0, false, false },
+    { "a 0.998, i 20", 0.998, 20, INFINITY, 24, 0, false, false },
+    { "a -0.9, i 120", -0.9, 120, INFINITY, 30, 0, false, false },
+    { "a 0.9, i 75, from 20 M", 0.9, 75, 20, 60, 0, false, false },
+    { "a 0.7, i 70, by steps", 0.7, 70, INFINITY, 30, 16, false, false },
+    { "a 0.7, i 70, from 4 M, by steps", 0.7, 70, 4, 100, 16, false, false },
+    { "a 0.9, i 70, listed", 0.9, 70, INFINITY, 30, 0, true, false },
+    { "a 0.9, i 60, ring", 0.9, 60, INFINITY, 30, 0, true, true },
+};
+enum { VIEWS = sizeof views / sizeof *views };
+
+static struct kd_scene scene_of(const struct view *v)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = v->a;
+    scene.camera.inclination_deg = v->inclination;
+    scene.camera.r = v->r;
+    *(isinf(v->r) ? &scene.camera.field_m : &scene.camera.fov_deg) = v->field;
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.accuracy.orders = ORDERS;
+    scene.accuracy.steps = v->steps;
+    if (v->listed) {
+        scene.accuracy.engine = 1 + KD_ENGINE_CLOSED;
+        scene.accuracy.precision = 1 + KD_PRECISION_F64;
+    }
+    if (v->ring) {
+        scene.camera.projection = KD_PROJECTION_RING;
+        scene.camera.ring_decades_min = -4;
+    }
+    OK(kd_scene_validate(&scene, &error));
+    return scene;
+}
+
+static const struct kd_needs both = { .quantities = KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT };
+
+static struct kd_plan plan_of(const struct kd_scene *scene, uint64_t binding)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &capacity);
+    if (binding)
+        capacity.max_binding_bytes = binding;
+    OK(kd_plan_make_for(scene, &both, &capacity, &plan, &error));
+    return plan;
+}
+
+static float *map_of(const struct kd_scene *scene, const struct kd_plan *plan)
+{
+    float *planes = test_malloc(sizeof(float) * plan->planes * plan->rays);
+    OK(kd_render_lens(renderer, scene, plan, planes, NULL, &error));
+    return planes;
+}
+
+static const float *plane(const struct kd_plan *plan, const float *planes, uint32_t quantity, uint32_t n)
+{
+    return planes + (kd_lens_plane(plan->quantities, plan->orders, quantity) + n) * plan->rays;
+}
+
+/* The photon at (x, y) in steps from the upper left ray. */
+static struct ks_photon photon(const struct view *v, const struct kd_scene *scene, double x, double y)
+{
+    double theta = v->inclination * M_PI / 180, step = v->field / WIDTH;
+    double right = x - 0.5 * (WIDTH - 1), up = 0.5 * (HEIGHT - 1) - y;
+    if (v->ring) {
+        const struct kd_ring ring = kd_ring_of(scene);
+        const struct kd_critical_point p = kd_critical_at(&ring.curve, 2 * M_PI * ((x + 0.5) / WIDTH - 0.5));
+        double half = 1 - 2 * (y + 0.5) / HEIGHT, d = copysign(pow(10, -4 * (1 - fabs(half))), half);
+        return ks_from_infinity(v->a, cos(theta), p.alpha + d * (p.alpha - ring.curve.centre), p.beta + d * p.beta);
+    }
+    if (isinf(v->r))
+        return ks_from_infinity(v->a, cos(theta), right * step, up * step);
+    double t = 2 * tan(0.5 * v->field * M_PI / 180) / WIDTH, n = 1 / sqrt(1 + t * t * (right * right + up * up));
+    const double k[3] = { -n, -t * up * n, t * right * n };
+    return ks_from_camera(v->a, v->r, theta, false, k);
+}
+
+struct spot { double x, y, z; bool there; };
+
+/* Where a ray comes to, in M from the middle or as a direction. */
+static struct spot spot_of(const struct ks_path *p, int n)
+{
+    if (n < ORDERS)
+        return (struct spot) { n < p->crossings ? p->r[n] : 0, n < p->crossings ? p->phi[n] : 0, 0, n < p->crossings };
+    double s = sqrt(fmax(0, 1 - p->u * p->u));
+    return (struct spot) { s * cos(p->sky_phi), s * sin(p->sky_phi), p->u, p->fate == KS_ESCAPED };
+}
+
+/* The change from ray to ray along (dx, dy), in M or radians; NAN where there is none. */
+struct change { double x, y, z; };
+static struct change change_of(const struct ks_path *p, const struct ks_path *q, double r, int n)
+{
+    const struct spot a = spot_of(p, n), b = spot_of(q, n);
+    if (!a.there || !b.there)
+        return (struct change) { NAN, NAN, NAN };
+    double s = 1 / (2 * NUDGE);
+    if (n < ORDERS)
+        return (struct change) { s * (b.x - a.x), s * r * remainder(b.y - a.y, 2 * M_PI), 0 };
+    return (struct change) { s * (b.x - a.x), s * (b.y - a.y), s * (b.z - a.z) };
+}
+
+/* The footprints of all orders and of the sky at one place; NAN where there is none. */
+struct sizes { double of[ORDERS + 1]; };
+
+static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene, double x, double y)
+{
+    struct ks_path at[5];
+    static const double dx[] = { 0, -NUDGE, NUDGE, 0, 0 }, dy[] = { 0, 0, 0, -NUDGE, NUDGE };
+    struct sizes out;
+    for (int i = 0; i < 5; i++)
+        at[i] = ks_trace(photon(v, scene, x + dx[i], y + dy[i]), 16);
+    for (int n = 0; n <= ORDERS; n++) {
+        double r = n < ORDERS && n < at[0].crossings ? at[0].r[n] : NAN;
+        const struct change i = change_of(&at[1], &at[2], r, n), j = change_of(&at[3], &at[4], r, n);
+        out.of[n] = 0;
+        for (int k = 0; k < 720; k++) { /* the longest image of a unit vector */
+            double c = cos(k * M_PI / 720), s = sin(k * M_PI / 720);
+            out.of[n] = fmax(out.of[n], sqrt(pow(c * i.x + s * j.x, 2) + pow(c * i.y + s * j.y, 2) + pow(c * i.z + s * j.z, 2)));
+        }
+        if (isnan(i.x) || isnan(j.x))
+            out.of[n] = NAN;
+    }
+    return out;
+}
+
+/* The least and the largest size here and at the four neighbours; NAN where one of them is missing. A difference over a step is the
+ * derivative somewhere on that step: a footprint lies between the two. */
+struct range { struct sizes own, least, most; };
+
+static struct range range_at(const struct view *v, const struct kd_scene *scene, double x, double y, double way)
+{
+    struct range out = { .own = sizes_at(v, scene, x, y) };
+    out.least = out.most = out.own;
+    static const double dx[] = { -1, 1, 0, 0 }, dy[] = { 0, 0, -1, 1 };
+    for (int k = 0; k < 4; k++) {
+        const struct sizes s = sizes_at(v, scene, x + way * dx[k], y + way * dy[k]);
+        for (int n = 0; n <= ORDERS; n++) {
+            bool none = isnan(s.of[n]) || isnan(out.least.of[n]);
+            out.least.of[n] = none ? NAN : fmin(out.least.of[n], s.of[n]);
+            out.most.of[n] = none ? NAN : fmax(out.most.of[n], s.of[n]);
+        }
+    }
+    return out;
+}
+
+struct tally { int n, outside, edges; double errors[WIDTH * HEIGHT]; };
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* noise: of the map's own arithmetic, over the size. */
+static void judge(struct tally *t, const struct range *range, int n, double got, double slack, double noise)
+{
+    double own = range->own.of[n], least = range->least.of[n], most = range->most.of[n];
+    if (isnan(least))
+        return;
+    if (got == (double)(float)KD_FOOTPRINT_EDGE) {
+        t->edges++;
+        return;
+    }
+    t->errors[t->n++] = fabs(got / own - 1);
+    /* The ends are samples, the long axis turns on the way, and the second difference is counted in, which is of second order as well. */
+    if (got < least * (1 - slack - noise) || got > most * (1 + slack + noise)) {
+        t->outside++;
+        print_message("  order %d: %.6g, the oracle's %.6g between %.6g and %.6g\n", n, got, own, least, most);
+    }
+}
+
+static void report(const char *name, struct tally *t)
+{
+    for (int n = 0; n <= ORDERS; n++) {
+        qsort(t[n].errors, (size_t)t[n].n, sizeof *t[n].errors, by_value);
+        print_message("%-34s %s %d: %3d rays, median %.1e, 90 %% %.1e, at edges %d, out of range %d\n", name, n < ORDERS ? "order" : "sky  ",
+                      n, t[n].n, t[n].n ? t[n].errors[t[n].n / 2] : 0, t[n].n ? t[n].errors[t[n].n * 9 / 10] : 0, t[n].edges, t[n].outside);
+    }
+}
+
+static void test_grid(void **state)
+{
+    (void)state;
+    for (int i = 0; i < VIEWS; i++) {
+        const struct view *v = &views[i];
+        const struct kd_scene scene = scene_of(v);
+        if (scene.accuracy.precision && !has_float64(v->name))
+            continue;
+        const struct kd_plan plan = plan_of(&scene, 0);
+        float *planes = map_of(&scene, &plan);
+        static struct tally t[ORDERS + 1];
+        memset(t, 0, sizeof t);
+        for (uint32_t y = 0; y < HEIGHT; y += 11)
+            for (uint32_t x = 0; x < WIDTH; x += 13) {
+                if (v->ring && 2 * y + 2 == HEIGHT) /* the way to the next row leads across the curve: the map has a crease there */
+                    continue;
+                size_t at = y * WIDTH + x;
+                const struct range range = range_at(v, &scene, x, y, 1);
+                for (int n = 0; n <= ORDERS; n++) {
+                    bool sky = n == ORDERS;
+                    double size = plane(&plan, planes, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT, sky ? 0 : (uint32_t)n)[at];
+                    double r = sky ? 1 : 1 / (double)plane(&plan, planes, KD_LENS_W, (uint32_t)n)[at];
+                    if (isfinite(r) && r < 1000)
+                        judge(&t[n], &range, n, size, 0.02, 1e-5 * r / size);
+                }
+            }
+        report(v->name, t);
+        for (int n = 0; n <= ORDERS; n++)
+            assert_true(t[n].outside == 0 && t[n].edges == 0);
+        /* What a picture of many pixels is about: half of the direct image within a two-hundredth, nine tenths within a thirtieth. */
+        assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
+        assert_true(t[1].n > 5 && t[ORDERS].n > 5);
+        test_free(planes);
+    }
+}
+
+/* The buffers of the map that a picture was made from. */
+static const struct kd_lens_map *kept(const struct kd_plan *plan)
+{
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        if (!strcmp(renderer->store.maps[i].key, plan->lens_key))
+            return &renderer->store.maps[i];
+    fail_msg("the map is not kept");
+    return NULL;
+}
+
+static float *read_buffer(struct kd_vk_buffer *buffer)
+{
+    struct kd_vk_buffer *host;
+    uint64_t bytes = kd_vk_buffer_size(buffer) / 4 * 4;
+    OK(kd_vk_buffer_create(renderer->vk, bytes, KD_VK_READBACK, "test", &host, &error));
+    OK(kd_vk_copy(renderer->vk, "readback", host, 0, buffer, 0, bytes, &error));
+    OK(kd_vk_submit(renderer->vk, NULL, &error));
+    OK(kd_vk_wait(renderer->vk, 0, &error));
+    float *out = test_malloc(bytes);
+    memcpy(out, kd_vk_buffer_map(host), bytes);
+    kd_vk_buffer_destroy(renderer->vk, host);
+    return out;
+}
+
+/* A picture is traced and lit a few rows at a time: its footprints are those of a map that is traced at once. */
+static void test_slices(void **state)
+{
+    (void)state;
+    const struct kd_scene scene = scene_of(&views[1]);
+    struct kd_plan plan = plan_of(&scene, 0);
+    float *whole = map_of(&scene, &plan);
+    static const double rows[] = { 1, 2, 7 };
+    for (int i = 0; i < 3; i++) {
+        struct kd_frame frame;
+        plan.trace_ns = 40e6 / (rows[i] * WIDTH); /* so many a slice */
+        plan.lens_key[0] = (char)('a' + i);       /* none that is kept */
+        OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+        assert_false(frame.lens_reused);
+        float *planes = read_buffer(kept(&plan)->bands.buffers[0]);
+        assert_memory_equal(planes, whole, sizeof(float) * plan.planes * plan.rays);
+        test_free(planes);
+        kd_frame_finish(&frame);
+    }
+    test_free(whole);
+}
+
+/* Bands end where a buffer does. Beside their ends footprints come from rays on one side, by a formula of the same order. */
+static void test_bands(void **state)
+{
+    (void)state;
+    const struct kd_scene scene = scene_of(&views[1]);
+    const struct kd_plan one = plan_of(&scene, 0), many = plan_of(&scene, 4ull * one.planes * WIDTH * 10 + 64);
+    assert_true(one.bands == 1 && many.bands == HEIGHT / 10 && many.band_rows == 10);
+    float *a = map_of(&scene, &one), *b = map_of(&scene, &many);
+    static struct tally t;
+    t.n = 0;
+    for (uint32_t n = 0; n < ORDERS; n++)
+        for (size_t at = 0; at < one.rays; at++) {
+            double x = plane(&one, a, KD_LENS_FOOTPRINT, n)[at], y = plane(&many, b, KD_LENS_FOOTPRINT, n)[at];
+            uint32_t row = (uint32_t)(at / WIDTH), in_band = row % 10;
+            if (row == 0 || row == HEIGHT - 1 || (in_band != 0 && in_band != 9))
+                assert_true(x == y);
+            else if (x > 0 && x < 3) /* where texture can be seen at all */
+                t.errors[t.n++] = fabs(y / x - 1);
+        }
+    qsort(t.errors, (size_t)t.n, sizeof *t.errors, by_value);
+    print_message("beside the ends of bands: %d crossings, median %.1e, 90 %% %.1e, 99 %% %.1e, worst %.1e\n", t.n, t.errors[t.n / 2],
+                  t.errors[t.n * 9 / 10], t.errors[t.n * 99 / 100], t.errors[t.n - 1]);
+    /* What fades with a footprint would show a line where it is wrong by a tenth. */
+    assert_true(t.n > 1000 && t.errors[t.n / 2] < 0.01 && t.errors[t.n * 9 / 10] < 0.04);
+    test_free(a);
+    test_free(b);
+}
+
+/* Rays on the pixels at the critical curve. */
+static void test_listed_pixels(void **state)
+{
+    (void)state;
+    static const int factors[] = { 4, 2, 7 };
+    for (int i = 0; i < 3; i++) {
+        const struct view *v = &views[1];
+        struct kd_scene scene = scene_of(v);
+        struct kd_frame frame;
+        scene.image.critical_factor = factors[i];
+        const struct kd_plan plan = plan_of(&scene, 0);
+        assert_true(plan.critical == (uint32_t)(factors[i] * factors[i]));
+        OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
+        const struct kd_lens_map *map = kept(&plan);
+        float *planes = read_buffer(map->critical.buffers[0]);
+        const struct kd_critical_lattice lattice = kd_critical_lattice(plan.critical);
+        size_t stride = plan.critical_part * plan.critical;
+        static struct tally t[ORDERS + 1];
+        memset(t, 0, sizeof t);
+        double side = sqrt(plan.critical);
+        for (size_t k = 0; k < map->pixels.n; k += 11) {
+            uint32_t ray = (uint32_t)(k % plan.critical);
+            const struct kd_pixel step = kd_critical_place(&lattice, map->pixels.pixels[k], ray);
+            struct range range = range_at(v, &scene, (step.x + 0.5) / plan.critical - 0.5, (step.y + 0.5) / plan.critical - 0.5, 1.5 / side);
+            for (int n = 0; n <= ORDERS; n++) {
+                bool sky = n == ORDERS;
+                uint32_t first = kd_lens_plane(plan.quantities, plan.orders, sky ? KD_LENS_SKY_FOOTPRINT : KD_LENS_FOOTPRINT) + (sky ? 0 : (uint32_t)n);
+                double got = planes[first * stride + k * plan.critical + ray];
+                range.own.of[n] /= side;
+                range.least.of[n] /= side;
+                range.most.of[n] /= side;
+                judge(&t[n], &range, n, got, 0.1, 1e-5 * 20 / got);
+            }
+        }
+        report(v->name, t);
+        for (int n = 0; n <= ORDERS; n++) /* of four rays a pixel those that have none beside them know one direction only */
+            assert_true(10 * t[n].outside <= (factors[i] == 2 ? t[n].n : 0));
+        assert_true(t[0].n > 40 && t[1].n > 15 && t[ORDERS].n > 10);
+        assert_true(t[0].errors[t[0].n / 2] < 0.06 && t[1].errors[t[1].n / 2] < 0.1);
+        test_free(planes);
+        kd_frame_finish(&frame);
+    }
+}
+
+/* What needs no footprints has none: no plane, no pass. */
+static void test_plan(void **state)
+{
+    (void)state;
+    const struct kd_scene scene = scene_of(&views[1]);
+    struct kd_capacity capacity;
+    struct kd_plan off;
+    kd_renderer_capacity(renderer, &capacity);
+    OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_PHI | KD_LENS_SKY }, &capacity, &off, &error));
+    const struct kd_plan on = plan_of(&scene, 0);
+    assert_int_equal(on.planes, off.planes + ORDERS + 1);
+    assert_int_equal(on.n_passes, off.n_passes + 1);
+    assert_string_equal(on.passes[1].name, "footprint");
+    for (size_t i = 0; i < off.n_passes; i++)
+        assert_string_not_equal(off.passes[i].name, "footprint");
+}
+
+int main(void)
+{
+    int status = open_renderer();
+    if (status)
+        return status;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_plan), cmocka_unit_test(test_slices), cmocka_unit_test(test_bands), cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_listed_pixels),
+    };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
