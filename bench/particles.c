@@ -1,5 +1,6 @@
 /* What the particles of a disk cost a frame: from their numbers to the density on the grid, for 1e3 to 1e7 of them. A small
  * picture with its lens map reused; times of the device pass and of the whole frame, in ms. Prints one line of JSON: all runs. */
+#include "render/emit/particles.h"
 #include "render/render.h"
 
 #include <argp.h>
@@ -35,7 +36,7 @@ static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_sc
         return status;
     cJSON_AddItemToArray(device, cJSON_CreateNumber(timing(&frame, "particles")));
     cJSON_AddItemToArray(total, cJSON_CreateNumber(timing(&frame, "total")));
-    *grid = plan.particles;
+    *grid = kd_particle_grid(scene);
     kd_frame_finish(&frame);
     return KD_OK;
 }

@@ -197,11 +197,16 @@ static void test_off(void **state)
     scenes[3].disk.plunging_temperature = 0;
     for (int k = 0; k < 4; k++)
         OK(kd_plan_make(&scenes[k], &c, &plans[k], &error));
-    assert_true(kd_plan_holds(&plans[0], KD_LENS_SLOPE) && plans[0].particles.plunging == FALLING && plans[0].planes == 3 * plans[0].orders);
+    struct kd_particle_grid grids[4];
+    for (int k = 0; k < 4; k++)
+        grids[k] = kd_particle_grid(&scenes[k]);
+    assert_true(kd_plan_holds(&plans[0], KD_LENS_SLOPE) && grids[0].plunging == FALLING && plans[0].planes == 3 * plans[0].orders);
     for (int k = 1; k < 4; k++)
         assert_true(!kd_plan_holds(&plans[k], KD_LENS_SLOPE) && plans[k].planes == 2 * plans[k].orders && strcmp(plans[k].lens_key, plans[0].lens_key));
-    assert_true(!plans[1].particles.plunging && !plans[2].particles.plunging && plans[3].particles.plunging == FALLING);
-    assert_true(plans[1].particles.bytes < plans[0].particles.bytes && !plans[1].particles.plunge_rows);
+    assert_true(!grids[1].plunging && !grids[2].plunging && grids[3].plunging == FALLING);
+    assert_true(grids[1].bytes < grids[0].bytes && !grids[1].plunge_rows);
+    assert_int_equal(plans[0].device_bytes - plans[1].device_bytes,
+                     grids[0].bytes - grids[1].bytes + plans[0].lens_bytes - plans[1].lens_bytes);
     assert_true(plans[0].n_approximations == plans[1].n_approximations + 1);
 }
 

@@ -1,5 +1,7 @@
-/* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is measured by. */
+/* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is measured by. So do
+ * the emitters that have one. */
 #include "render/accuracy/table.h"
+#include "render/device/prepare.h"
 #include "render/frame/frame.h"
 #include "render/plan/plan.h"
 
@@ -103,6 +105,27 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
             fail_msg("no pass is measured for \"%s\"", kd_figures[i].word);
 }
 
+/* An emitter with buffers of its own has what fills them, and a pass of its name that says so; and the transfer pass binds one. */
+static void emitters_are_prepared(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    int buffers = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        const struct kd_emitter *e = kd_emitters[i];
+        assert_true(!e->device_bytes == !e->invocations && !e->device_bytes == !kd_preparations[i]);
+        assert_true(!e->device_bytes == !kd_pass_find(e->name));
+        buffers += kd_preparations[i] != NULL;
+    }
+    assert_int_equal(buffers, 1);
+    kd_scene_defaults(&scene);
+    assert_true(!kd_emit_device_bytes(&scene) && !kd_emit_invocations(&scene, KD_EMITTER_particles));
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.disk.particles = 5000;
+    assert_int_equal(kd_emit_invocations(&scene, KD_EMITTER_particles), 5000);
+    assert_true(kd_emit_device_bytes(&scene) > 4 * 5000 / 5 * 2); /* five to a cell, two words of each cell */
+}
+
 /* By hand, of the passes that a plan has by default: what is learned from a frame is what the next plan estimates. */
 static void estimates_are_figures(void **state)
 {
@@ -127,6 +150,7 @@ int main(void)
         cmocka_unit_test(names_are_names),
         cmocka_unit_test(words_stay),
         cmocka_unit_test(each_is_in_a_plan_and_each_figure_learned),
+        cmocka_unit_test(emitters_are_prepared),
         cmocka_unit_test(estimates_are_figures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,7 +24,7 @@ static enum kd_status guides(struct kd_renderer *r, struct kd_particles *p, cons
     return kd_vk_copy(r->vk, "upload", p->guides, 0, p->staging, 0, bytes, error);
 }
 
-void kd_particles_forget(struct kd_particles *p) { p->time = NAN; }
+static void forget(struct kd_prepared *own) { own->particles.time = NAN; }
 
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
@@ -68,34 +68,37 @@ static enum kd_status divide(struct kd_renderer *r, const struct kd_particles *p
     return kd_vk_dispatch(r->vk, &d, error);
 }
 
-enum kd_status kd_particles_deposit(struct kd_renderer *r, struct kd_particles *p, const struct kd_scene *scene,
-                                    const struct kd_particle_grid *grid, double ns_per_particle, struct kd_error *error)
+static enum kd_status prepare(struct kd_renderer *r, struct kd_prepared *own, const struct kd_scene *scene, const struct kd_capacity *c,
+                              struct kd_error *error)
 {
-    uint64_t bytes = 4 * (kd_particle_words(grid) + kd_particle_plunge_words(grid));
-    double time = scene->top.time - kd_particle_delay(scene);
-    enum kd_status status = guides(r, p, scene, grid, time, error);
-    if (!status)
-        status = kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error);
-    if (!status)
-        status = kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error);
-    if (!status)
-        status = kd_vk_fill(r->vk, p->grid, 0, bytes, 0, error);
-    struct kd_particles_push push = kd_particle_push(scene, grid, time);
-    if (!status && grid->plunging)
-        status = share_out(r, p, scene, true, &push, grid->plunging, ns_per_particle, error);
-    if (!status)
-        status = share_out(r, p, scene, false, &push, grid->count, ns_per_particle, error);
-    if (!status)
-        status = divide(r, p, 0, kd_particle_guides_bytes(grid), grid->rows, grid->columns, error);
-    if (!status && grid->plunging)
-        status = divide(r, p, 4 * kd_particle_words(grid), kd_particle_guides_bytes(grid) + KD_PARTICLE_EXPECTED_BYTES, grid->plunge_rows,
-                        grid->plunge_columns, error);
-    return status ? status : kd_vk_submit(r->vk, NULL, error);
+    struct kd_particles *p = &own->particles;
+    const struct kd_particle_grid grid = kd_particle_grid(scene);
+    const uint64_t words = kd_particle_words(&grid), bytes = 4 * (words + kd_particle_plunge_words(&grid));
+    const uint64_t expected = kd_particle_guides_bytes(&grid);
+    const double time = scene->top.time - kd_particle_delay(scene), ns = c->ns[KD_NS_PARTICLE];
+    struct kd_particles_push push = kd_particle_push(scene, &grid, time);
+    enum kd_status status;
+    KD_TRY(guides(r, p, scene, &grid, time, error));
+    KD_TRY(kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error));
+    KD_TRY(kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error));
+    KD_TRY(kd_vk_fill(r->vk, p->grid, 0, bytes, 0, error));
+    if (grid.plunging)
+        KD_TRY(share_out(r, p, scene, true, &push, grid.plunging, ns, error));
+    KD_TRY(share_out(r, p, scene, false, &push, grid.count, ns, error));
+    KD_TRY(divide(r, p, 0, expected, grid.rows, grid.columns, error));
+    if (grid.plunging)
+        KD_TRY(divide(r, p, 4 * words, expected + KD_PARTICLE_EXPECTED_BYTES, grid.plunge_rows, grid.plunge_columns, error));
+    KD_TRY(kd_vk_submit(r->vk, NULL, error));
+done:
+    return status;
 }
+
+static struct kd_vk_buffer *density(const struct kd_prepared *own) { return own->particles.density; }
 
 enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene *scene, uint32_t first, uint32_t stride,
                                    size_t n, struct kd_particle_place *out, struct kd_error *error)
 {
+    struct kd_particles *p = &r->prepared.particles;
     const struct kd_particle_grid grid = kd_particle_grid(scene);
     const struct kd_vk_pipeline *kernel = NULL;
     const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0, .LIST = true, .PLUNGE = grid.plunging > 0 };
@@ -103,33 +106,31 @@ enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene 
     push.first = first;
     push.stride = stride;
     push.count = (uint32_t)n;
-    enum kd_status status = guides(r, &r->particles, scene, &grid, scene->top.time, error);
-    if (!status)
-        status = kd_store_at_least(r->vk, &r->particles.list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles",
-                                   error);
-    if (!status)
-        status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error);
+    enum kd_status status;
+    KD_TRY(guides(r, p, scene, &grid, scene->top.time, error));
+    KD_TRY(kd_store_at_least(r->vk, &p->list, n * sizeof(struct kd_particle_listed), KD_VK_READBACK, "places of particles", error));
+    KD_TRY(kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error));
     const struct kd_vk_dispatch d = {
-        kd_passes[KD_PASS_PARTICLES].name, kernel, { { r->particles.guides, 0, 0, false }, { r->particles.list, 0, 0, true } }, &push,
+        kd_passes[KD_PASS_PARTICLES].name, kernel, { { p->guides, 0, 0, false }, { p->list, 0, 0, true } }, &push,
         { groups(push.count) },
     };
-    if (!status)
-        status = kd_vk_dispatch(r->vk, &d, error);
-    if (!status)
-        status = kd_vk_submit(r->vk, NULL, error);
-    if (!status)
-        status = kd_vk_wait(r->vk, 0, error);
-    if (!status)
-        kd_particle_places_of(scene, &grid, kd_vk_buffer_map(r->particles.list), first, stride, n, out);
-    else
-        kd_particles_forget(&r->particles);
+    KD_TRY(kd_vk_dispatch(r->vk, &d, error));
+    KD_TRY(kd_vk_submit(r->vk, NULL, error));
+    KD_TRY(kd_vk_wait(r->vk, 0, error));
+    kd_particle_places_of(scene, &grid, kd_vk_buffer_map(p->list), first, stride, n, out);
+done:
+    if (status)
+        forget(&r->prepared);
     return status;
 }
 
-void kd_particles_finish(struct kd_particles *p, struct kd_vk *vk)
+static void finish(struct kd_prepared *own, struct kd_vk *vk)
 {
+    struct kd_particles *p = &own->particles;
     struct kd_vk_buffer *buffers[] = { p->guides, p->staging, p->grid, p->density, p->list };
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         kd_vk_buffer_destroy(vk, buffers[i]);
     memset(p, 0, sizeof *p);
 }
+
+const struct kd_preparation kd_prepare_particles = { prepare, density, forget, finish };

@@ -18,10 +18,15 @@ struct kd_particles {
     double time;        /* at this time: slices of a list, and frames that refine, find it there */
 };
 
+/* Buffers that emitters have of their own (prepare.h). */
+struct kd_prepared {
+    struct kd_particles particles;
+};
+
 /* What one kd_render_aside works in. Its lens maps are kept for whoever can use them, until their memory is needed. */
 struct kd_aside {
     struct kd_store store;
-    struct kd_particles particles;
+    struct kd_prepared prepared;
     bool busy;
     uint64_t used; /* the larger, the later */
 };
@@ -30,7 +35,7 @@ struct kd_renderer {
     struct kd_vk *vk;
     struct kd_kernels kernels;
     struct kd_store store;
-    struct kd_particles particles;
+    struct kd_prepared prepared;
     struct kd_aside asides[KD_ASIDES];
     uint64_t asides_used;
     struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */

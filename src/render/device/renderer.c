@@ -3,7 +3,7 @@
 #include "base/json.h"
 #include "render/device/accuracy_store.h"
 #include "base/clock.h"
-#include "render/device/deposit.h"
+#include "render/device/prepare.h"
 #include "base/cores.h"
 
 #include <math.h>
@@ -102,10 +102,10 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
             kd_verdict_keep(renderer);
         kd_kernels_finish(&renderer->kernels, renderer->vk);
         kd_store_finish(&renderer->store);
-        kd_particles_finish(&renderer->particles, renderer->vk);
+        kd_prepared_finish(&renderer->prepared, renderer->vk);
         for (size_t i = 0; i < KD_ASIDES; i++) {
             kd_store_finish(&renderer->asides[i].store);
-            kd_particles_finish(&renderer->asides[i].particles, renderer->vk);
+            kd_prepared_finish(&renderer->asides[i].prepared, renderer->vk);
         }
         for (size_t i = 0; i < sizeof renderer->rays / sizeof **renderer->rays; i++)
             kd_vk_buffer_destroy(renderer->vk, renderer->rays[i / 3][i % 3]);

@@ -45,6 +45,21 @@ bool kd_emit_apart(const struct kd_scene *scene)
     return all & KD_TRAIT_APART;
 }
 
+uint64_t kd_emit_device_bytes(const struct kd_scene *scene)
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->device_bytes && kd_emitters[i]->present(scene))
+            sum += kd_emitters[i]->device_bytes(scene);
+    return sum;
+}
+
+uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number)
+{
+    const struct kd_emitter *e = kd_emitters[number];
+    return e->invocations && e->present(scene) ? e->invocations(scene) : 0;
+}
+
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),
                        void *user)
 {

@@ -38,6 +38,10 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies; NULL: never */
+    /* Buffers of its own on the device, and invocations of the pass that fills them before light is: it has the emitter's name in
+     * plan/pass.h, and its functions in device/prepare.h. NULL, both: none. */
+    uint64_t (*device_bytes)(const struct kd_scene *scene);
+    uint64_t (*invocations)(const struct kd_scene *scene);
     /* Numbers; and tables, which may take milliseconds. Called anew when a part of the scene that they depend on has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
@@ -60,6 +64,10 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
+/* Bytes of all buffers that the scene's emitters have on the device. */
+uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
+/* Invocations of an emitter's own pass there; 0: it has none, or the scene has not the emitter. */
+uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
 /* Call take(user, text) for each approximation that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays, void (*take)(void *user, const char *text),
                        void *user);

@@ -298,6 +298,9 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
+static uint64_t device_bytes(const struct kd_scene *scene) { return kd_particle_grid(scene).bytes; }
+static uint64_t invocations(const struct kd_scene *scene) { return kd_particle_grid(scene).count; }
+
 static bool fast(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !scene->disk.slow_light; }
 static bool slow(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->disk.slow_light; }
 
@@ -314,6 +317,8 @@ const struct kd_emitter kd_emit_particles = {
     .traits = traits,
     .needs = kd_orbit_needs,
     .varies = kd_orbit_varies,
+    .device_bytes = device_bytes,
+    .invocations = invocations,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(accuracy) },
     .sentences = sentences,

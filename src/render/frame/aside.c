@@ -16,7 +16,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
     struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
     struct kd_frame_job job = {
         .r = renderer, .store = found ? &found->store : &renderer->store,
-        .particles = found ? &found->particles : &renderer->particles, .scene = scene, .plan = plan,
+        .prepared = found ? &found->prepared : &renderer->prepared, .scene = scene, .plan = plan,
         .progress = progress, .user = user, .error = error,
     };
     return kd_frame_run(&job, out);
@@ -67,7 +67,7 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
     if (!a)
         return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be", KD_ASIDES);
     struct kd_frame_job job = {
-        .r = renderer, .store = &a->store, .particles = &a->particles, .aside = true, .scene = scene, .plan = plan,
+        .r = renderer, .store = &a->store, .prepared = &a->prepared, .aside = true, .scene = scene, .plan = plan,
         .progress = progress, .glance = glance, .user = user, .error = error,
     };
     enum kd_status status = kd_frame_run(&job, out);

@@ -4,7 +4,7 @@
 #include "render/lens/audit.h"
 #include "render/view/camera.h"
 #include "base/clock.h"
-#include "render/device/deposit.h"
+#include "render/device/prepare.h"
 
 static enum kd_status run(struct kd_frame_job *j)
 {
@@ -29,8 +29,7 @@ static enum kd_status run(struct kd_frame_job *j)
 
     frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (reused ? 2 : 3);
-    if (j->plan->particles.count)
-        status = kd_particles_deposit(r, j->particles, j->scene, &j->plan->particles, c.ns[KD_NS_PARTICLE], j->error);
+    status = kd_prepare(r, j->prepared, j->scene, j->plan, &c, j->error);
     if (!status)
         status = kd_frame_light(j, reused);
     if (!status && j->plan->light)
@@ -70,7 +69,7 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
     }
     kd_vk_discard(job->r->vk);
     job->store->sent_whole = false; /* what was to bring it may be lost */
-    kd_particles_forget(job->particles);
+    kd_prepared_forget(job->prepared);
     if (status != KD_EDEVICE)
         kd_vk_wait(job->r->vk, 0, NULL);
     kd_frame_finish(&frame);

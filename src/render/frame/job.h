@@ -10,7 +10,7 @@
 struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
-    struct kd_particles *particles;
+    struct kd_prepared *prepared;
     bool aside; /* progress may render */
     struct kd_vk_time times[KD_VK_MAX_PASSES]; /* of an aside: of what is done, */
     size_t n_times;

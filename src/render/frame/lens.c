@@ -4,6 +4,7 @@
 #include "render/view/camera.h"
 #include "render/view/critical_kept.h"
 #include "render/lens/listed.h"
+#include "render/device/prepare.h"
 #include "base/clock.h"
 
 #include <math.h>
@@ -111,6 +112,7 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
 static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
                                                struct kd_vk_buffer *lens, uint32_t band)
 {
+    struct kd_vk_buffer *prepared = kd_prepared_buffer(j->prepared, j->plan);
     return (struct kd_vk_dispatch) {
         kd_passes[KD_PASS_TRANSFER].name,
         pipeline,
@@ -118,7 +120,7 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
           { j->store->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { j->store->radiance.buffers[band], 0, 0, true },
-          { j->plan->particles.count ? j->particles->density : j->store->transfer, 0, 0, false } },
+          { prepared ? prepared : j->store->transfer, 0, 0, false } },
         NULL,
         { 0 },
     };

@@ -1,6 +1,7 @@
 #include "render/plan/pass.h"
 
 #include "render/accuracy/table.h"
+#include "render/emit/emitter.h"
 #include "render/plan/plan.h"
 
 #include <math.h>
@@ -47,7 +48,7 @@ static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_cap
 INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
 INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
 INVOCATIONS(audited, plan->audit)
-INVOCATIONS(particles, plan->particles.count)
+INVOCATIONS(particles, kd_emit_invocations(scene, KD_EMITTER_particles))
 INVOCATIONS(lit, kd_plan_rays(plan))
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)

@@ -163,7 +163,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
     plan->lens_bytes = row_lens * plan->height + at_curve;
     plan->host_bytes = row_out * plan->height;
-    uint64_t fixed = plan->particles.bytes + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
+    uint64_t fixed = kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
                      (plan->light ? 2 * kd_light_bytes(plan) : 0);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
@@ -301,7 +301,6 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     plan.light = needs->light;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
-    plan.particles = kd_particle_grid(scene);
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);
     plan.quantities = needs->quantities;

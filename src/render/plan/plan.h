@@ -6,7 +6,6 @@
 #include "base/buffer.h"
 #include "base/error.h"
 #include "render/accuracy/engine.h"
-#include "render/emit/particles.h"
 #include "render/plan/pass.h"
 #include "scene/scene.h"
 #include "lens.h"
@@ -54,7 +53,6 @@ struct kd_plan {
         KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine, in either precision */
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
-    struct kd_particle_grid particles;
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
     bool apart;                     /* the luminance of some is kept beside the radiance */
     bool light;                     /* flux and centroid are measured */

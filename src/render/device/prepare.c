@@ -1,0 +1,41 @@
+#include "render/device/prepare.h"
+
+#include "render/device/deposit.h"
+#include "render/device/internal.h"
+
+const struct kd_preparation *const kd_preparations[KD_EMITTER_COUNT] = {
+    [KD_EMITTER_particles] = &kd_prepare_particles,
+};
+
+enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene, const struct kd_plan *plan,
+                          const struct kd_capacity *c, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_preparations[i] && plan->traits[i])
+            KD_TRY(kd_preparations[i]->prepare(r, prepared, scene, c, error));
+done:
+    return status;
+}
+
+struct kd_vk_buffer *kd_prepared_buffer(const struct kd_prepared *prepared, const struct kd_plan *plan)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_preparations[i] && plan->traits[i])
+            return kd_preparations[i]->buffer(prepared);
+    return NULL;
+}
+
+void kd_prepared_forget(struct kd_prepared *prepared)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_preparations[i])
+            kd_preparations[i]->forget(prepared);
+}
+
+void kd_prepared_finish(struct kd_prepared *prepared, struct kd_vk *vk)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_preparations[i])
+            kd_preparations[i]->finish(prepared, vk);
+}
