@@ -104,6 +104,10 @@ export const fields = {
   'disk.outer': ['Bordo esterno', 'Maggiore di quello interno'],
   'disk.taper': ['Sfumatura', 'Frazione esterna del raggio su cui il disco svanisce; 0 lo taglia di netto'],
   'disk.opacity': ['Opacità', 'Opacità di un attraversamento; 1 è otticamente spesso'],
+  'disk.emission_opacity': [
+    'Profondità ottica',
+    'Profondità ottica lungo la normale dove il disco è più brillante, altrove come il suo flusso: un attraversamento assorbe 1 − exp(−profondità/cos) di disk.opacity, secondo l’angolo di emissione nel riferimento del gas; 0: l’opacità è ovunque la stessa',
+  ],
   'disk.colour': ['Temperatura', 'Scala delle temperature: un picco scelto, oppure da massa e tasso di accrescimento'],
   'disk.peak_temperature_k': ['Temperatura di picco', 'Massima temperatura efficace del disco, nel suo riferimento'],
   'disk.mdot_edd': ['Accrescimento', 'Tasso di accrescimento: luminosità su quella di Eddington, con l’efficienza di questo spin'],
@@ -127,12 +131,18 @@ export const fields = {
   ],
   'disk.slow_light': [
     'Luce lenta',
-    'Ogni raggio mostra particelle e macchie dov’erano quando la luce le lasciò, invece che tutte a un solo tempo coordinato',
+    'Ogni raggio mostra particelle, gas e macchie dov’erano quando la luce le lasciò, invece che tutte a un solo tempo coordinato',
   ],
   'disk.hardening': ['Indurimento', 'Temperatura di colore su temperatura efficace'],
   'disk.band': ['Banda', 'Luminosità bolometrica, g⁴ F, oppure visibile: lo spettro di Planck come lo pesa l’occhio'],
   'disk.doppler': ['Doppler', 'Spostamento Doppler e concentrazione della luce del gas in orbita'],
   'disk.redshift': ['Redshift', 'Redshift gravitazionale e dilatazione del tempo del gas in orbita'],
+  gas: ['Gas'],
+  'gas.amplitude': ['Turbolenza', 'Deviazione standard del logaritmo del flusso, e della profondità ottica; 0: un disco liscio'],
+  'gas.octaves': ['Scale', 'Scale della turbolenza, ognuna circa la metà della precedente'],
+  'gas.scale': ['Grandezza', 'Grandezza dei vortici più grandi, su r, prima che siano stirati'],
+  'gas.shear': ['Stiramento', 'Azimut di cui le strie restano indietro, in radianti per unità di ln r; sono 1 + shear² volte più lunghe che larghe; sotto 0 precedono'],
+  'gas.seed': ['Seme', 'Un altro numero, altro gas'],
   spots: ['Macchia'],
   'spots.brightness': ['Brillanza', 'Brillanza al centro nel riferimento del gas, in unità della massima del disco; 0: la macchia non c’è'],
   'spots.r': ['Raggio', 'Raggio dell’orbita circolare su cui gira il centro; mai dentro l’ISCO'],
@@ -307,6 +317,14 @@ export const sentences = {
     'macchie: luce veloce: mostrate dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'disk: opacity is a chosen number a crossing, not computed from the gas':
     'disco: l’opacità è un numero scelto per attraversamento, non calcolata dal gas',
+  'gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and colour, and the optical depth where that is in force':
+    'gas: la turbolenza è rumore procedurale, non una soluzione della magnetoidrodinamica; moltiplica il flusso, e con esso temperatura e colore, e la profondità ottica dov’è in vigore',
+  'gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each other; it drifts, and does not shear':
+    'gas: il disegno gira su anelli rigidi, ognuno con la velocità angolare del suo mezzo, che passano l’uno nell’altro; va alla deriva, e non si stira',
+  "gas: fast light: shown at one coordinate time, whatever the light's delay":
+    'gas: luce veloce: mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
+  'gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its depth over the cosine of the angle of emission':
+    'gas: la profondità ottica del disco è come il suo flusso, un numero scelto al raggio più brillante, e grigia; ogni attraversamento assorbe secondo la profondità sul coseno dell’angolo di emissione',
   'disk: image orders beyond accuracy.orders are left out': 'disco: gli ordini d’immagine oltre accuracy.orders sono tralasciati',
   'particles: brightness is that of the smooth disk times their number over the mean; opacity stays as it is':
     'particelle: la luminosità è quella del disco liscio per il loro numero sulla media; l’opacità resta com’è',

@@ -10,13 +10,15 @@ const toggled = 'spots.0.brightness'; // by the button
 export const spots = scene => scene.elements('spots').filter(path => scene.get(path + '.brightness') > 0);
 export const hasSpots = scene => spots(scene).length > 0;
 const hasParticles = scene => scene.get('disk.model') === 'particles';
+// Gas that is not the same all round.
+const hasGas = scene => scene.get('gas.amplitude') > 0 && ['novikov-thorne', 'shakura-sunyaev'].includes(scene.get('disk.model'));
 const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) || scene.get('disk.model') !== 'none');
 
 // Time is seen where the disk is not the same all round, or rings.
-export const showsTime = scene => hasParticles(scene) || hasSpots(scene) || (canRing(scene) && scene.get('style.ringdown') > 0);
+export const showsTime = scene => hasParticles(scene) || hasGas(scene) || hasSpots(scene) || (canRing(scene) && scene.get('style.ringdown') > 0);
 
 // What of it a moment later would be seen elsewhere or otherwise.
-export const shows = scene => ({ time: showsTime(scene), bodies: hasParticles(scene) || hasSpots(scene) });
+export const shows = scene => ({ time: showsTime(scene), bodies: hasParticles(scene) || hasGas(scene) || hasSpots(scene) });
 
 export function buildLiving(stage, scene, source) {
   const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId),

@@ -39,12 +39,21 @@ const bool SLOW = (QUANTITIES & KD_LENS_DELAY) != 0u;
 
 float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? lens[at + kd_plane(which) * cam.stride] : 0.0; }
 
+/* Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
+float kd_carter_of_slope(float energy, float momentum, float w, float slope)
+{
+    float w2 = w * w, ae = cam.spin * energy, j = momentum - ae;
+    float rest = energy * energy + (ae * ae - momentum * momentum) * w2 + 2.0 * j * j * w2 * w - slope * slope;
+    return rest / (w2 * kd_delta(w, cam.root));
+}
+
 /* The ray at this place of the camera, and in the lens map. */
 kd_beam follow(uvec2 place, uint at)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_ray ray = kd_camera_ray(place.x, place.y);
     float momentum = ((QUANTITIES & KD_LENS_ALPHA) != 0u ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
+    float carter = ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
     for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
         uint plane = at + n * cam.stride;
         float w = lens[plane];
@@ -53,8 +62,9 @@ kd_beam follow(uvec2 place, uint at)
         if (w <= 0.0)
             break;
         float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0;
-        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, quantity(KD_LENS_SLOPE, plane), ray.e, momentum,
-                                   quantity(KD_LENS_FOOTPRINT, plane), n));
+        float slope = quantity(KD_LENS_SLOPE, plane), footprint = quantity(KD_LENS_FOOTPRINT, plane);
+        float q = (QUANTITIES & KD_LENS_ALPHA) != 0u ? kd_carter_of_slope(ray.e, momentum, w, slope) : carter;
+        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, footprint, n));
         if (beam.through <= 0.0)
             break;
     }

@@ -19,11 +19,12 @@
     PART(2, plunge)                                                                                            \
     AT_CROSSING(3, spots)                                                                                      \
     OVER(4, ringdown)                                                                                          \
-    AT_END(5, sky)
+    AT_END(5, sky)                                                                                             \
+    AT_CROSSING(6, gas)
 
 /* All that has numbers; and tables. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B)
-#define KD_EMIT_TABLES(T) KD_TABLES_colour(T) KD_TABLES_disk(T) KD_TABLES_plunge(T)
+#define KD_EMIT_TABLES(T) KD_TABLES_colour(T) KD_TABLES_disk(T) KD_TABLES_plunge(T) KD_TABLES_gas(T)
 
 /* Bits that each word has: the scene has the emitter; its luminance is kept apart as well, so that its flux and centroid are measured by
  * themselves. There is room for that of one. */
@@ -40,3 +41,4 @@
 #include "emit/spots.glsl"
 #include "emit/ringdown.glsl"
 #include "emit/sky.glsl"
+#include "emit/gas.glsl"

@@ -65,6 +65,9 @@
     REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                               \
          "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                        \
     REAL(disk, opacity, MODEL, FRONT, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")           \
+    REAL(disk, emission_opacity, MODEL, REST, 0.0, 0.0, 1e6, "1",                                                    \
+         "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - exp(-depth/cos) of " \
+         "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere")             \
     ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK,                                                                  \
          "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",              \
          "peak|accretion")                                                                                           \
@@ -90,8 +93,17 @@
     REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1",                                                          \
          "largest oscillations in latitude, radians, and in r over r, the latter times (kappa/Omega)^2, which vanishes at " \
          "the ISCO (model: particles)")                                                                              \
-    BOOL(disk, slow_light, PHYSICS, REST, false, "each ray shows particles and spots where they were when its light left them, instead of all at " \
+    BOOL(disk, slow_light, PHYSICS, REST, false, "each ray shows particles, gas and spots where they were when its light left them, instead of all at " \
          "one coordinate time")
+
+#define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
+    REAL(gas, amplitude, MODEL, FRONT, 0.0, 0.0, 3.0, "1",                                                           \
+         "turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk")  \
+    INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", "scales of the turbulence, each about half the one before")         \
+    REAL(gas, scale, MODEL, REST, 0.4, 0.02, 2.0, "1", "size of the largest eddies, over r, before they are drawn out") \
+    REAL(gas, shear, MODEL, REST, 5.0, -20.0, 20.0, "1",                                                             \
+         "azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide; below 0 they lead") \
+    INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other gas")
 
 #define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
     REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1",                                                        \
@@ -157,6 +169,7 @@
     SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole")                                                        \
     SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "where the observer is and what it looks at")                          \
     SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi")           \
+    SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models")                              \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \

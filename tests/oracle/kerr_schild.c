@@ -178,6 +178,7 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
                 break;
             path.r[path.crossings] = hr;
             path.delay[path.crossings] = hit[6] - slow(s.a, hr);
+            path.p_z[path.crossings] = fabs(hit[5]);
             path.phi[path.crossings++] = -azimuth(s.a, hit);
         }
         memcpy(y, next, sizeof y);

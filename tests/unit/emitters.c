@@ -77,6 +77,9 @@ static void what_is_off_says_and_needs_nothing(void **state)
 static const char BASE[] = "{\"disk\": {\"model\": \"particles\", \"slow_light\": true, \"band\": \"visible\"}, \"sky\": {\"model\": \"grid\"}, "
                            "\"spots\": [{\"brightness\": 1}], \"style\": {\"ringdown\": 0.5}, \"time\": 7, \"camera\": {\"r\": 40}}";
 
+static const char GAS[] = "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10}, \"gas\": {\"amplitude\": 1}, \"time\": 7, "
+                          "\"camera\": {\"r\": 40}}";
+
 /* Numbers are those of the scene at hand, whatever was filled before, in any order. */
 static void numbers_follow_the_scene(void **state)
 {
@@ -110,16 +113,15 @@ static void numbers_follow_the_scene(void **state)
 }
 
 /* Whatever field changes, what emitters have kept is what they would make anew. */
-static void numbers_follow_each_field(void **state)
+static int follow_each_field(const char *document)
 {
-    (void)state;
     struct kd_emit_state *one = calloc(1, sizeof *one), *fresh = calloc(1, sizeof *fresh);
     struct kd_scene base, scene;
     struct kd_error error;
     int tried = 0;
     assert_true(one && fresh);
     kd_scene_defaults(&base);
-    assert_int_equal(kd_scene_from_json(&base, BASE, sizeof BASE - 1, &error), KD_OK);
+    assert_int_equal(kd_scene_from_json(&base, document, strlen(document), &error), KD_OK);
     assert_int_equal(kd_scene_validate(&base, &error), KD_OK);
     for (int i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_field *f = &kd_fields[i];
@@ -143,15 +145,55 @@ static void numbers_follow_each_field(void **state)
             KD_EMITTERS(SAME, SAME, SAME, SAME)
             if (traits[KD_EMITTER_particles])
                 assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
+            if (traits[KD_EMITTER_gas])
+                assert_memory_equal(one->data.tables.gas, fresh->data.tables.gas, sizeof one->data.tables.gas);
             if (traits[KD_EMITTER_plunge])
                 assert_memory_equal(one->data.tables.plunge, fresh->data.tables.plunge, sizeof one->data.tables.plunge);
             tried++;
             break;
         }
     }
-    assert_true(tried > 40); /* the others are words, or tied to a third field */
     free(one);
     free(fresh);
+    return tried;
+}
+
+static void numbers_follow_each_field(void **state)
+{
+    (void)state;
+    assert_true(follow_each_field(BASE) > 40); /* the others are words, or tied to a third field */
+    assert_true(follow_each_field(GAS) > 40);
+}
+
+/* Gas takes the place of the smooth disk, and what is off of it is not looked for. */
+static void gas_replaces_the_disk(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_scene_defaults(&scene);
+    scene.gas.octaves = 3;
+    scene.gas.seed = 7;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_disk] && !traits[KD_EMITTER_gas] && !says(&scene, "gas:"));
+    scene.disk.emission_opacity = 10;
+    kd_emit_traits(&scene, traits);
+    assert_true(!traits[KD_EMITTER_disk] && traits[KD_EMITTER_gas] && kd_emit_at_crossings(&scene));
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W);
+    assert_true(says(&scene, "gas: the optical depth") && says(&scene, "disk: geometrically thin") && !says(&scene, "gas: turbulence"));
+    scene.motion.time_rate = 1;
+    assert_false(kd_emit_moves(&scene));
+    scene.gas.amplitude = 0.5;
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI);
+    assert_true(says(&scene, "gas: turbulence") && says(&scene, "gas: fast light") && kd_emit_moves(&scene));
+    scene.disk.slow_light = true;
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_DELAY);
+    scene.disk.model = KD_DISK_PARTICLES;
+    kd_emit_traits(&scene, traits);
+    assert_true(!traits[KD_EMITTER_gas] && traits[KD_EMITTER_particles]);
+    scene.disk.model = KD_DISK_NONE;
+    assert_false(kd_emit_at_crossings(&scene));
+    assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
 /* Where so few particles fall that there are none, nothing does. */
@@ -180,6 +222,7 @@ int main(void)
         cmocka_unit_test(what_is_off_says_and_needs_nothing),
         cmocka_unit_test(numbers_follow_the_scene),
         cmocka_unit_test(numbers_follow_each_field),
+        cmocka_unit_test(gas_replaces_the_disk),
         cmocka_unit_test(none_of_a_thousand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,11 +12,21 @@ KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE)
 #define ENTRY(number, name) [number] = &kd_emit_##name,
 const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY) };
 
+bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter)
+{
+    if (!emitter->present(scene))
+        return false;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->replaces == emitter && kd_emitters[i]->present(scene))
+            return false;
+    return true;
+}
+
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT])
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         const struct kd_emitter *e = kd_emitters[i];
-        out[i] = !e->present(scene) ? 0 : KD_TRAIT_PRESENT | (e->traits ? e->traits(scene) : 0);
+        out[i] = !kd_emit_has(scene, e) ? 0 : KD_TRAIT_PRESENT | (e->traits ? e->traits(scene) : 0);
     }
 }
 
@@ -24,7 +34,7 @@ uint32_t kd_emit_needs(const struct kd_scene *scene)
 {
     uint32_t needs = 0;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->needs && kd_emitters[i]->present(scene))
+        if (kd_emitters[i]->needs && kd_emit_has(scene, kd_emitters[i]))
             needs |= kd_emitters[i]->needs(scene);
     return needs;
 }
@@ -64,7 +74,7 @@ void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *ra
                        void *user)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        for (const struct kd_emitter *e = kd_emitters[i]->present(scene) ? kd_emitters[i] : NULL; e; e = e->kind)
+        for (const struct kd_emitter *e = kd_emit_has(scene, kd_emitters[i]) ? kd_emitters[i] : NULL; e; e = e->kind)
             for (size_t k = 0; k < e->n_sentences; k++)
                 if (!e->sentences[k].in_force || e->sentences[k].in_force(scene, rays))
                     take(user, e->sentences[k].text);
@@ -82,7 +92,7 @@ static unsigned varies(const struct kd_scene *scene)
 {
     unsigned sum = 0;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emitters[i]->varies && kd_emitters[i]->present(scene))
+        if (kd_emitters[i]->varies && kd_emit_has(scene, kd_emitters[i]))
             sum |= kd_emitters[i]->varies(scene);
     return sum & ((kd_scene_time_goes_on(scene) ? KD_MOVES_WITH_TIME | KD_DIMS_WITH_TIME : 0) |
                   (scene->motion.azimuth_rate_deg != 0 ? KD_MOVES_WITH_AZIMUTH : 0));
@@ -94,7 +104,7 @@ bool kd_emit_only_dims(const struct kd_scene *scene) { return varies(scene) == K
 static bool is_read(const struct kd_emitter *e, const struct kd_scene *scene)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if ((kd_emitters[i] == e || kd_emitters[i]->reads == e) && kd_emitters[i]->present(scene))
+        if ((kd_emitters[i] == e || kd_emitters[i]->reads == e) && kd_emit_has(scene, kd_emitters[i]))
             return true;
     return false;
 }

@@ -50,6 +50,7 @@ struct kd_emitter {
     size_t n_sentences;
     const struct kd_emitter *kind;  /* whose sentences hold for it as well; NULL: nobody's */
     const struct kd_emitter *reads; /* whose numbers and tables it reads beside its own; NULL: nobody's */
+    const struct kd_emitter *replaces; /* which is not there where this one is; NULL: none */
 };
 
 #define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,
@@ -58,6 +59,8 @@ enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_N
 enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
 extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
+/* Whether a scene has an emitter: it is present, and none that is takes its place. */
+bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Words of the specialisation constants, 0 for what the scene has not. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
 /* What the lens map must hold; whether anything shines at crossings of the plane; whether the luminance of some of it is kept apart. */

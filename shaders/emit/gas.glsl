@@ -1,0 +1,128 @@
+/* Turbulent gas in place of the smooth disk: what shines is that disk, its temperature and its optical depth multiplied by a procedural
+ * pattern, and each crossing is as opaque as the way of the ray through the gas is long.
+ *
+ * Pattern. Rings, KD_GAS_RING apart in ln r, turn rigidly with the Omega of their middle. Each holds noise of its own in the plane that
+ * turns with it, at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear ln(r/r_j): features grow with r, there is no seam in phi,
+ * and nothing winds up, whatever t is. Of the two rings about a place the noises b are added with weights w_1^2 + w_2^2 = 1, so that
+ * the variance is the same everywhere. Octaves are those of fractional Brownian motion; each has a lattice turned, shifted at random and
+ * adrift, and is displaced by those before it (domain warp).
+ *
+ * With n = sum of s_k b_k, b_k of variance 1 and nearly Gaussian, flux and depth are multiplied by exp(n - sum s_k^2/2), whose mean
+ * is 1. A black body of T^4 proportional to that flux keeps colour and brightness together.
+ *
+ * Opacity. A layer of optical depth tau along its normal takes 1 - exp(-tau/cos) of what crosses it at an angle theta to it, in the frame
+ * of the gas. There cos(theta) = |p_theta| g / r, p_theta^2 = Q in the plane (Carter 1968), by a photon's energy of 1/g. */
+#ifndef KD_BLOCK_gas
+#define KD_GAS_RING 0.2       /* ln of the ratio of neighbouring rings' radii */
+#define KD_GAS_RINGS 80       /* from 1 to 1e6 M and one beyond */
+#define KD_GAS_OCTAVES 8
+#define KD_GAS_DRIFT 0.15     /* cells that the first octave's lattice moves by while its ring turns by a radian */
+#define KD_GAS_HASTE 1.6      /* that of each octave over the one before */
+#define KD_GAS_FINER 1.9      /* cells a length, likewise */
+#define KD_GAS_TURN 0.9       /* and its lattice is turned by so much, radians */
+#define KD_BLOCK_gas(F, U, A)                                                                                   \
+    F(first)               /* log2 of the innermost ring's radius */                                           \
+    F(cells)               /* K: of the first octave, over the length r */                                     \
+    F(shear)                                                                                                   \
+    F(warp)                /* displacement by one standard deviation of an octave, in its own cells */         \
+    F(loudness)            /* s_0 */                                                                           \
+    F(persistence)         /* s_(k+1)/s_k */                                                                   \
+    F(depth)               /* optical depth along the normal where the flux is largest */
+#define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
+#define KD_TABLES_gas(T)                                                                                       \
+    T(gas, 2 * KD_COLOUR_ROWS + KD_DISK_TABLE + KD_PLUNGE_TABLE, KD_GAS_ROWS) /* a ring: azimuth less the observer's, radians, and Omega; of its octaves: where the lattice has drifted to, part of a cell and whole cells */
+#define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
+#define KD_TRAIT_GAS_SHIFT 8u /* the bits from here on: octaves; 0: no turbulence */
+#endif
+
+#ifdef KD_EMIT_CODE
+const uint KD_GAS_TAKEN = TRAITS_gas >> KD_TRAIT_GAS_SHIFT;
+const bool KD_GAS_SLOW = (TRAITS_gas & KD_TRAIT_SLOW) != 0u;
+
+/* A gradient for each point of a lattice that repeats after 65536 cells, times 32768. */
+vec2 kd_gas_gradient(uint point)
+{
+    uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
+    h = (h ^ (h >> 12)) * 0x297a2d39u;
+    return vec2(float(int(h) >> 16), float(int(h << 16) >> 16));
+}
+
+/* Gradient noise of variance 1 (Perlin 2002) in a lattice that is shifted by at.xy of a cell and at.zw cells; and, uncorrelated with it,
+ * that of the gradients turned by a quarter. */
+vec2 kd_gas_noise(vec2 p, vec4 at)
+{
+    p += at.xy;
+    vec2 corner = floor(p), d = p - corner, e = d - 1.0;
+    uvec2 i = uvec2(ivec2(corner + at.zw));
+    uint x0 = i.x << 16, x1 = x0 + 0x10000u, y0 = i.y & 0xffffu, y1 = (i.y + 1u) & 0xffffu;
+    vec2 a = kd_gas_gradient(x0 | y0), b = kd_gas_gradient(x1 | y0), c = kd_gas_gradient(x0 | y1), f = kd_gas_gradient(x1 | y1);
+    vec2 t = d * d * d * (d * (d * 6.0 - 15.0) + 10.0);
+    vec2 low = mix(vec2(a.x * d.x + a.y * d.y, a.x * d.y - a.y * d.x), vec2(b.x * e.x + b.y * d.y, b.x * d.y - b.y * e.x), t.x);
+    vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x), vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
+    return mix(low, high, t.y) * (5.677716904867669 / 32768.0); /* E[n^2] over gradients of the square and places of the cell */
+}
+
+/* A ring's plane, and what moves in it. */
+struct kd_gas_ring { vec2 p; uint row; float ahead; };
+
+/* ln(r/r_j) = `off`. */
+kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
+{
+    uint row = j * (KD_GAS_OCTAVES + 1u);
+    vec4 ring = kd_table_row(KD_TABLE_gas, row);
+    float ahead = KD_GAS_SLOW ? ring.y * s.ago : 0.0;
+    kd_phasor psi = kd_cos_sin(s.phi - ring.x + ahead + emission.gas.shear * off);
+    return kd_gas_ring(emission.gas.cells * exp(off) * vec2(psi.c, psi.s), row, ahead);
+}
+
+/* Of an octave: where its lattice has drifted to, by then. */
+vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
+{
+    vec4 at = kd_table_row(KD_TABLE_gas, ring.row + 1u + octave);
+    if (KD_GAS_SLOW) {
+        float way = -ring.ahead * KD_GAS_DRIFT * pow(KD_GAS_HASTE, float(octave)), angle = 2.4 * float(octave);
+        at.xy += way * vec2(cos(angle), sin(angle));
+    }
+    return at;
+}
+
+/* ln of what flux and depth are multiplied by. */
+float kd_gas_excess(kd_sample s)
+{
+    float u = max(-(log2(s.w) + emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;
+    /* w_2^2 = x^4 (35 - 84 x + 70 x^2 - 20 x^3) joins 0 and 1 so that both weights have slopes without a break. */
+    float x2 = x * x, share = x2 * x2 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
+    float w1 = sqrt(max(1.0 - share, 0.0)), w2 = sqrt(share);
+    uint k = min(uint(j), KD_GAS_RINGS - 2u);
+    kd_gas_ring one = kd_gas_ring_of(k, x * KD_GAS_RING, s), two = kd_gas_ring_of(k + 1u, (x - 1.0) * KD_GAS_RING, s);
+    float sum = 0.0, loud = emission.gas.loudness;
+    mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
+    for (uint octave = 0u; octave < KD_GAS_TAKEN; octave++) {
+        vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
+        sum += loud * (w1 * a.x + w2 * b.x) - 0.5 * loud * loud;
+        loud *= emission.gas.persistence;
+        one.p = next * (one.p + emission.gas.warp * a);
+        two.p = next * (two.p + emission.gas.warp * b);
+    }
+    return sum;
+}
+
+/* The cosine of the angle to the normal at which light leaves gas on a circular orbit. */
+float kd_gas_cosine(kd_sample s)
+{
+    return sqrt(max(s.q, 0.0)) * s.w * kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
+}
+
+kd_glow kd_gas_glow(kd_sample s)
+{
+    kd_gas gas = kd_disk_gas(s, TRAITS_gas);
+    float more = KD_GAS_TAKEN > 0u ? exp(kd_gas_excess(s)) : 1.0;
+    if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
+        float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t;
+        float taken = 1.0 - exp(-emission.gas.depth * t2 * t2 * more / max(kd_gas_cosine(s), 1e-6));
+        gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be no number: inside the orbit of light */
+    }
+    gas.t *= sqrt(sqrt(more));
+    return kd_glow(gas.alpha * kd_black_body(gas.t, TRAITS_gas), gas.alpha, 0.0);
+}
+#endif

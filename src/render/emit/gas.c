@@ -1,0 +1,131 @@
+/* Turbulent gas as an emitter: shaders/emit/gas.glsl. */
+#include "render/emit/emitter.h"
+
+#include "physics/kerr.h"
+#include "render/emit/particles.h"
+
+#include <math.h>
+
+/* By its cells' width an octave is displaced by this at one standard deviation of the one before: streaks bend, and do not tear. */
+#define WARP 0.35
+/* Each octave's part of the logarithm over that of the one before: cells are KD_GAS_FINER times as many, and Kolmogorov's spectrum
+ * falls as the third root of that. */
+#define PERSISTENCE 0.72
+
+static bool present(const struct kd_scene *scene)
+{
+    int model = scene->disk.model;
+    return (model == KD_DISK_NOVIKOV_THORNE || model == KD_DISK_SHAKURA_SUNYAEV) &&
+           (scene->gas.amplitude > 0 || scene->disk.emission_opacity > 0);
+}
+
+static bool stirs(const struct kd_scene *scene) { return scene->gas.amplitude > 0; }
+
+static uint32_t traits(const struct kd_scene *scene)
+{
+    return kd_disk_traits(scene) | (scene->disk.slow_light ? KD_TRAIT_SLOW : 0) | (scene->disk.emission_opacity > 0 ? KD_TRAIT_GAS_DEEP : 0) |
+           (stirs(scene) ? (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
+}
+
+/* Rays that are on no grid tell their Q by their slope. */
+static uint32_t needs(const struct kd_scene *scene)
+{
+    return KD_LENS_W | (stirs(scene) ? kd_orbit_needs(scene) : 0) |
+           (scene->disk.emission_opacity > 0 && scene->camera.projection == KD_PROJECTION_RING ? KD_LENS_SLOPE : 0);
+}
+
+static unsigned varies(const struct kd_scene *scene) { return stirs(scene) ? kd_orbit_varies(scene) : 0; }
+
+static double inner_radius(const struct kd_scene *scene)
+{
+    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+}
+
+/* The logarithm has the standard deviation `amplitude` in all octaves together. */
+static double loudness(const struct kd_scene *scene)
+{
+    double sum = 0;
+    for (int k = 0; k < scene->gas.octaves; k++)
+        sum += pow(PERSISTENCE, 2 * k);
+    return scene->gas.amplitude / sqrt(sum);
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    out->gas = (struct kd_gas_block) {
+        .first = (float)log2(inner_radius(scene)),
+        .cells = (float)(1 / scene->gas.scale),
+        .shear = (float)scene->gas.shear,
+        .warp = (float)WARP,
+        .loudness = (float)loudness(scene),
+        .persistence = (float)PERSISTENCE,
+        .depth = (float)scene->disk.emission_opacity,
+    };
+}
+
+/* Uniform in [0, 1): splitmix64 (Steele, Lea & Flood 2014) of a counter. */
+static double random_of(uint64_t seed, uint64_t n)
+{
+    uint64_t x = (seed << 32) + n * 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+/* A place on the lattice, which repeats after 65536 cells, as the part of a cell and whole ones. */
+static void place(double at, float *part, float *whole)
+{
+    at -= 65536 * floor(at / 65536);
+    *whole = (float)floor(at);
+    *part = (float)(at - floor(at));
+}
+
+static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
+{
+    double r_in = inner_radius(scene), time = scene->top.time - kd_particle_delay(scene);
+    uint64_t n = 0, seed = (uint64_t)scene->gas.seed;
+    for (int j = 0; j < KD_GAS_RINGS; j++) {
+        float(*row)[4] = &out->gas[j * (KD_GAS_OCTAVES + 1)];
+        double omega = kd_kerr_omega(scene->spacetime.spin, r_in * exp(KD_GAS_RING * j)), turned = omega * time;
+        double phase = 2 * M_PI * random_of(seed, ++n) + remainder(turned, 2 * M_PI) - scene->camera.azimuth_deg * (M_PI / 180);
+        row[0][0] = (float)remainder(phase, 2 * M_PI);
+        row[0][1] = (float)omega;
+        for (int k = 0; k < KD_GAS_OCTAVES; k++) {
+            double way = turned * KD_GAS_DRIFT * pow(KD_GAS_HASTE, k), angle = 2.4 * k;
+            place(65536 * random_of(seed, ++n) + way * cos(angle), &row[1 + k][0], &row[1 + k][2]);
+            place(65536 * random_of(seed, ++n) + way * sin(angle), &row[1 + k][1], &row[1 + k][3]);
+        }
+    }
+}
+
+#define WHEN(name, condition)                                                                                  \
+    static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
+WHEN(turbulent, stirs(scene))
+WHEN(deep, scene->disk.emission_opacity > 0)
+WHEN(fast, stirs(scene) && !scene->disk.slow_light)
+
+static const struct kd_sentence sentences[] = {
+    { "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and "
+      "colour, and the optical depth where that is in force", turbulent },
+    { "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each other; it drifts, and does "
+      "not shear", turbulent },
+    { "gas: fast light: shown at one coordinate time, whatever the light's delay", fast },
+    { "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its "
+      "depth over the cosine of the angle of emission", deep },
+};
+
+const struct kd_emitter kd_emit_gas = {
+    .name = "gas",
+    .present = present,
+    .traits = traits,
+    .needs = needs,
+    .varies = varies,
+    .fill = fill,
+    .tables = tables,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(gas), KD_SCENE_PART(top) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+    .kind = &kd_emit_disk,
+    .reads = &kd_emit_disk,
+    .replaces = &kd_emit_disk,
+};

@@ -1,0 +1,201 @@
+/* What is seen of the gas: the angle at which its light leaves it, against Kerr-Schild geodesics and the metric; that its turbulence
+ * keeps the flux; that it turns as gas on orbits does; that one seed is one picture. */
+#include "studio.h"
+
+#include "kerr_schild.h"
+#include "physics/disk.h"
+#include "physics/kerr.h"
+#include "render/view/camera.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* Brightness of a pixel: the weights of linear sRGB. -1 where a colour may be clipped. */
+static double luminance(const struct kd_frame *f, uint32_t x, uint32_t y)
+{
+    static const double weights[] = { 0.2126, 0.7152, 0.0722 };
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        double light = studio_light(f, x, y, c);
+        if (light > 0.98)
+            return -1;
+        sum += weights[c] * light;
+    }
+    return sum;
+}
+
+/* -1/g^2 of u^t = 1 at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane; and Omega where its slope in r
+ * vanishes, which is a circular geodesic. */
+static double line(double a, double r, double omega)
+{
+    return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
+}
+static double orbit_omega(double a, double r)
+{
+    double low = 0, high = 1 / r;
+    for (int i = 0; i < 60; i++) {
+        double o = 0.5 * (low + high), h = 1e-3 * r;
+        double force = 8 * (line(a, r + h, o) - line(a, r - h, o)) - line(a, r + 2 * h, o) + line(a, r - 2 * h, o);
+        *(force < 0 ? &low : &high) = o;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The cosine of the angle to the normal of the plane, by the momentum along it over the energy, both in the gas's frame. */
+static double cosine(const struct ks_photon *p, const struct ks_path *path)
+{
+    double r = path->r[0], omega = orbit_omega(p->a, r);
+    return path->p_z[0] * sqrt(-line(p->a, r, omega)) / (p->energy - omega * p->momentum);
+}
+
+static struct ks_photon photon_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
+{
+    double theta = scene->camera.inclination_deg * (M_PI / 180), width = scene->image.width, height = scene->image.height;
+    bool far = isinf(scene->camera.r);
+    double step = far ? scene->camera.field_m / width : 2 * tan(scene->camera.fov_deg * (M_PI / 360)) / width;
+    double right = step * (x - 0.5 * (width - 1)), up = -step * (y - 0.5 * (height - 1)), n = sqrt(1 + right * right + up * up);
+    const double k[3] = { -1 / n, -up / n, right / n };
+    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), right, up)
+               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+}
+
+#define DEPTH 3.0
+
+/* A disk of that optical depth over one that is opaque shows how much each crossing takes: 1 - exp(-depth F/F_max/cos). 16 bits of the
+ * dimmest pixels looked at are worth 1e-3. */
+static void emission_angle(void **state)
+{
+    (void)state;
+    static const char *views[] = {
+        "\"spacetime\":{\"spin\":0.9},\"camera\":{\"inclination_deg\":60,\"field_m\":30},\"style\":{\"exposure\":-1,",
+        "\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":84,\"field_m\":30},\"style\":{\"exposure\":-2,",
+        "\"spacetime\":{\"spin\":-0.6},\"camera\":{\"inclination_deg\":110,\"field_m\":40},\"style\":{\"exposure\":-1,",
+        "\"spacetime\":{\"spin\":0.7},\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60},\"style\":{\"exposure\":-2,",
+    };
+    double worst = 0, least = 1, most = 0;
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
+        char json[600];
+        snprintf(json, sizeof json, "{%s\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"outer\":14,\"taper\":0},\"accuracy\":{\"orders\":1,"
+                 "\"profile\":\"high\"},\"image\":{\"width\":48,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}", views[v]);
+        struct kd_scene scene = studio_scene(NULL, json);
+        struct kd_frame opaque = studio_render(&scene);
+        scene.disk.emission_opacity = DEPTH;
+        struct kd_frame thin = studio_render(&scene);
+        double a = scene.spacetime.spin, peak = kd_disk_flux_page_thorne(a, kd_disk_peak_page_thorne(a));
+        int looked_at = 0;
+        for (uint32_t i = 0; i < thin.width * thin.height; i++) {
+            uint32_t x = i % thin.width, y = i / thin.width;
+            double all = luminance(&opaque, x, y), seen = luminance(&thin, x, y);
+            if (all < 0.02)
+                continue;
+            struct ks_photon photon = photon_of(&scene, x, y);
+            struct ks_path path = ks_trace(photon, 1);
+            assert_int_equal(path.crossings, 1);
+            double tilt = cosine(&photon, &path), depth = DEPTH * kd_disk_flux_page_thorne(a, path.r[0]) / peak;
+            double off = fabs(seen / all - (1 - exp(-depth / tilt)));
+            if (!(off < 1.5e-3))
+                fail_msg("view %zu, (%u, %u), r %g: %g of the light, expected %g", v, x, y, path.r[0], seen / all, 1 - exp(-depth / tilt));
+            worst = fmax(worst, off);
+            least = fmin(least, tilt);
+            most = fmax(most, tilt);
+            looked_at++;
+        }
+        assert_true(looked_at > 150);
+        kd_frame_finish(&opaque);
+        kd_frame_finish(&thin);
+    }
+    printf("share of light that gas gives off: off by %.1e at most, cosines from %.2f to %.2f\n", worst, least, most);
+    assert_true(least < 0.15 && most > 0.9);
+}
+
+/* Light of all pixels. */
+static double sum_of(const struct kd_scene *scene)
+{
+    struct kd_frame f = studio_render(scene);
+    double sum = 0;
+    for (uint32_t i = 0; i < f.width * f.height; i++) {
+        double light = luminance(&f, i % f.width, i / f.width);
+        assert_true(light >= 0); /* nothing is clipped */
+        sum += light;
+    }
+    kd_frame_finish(&f);
+    return sum;
+}
+
+/* The mean over seeds of an opaque disk's light is that of the smooth one: turbulence moves light about, and neither adds nor takes any.
+ * So it is for each number of octaves. Each seed is off by some percent; the mean by so much less, which their scatter says. */
+static void flux_is_kept(void **state)
+{
+    (void)state;
+    enum { SEEDS = 60 };
+    struct kd_scene scene = studio_scene(NULL, "{\"camera\":{\"inclination_deg\":30,\"field_m\":50},\"accuracy\":{\"orders\":1},\"style\":"
+                                         "{\"exposure\":-5,\"tone_map\":\"srgb\",\"dither\":false},\"image\":{\"width\":96,\"height\":72,"
+                                         "\"bit_depth\":16}}");
+    double smooth = sum_of(&scene);
+    scene.gas.amplitude = 0.8;
+    for (scene.gas.octaves = 1; scene.gas.octaves <= 7; scene.gas.octaves += 3) {
+        double mean = 0, square = 0;
+        for (scene.gas.seed = 1; scene.gas.seed <= SEEDS; scene.gas.seed++) {
+            double ratio = sum_of(&scene) / smooth;
+            mean += ratio / SEEDS;
+            square += ratio * ratio / SEEDS;
+        }
+        double scatter = sqrt((square - mean * mean) / SEEDS);
+        printf("flux with %d octaves: %.4f of the smooth disk's, scatter of the mean %.4f\n", scene.gas.octaves, mean, scatter);
+        assert_true(scatter > 1e-4 && scatter < 0.01);
+        assert_true(fabs(mean - 1) < 3 * scatter + 2e-3);
+    }
+}
+
+static bool same_pixels(const struct kd_scene *a, const struct kd_scene *b)
+{
+    struct kd_frame f = studio_render(a), g = studio_render(b);
+    bool same = !memcmp(kd_frame_pixels(&f), kd_frame_pixels(&g), 3 * (size_t)f.width * f.height);
+    kd_frame_finish(&f);
+    kd_frame_finish(&g);
+    return same;
+}
+
+/* One scene is one picture, whatever was rendered before it; another seed or time is another one; and what is off does nothing. */
+static void one_scene_one_picture(void **state)
+{
+    (void)state;
+    struct kd_scene smooth = studio_scene(NULL, "{\"image\":{\"width\":96,\"height\":54}}"), off = smooth, gas = smooth, other;
+    off.gas.octaves = 3;
+    off.gas.scale = 1;
+    off.gas.seed = 9;
+    assert_true(same_pixels(&smooth, &off));
+    gas.gas.amplitude = 0.8;
+    gas.disk.emission_opacity = 20;
+    other = gas;
+    other.gas.seed = 2;
+    assert_false(same_pixels(&smooth, &gas));
+    assert_false(same_pixels(&other, &gas));
+    assert_true(same_pixels(&gas, &gas));
+    other = gas;
+    other.top.time = 1e9;
+    assert_false(same_pixels(&other, &gas));
+    assert_true(same_pixels(&other, &other));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(emission_angle),
+        cmocka_unit_test(flux_is_kept),
+        cmocka_unit_test(one_scene_one_picture),
+    };
+    int status = studio_open();
+    if (status)
+        return status;
+    status = cmocka_run_group_tests(tests, NULL, NULL);
+    studio_close();
+    return status;
+}
