@@ -5,6 +5,7 @@
     U(band_pixels)         /* whose light one buffer holds; behind it is what is kept apart */                 \
     F(azimuth)             /* of the observer, radians */                                                      \
     F(delay)               /* of the light that shows what moves as it is, M */                                \
+    F(w_least) F(w_most)   /* 1/r of crossings that may shine */                                              \
     F(r_isco)                                                                                                  \
     F(one_minus_a)         /* 1 - spin, which a float of the spin has lost near 1 */
 #endif

@@ -1,4 +1,4 @@
-/* Light: from the lens map to linear sRGB radiance. An invocation lights a pixel. */
+/* Light: from the lens map to linear sRGB radiance. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -29,7 +29,7 @@ layout(set = 0, binding = 2) uniform textureBuffer tables;
 #define TABLE(name, first, rows) const uint KD_TABLE_##name = first;
 KD_EMIT_TABLES(TABLE)
 vec4 kd_table_row(uint table, uint row) { return texelFetch(tables, int(table + row)); }
-layout(set = 0, binding = 3) writeonly buffer Radiance { float radiance[]; };
+layout(set = 0, binding = 3) buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 4) readonly buffer Density { float density[]; };
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
@@ -47,35 +47,110 @@ float kd_carter_of_slope(float energy, float momentum, float w, float slope)
     return rest / (w2 * kd_delta(w, cam.root));
 }
 
-/* The ray at this place of the camera, and in the lens map. */
+/* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the camera and `at` in
+ * the lens map. */
+void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
+{
+    kd_ray ray = kd_camera_ray(place.x, place.y);
+    float momentum = ((QUANTITIES & KD_LENS_ALPHA) != 0u ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
+    uint plane = at + n * cam.stride;
+    float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0, slope = quantity(KD_LENS_SLOPE, plane);
+    float carter = (QUANTITIES & KD_LENS_ALPHA) != 0u ? kd_carter_of_slope(ray.e, momentum, w, slope)
+                                                      : ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
+    if (w < 0.0)
+        kd_beam_given_up(beam);
+    else
+        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter,
+                                   quantity(KD_LENS_FOOTPRINT, plane), n));
+}
+
+const bool ENDS = (QUANTITIES & KD_LENS_FATE) != 0u;
+
+/* What lies behind all crossings. */
+vec3 background(uint at)
+{
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    float fate = ENDS ? quantity(KD_LENS_FATE, at) : KD_FATE_CAPTURED;
+    if (fate == KD_FATE_UNDECIDED)
+        kd_beam_given_up(beam);
+    if (fate == KD_FATE_ESCAPED)
+        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at)));
+    return beam.light;
+}
+
+/* One ray, light of its end included. */
 kd_beam follow(uvec2 place, uint at)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
-    kd_ray ray = kd_camera_ray(place.x, place.y);
-    float momentum = ((QUANTITIES & KD_LENS_ALPHA) != 0u ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
-    float carter = ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
     for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
-        uint plane = at + n * cam.stride;
-        float w = lens[plane];
-        if (w < 0.0)
-            kd_beam_given_up(beam);
-        if (w <= 0.0)
+        float w = lens[at + n * cam.stride];
+        if (w == 0.0)
             break;
-        float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0;
-        float slope = quantity(KD_LENS_SLOPE, plane), footprint = quantity(KD_LENS_FOOTPRINT, plane);
-        float q = (QUANTITIES & KD_LENS_ALPHA) != 0u ? kd_carter_of_slope(ray.e, momentum, w, slope) : carter;
-        kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, footprint, n));
+        meet(beam, w, n, place, at);
         if (beam.through <= 0.0)
             break;
     }
-    if ((QUANTITIES & KD_LENS_FATE) != 0u) {
-        float fate = quantity(KD_LENS_FATE, at);
-        if (fate == KD_FATE_UNDECIDED)
-            kd_beam_given_up(beam);
-        if (fate == KD_FATE_ESCAPED)
-            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at)));
-    }
+    if (ENDS)
+        beam.light += beam.through * background(at);
     return beam;
+}
+
+/* Where a pixel's light lies. */
+uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? cam.band0 : cam.band0 / SIDE)) * emission.frame.pixels_x + x; }
+
+void store(uint at, vec3 light, float apart)
+{
+    radiance[3 * at] = light.r;
+    radiance[3 * at + 1] = light.g;
+    radiance[3 * at + 2] = light.b;
+    if (KD_APART) /* behind the band's pixels */
+        radiance[3 * emission.frame.band_pixels + at] = apart;
+}
+
+/* KD_TRANSFER_ROWS pixels below one another, of one ray each: first what lies behind, then the crossings in front of it. Pixels where
+ * nothing shines are left as they are if nothing can lie behind either: they were made dark before.
+ *
+ * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the next crossing that
+ * may shine, which takes little, and the outer one lights it. */
+void light_column(uint x, uint y, uint end)
+{
+    for (uint k = 0; ENDS && k < KD_TRANSFER_ROWS; k++)
+        if (y + k < end)
+            store(light_at(x, y + k), background((y + k - cam.band0) * cam.width + x), 0.0);
+    if (!KD_GLOWS)
+        return;
+    uint n = 0, of = end;
+    kd_beam beam;
+    vec3 behind = vec3(0.0);
+    for (;;) {
+        float w;
+        uint at;
+        for (;;) {
+            at = (y - cam.band0) * cam.width + x;
+            w = 0.0;
+            if (y < end)
+                w = lens[at + n * cam.stride];
+            if (y >= end || w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most))
+                break;
+            bool more = w > 0.0 && n + 1 < ORDERS;
+            y += more ? 0 : 1;
+            n = more ? n + 1 : 0;
+        }
+        if (y >= end)
+            break;
+        uint o = light_at(x, y);
+        if (y != of) {
+            beam = kd_beam(vec3(0.0), 0.0, 1.0);
+            if (ENDS)
+                behind = vec3(radiance[3 * o], radiance[3 * o + 1], radiance[3 * o + 2]);
+        }
+        of = y;
+        meet(beam, w, n, uvec2(x, y), at);
+        store(o, beam.light + beam.through * behind, beam.apart);
+        bool more = beam.through > 0.0 && n + 1 < ORDERS;
+        y += more ? 0 : 1;
+        n = more ? n + 1 : 0;
+    }
 }
 
 void main()
@@ -85,6 +160,11 @@ void main()
     uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
     if (px >= (CRITICAL > 0 ? cam.rows : emission.frame.pixels_x))
         return;
+    if (SIDE == 1 && CRITICAL == 0) {
+        uint y = cam.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS;
+        light_column(px, y, min(y + KD_TRANSFER_ROWS, cam.row0 + cam.rows));
+        return;
+    }
     if (CRITICAL > 0) {
         listed = cam.row0 + px;
         uvec2 pixel = kd_listed_pixel(listed);
@@ -101,10 +181,5 @@ void main()
         apart += beam.apart;
     }
     float share = 1.0 / float(rays);
-    uint o = (py - (CRITICAL > 0 ? cam.band0 : cam.band0 / SIDE)) * emission.frame.pixels_x + px;
-    radiance[3 * o] = share * sum.r;
-    radiance[3 * o + 1] = share * sum.g;
-    radiance[3 * o + 2] = share * sum.b;
-    if (KD_APART) /* behind the band's pixels */
-        radiance[3 * emission.frame.band_pixels + o] = share * apart;
+    store(light_at(px, py), share * sum, share * apart);
 }

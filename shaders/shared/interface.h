@@ -54,6 +54,8 @@
     U(plunge_rows) U(plunge_columns_log2)                                                                      \
     U(lap_rows) U(lead_rows) /* as in the transfer kernel */
 
+#define KD_TRANSFER_ROWS 8 /* of pixels below one another, of one invocation of transfer.comp, where a pixel has one ray */
+
 #define KD_POST_PIXELS 4 /* of one invocation of post.comp: three words, or six */
 #define KD_POST_FIELDS_(F, U)                                                                                  \
     F(gain)                  /* 2^exposure */                                                                  \

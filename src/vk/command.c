@@ -204,7 +204,7 @@ enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
     return KD_OK;
 }
 
-enum kd_status kd_vk_fill(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
+enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
                           uint32_t value, struct kd_error *error)
 {
     struct kd_vk_slot *slot;
@@ -220,7 +220,7 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_
         return status;
     const struct kd_vk_access access =
         access_of(vk, buffer, offset, offset + size, VK_PIPELINE_STAGE_TRANSFER_BIT, true);
-    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, "fill");
+    kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
     kd_vk_barrier_before(vk, slot->commands, &access, 1);
     vk->fn.CmdFillBuffer(slot->commands, buffer->handle, offset, size, value);
     buffer->retired.ticket = kd_vk_current(vk);

@@ -126,7 +126,7 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
 enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,
                           struct kd_vk_buffer *from, uint64_t from_offset, uint64_t size,
                           struct kd_error *error);
-enum kd_status kd_vk_fill(struct kd_vk *vk, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
+enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *buffer, uint64_t offset, uint64_t size,
                           uint32_t value, struct kd_error *error);
 
 /* Submit what was recorded (nothing recorded: no-op) and return at once; *ticket (may be NULL) is the

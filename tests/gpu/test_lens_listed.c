@@ -235,8 +235,8 @@ static void test_given_up(void **state)
     uint32_t words[2];
     memcpy(&words[0], &given_up, 4);
     memcpy(&words[1], &undecided, 4);
-    OK(kd_vk_fill(renderer->vk, map->bands.buffers[0], 4 * 40 * 3, 4 * 40, words[0], &error));
-    OK(kd_vk_fill(renderer->vk, map->bands.buffers[0], 4 * ((plan.planes - 1) * plan.rays + 40 * 20), 4 * 40, words[1], &error));
+    OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * 40 * 3, 4 * 40, words[0], &error));
+    OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * ((plan.planes - 1) * plan.rays + 40 * 20), 4 * 40, words[1], &error));
     OK(kd_vk_submit(renderer->vk, NULL, &error));
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
     assert_true(frame.lens_reused);

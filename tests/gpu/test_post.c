@@ -24,7 +24,7 @@ static void post(bool texels, bool film, bool wide, const float *light, struct k
     const struct kd_vk_dispatch d = { .pass = "post", .pipeline = pipeline,
                                       .bindings = { { .buffer = in }, { .buffer = words, .write = true } },
                                       .push = &push, .groups = { kd_post_groups(push.pixels) } };
-    OK(kd_vk_fill(vk, words, 0, bytes, 0xffffffff, &error));
+    OK(kd_vk_fill(vk, "fill", words, 0, bytes, 0xffffffff, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
     OK(kd_vk_submit(vk, NULL, &error));
     OK(kd_vk_wait(vk, 0, &error));

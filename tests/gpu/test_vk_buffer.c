@@ -81,7 +81,7 @@ static void destroyed_in_flight(void **state)
                         *y = make_buffer(vk, n, KD_VK_DEVICE, "y");
     for (uint32_t i = 0; i < n; i++)
         words(x)[i] = i;
-    OK(kd_vk_fill(vk, y, 0, n * 4, 2, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 2, &error));
     mix(vk, pipeline, x, y, n, 5);
     OK(kd_vk_copy(vk, "readback", back, 0, y, 0, n * 4, &error));
     kd_vk_pipeline_destroy(vk, pipeline); /* recorded, not even submitted */

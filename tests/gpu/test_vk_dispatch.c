@@ -14,7 +14,7 @@ static void sizes(void **state)
         struct kd_vk_buffer *back = make_buffer(vk, n, KD_VK_READBACK, "back");
         for (uint32_t i = 0; i < n; i++)
             words(x)[i] = i * 2654435761u;
-        OK(kd_vk_fill(vk, y, 0, (uint64_t)n * 4, 11, &error));
+        OK(kd_vk_fill(vk, "fill", y, 0, (uint64_t)n * 4, 11, &error));
         mix(vk, pipeline, x, y, n, mul);
         OK(kd_vk_copy(vk, "readback", back, 0, y, 0, (uint64_t)n * 4, &error));
         finish(vk);
@@ -39,8 +39,8 @@ static void ranges(void **state)
     const struct mix_push push = { part, 10 };
     for (uint32_t i = 0; i < n; i++)
         words(x)[i] = i;
-    OK(kd_vk_fill(vk, y, 0, n * 4, 1, &error));
-    OK(kd_vk_fill(vk, y, 512 * 4, 4, 5, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 1, &error));
+    OK(kd_vk_fill(vk, "fill", y, 512 * 4, 4, 5, &error));
     OK(kd_vk_copy(vk, NULL, y, 768 * 4, x, 100 * 4, 8, &error));
     OK(kd_vk_dispatch(vk,
                       &(struct kd_vk_dispatch) {
@@ -92,7 +92,7 @@ static void refused(void **state)
     FAILS(KD_ETOOBIG, "along axis 1", kd_vk_dispatch(vk, &bad, &error));
     FAILS(KD_EINVAL, "reach outside", kd_vk_copy(vk, "c", y, 8, x, 0, 256, &error));
     FAILS(KD_EINVAL, "overlap", kd_vk_copy(vk, "c", y, 8, y, 0, 16, &error));
-    FAILS(KD_EINVAL, "multiples of 4", kd_vk_fill(vk, y, 2, 4, 0, &error));
+    FAILS(KD_EINVAL, "multiples of 4", kd_vk_fill(vk, "fill", y, 2, 4, 0, &error));
     FAILS(KD_EINVAL, "no submission", kd_vk_wait(vk, UINT64_MAX, &error));
 
     struct kd_vk_pipeline_params params = { .name = "p",

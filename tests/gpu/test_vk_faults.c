@@ -250,7 +250,7 @@ static void deadline(void **state)
     (void)state;
     OK(kd_vk_create(&(struct kd_vk_params) { .cache_dir = "", .deadline_ms = 1500 }, &vk, &error));
     buffer = make_buffer(vk, 64, KD_VK_READBACK, "b");
-    OK(kd_vk_fill(vk, buffer, 0, 256, 1, &error));
+    OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 1, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
     OK(kd_vk_wait(vk, ticket,
                   &error)); /* in truth idle, so that nothing runs on behind the back of the test */
@@ -258,14 +258,14 @@ static void deadline(void **state)
     vk->fn.GetSemaphoreCounterValue = unfinished;
     vk->fn.DeviceWaitIdle = idle_called;
     vk->fn.DestroyDevice = destroy_called;
-    OK(kd_vk_fill(vk, buffer, 0, 256, 2, &error));
+    OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 2, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
 
     vk->fn.WaitSemaphores = NULL; /* from here on nothing may reach the driver */
     FAILS(KD_EDEVICE, "lost", kd_vk_wait(vk, 0, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_submit(vk, NULL, &error));
-    FAILS(KD_EDEVICE, "lost", kd_vk_fill(vk, buffer, 0, 256, 3, &error));
+    FAILS(KD_EDEVICE, "lost", kd_vk_fill(vk, "fill", buffer, 0, 256, 3, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_copy(vk, "c", buffer, 0, buffer, 128, 64, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_buffer_create(vk, 64, KD_VK_DEVICE, "n", &none, &error));
     kd_vk_buffer_destroy(vk, buffer);

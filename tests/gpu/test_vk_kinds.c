@@ -67,7 +67,7 @@ static void values(void **state)
         uint32_t n = counts[c];
         struct set set = make_set(vk, n, 3);
         const struct kd_vk_dispatch d = dispatch_of(pipeline, &set, n);
-        OK(kd_vk_fill(vk, set.y, 0, 4ull * n, 0x40000000, &error)); /* 2.0 */
+        OK(kd_vk_fill(vk, "fill", set.y, 0, 4ull * n, 0x40000000, &error)); /* 2.0 */
         OK(kd_vk_dispatch(vk, &d, &error));
         finish(vk);
         const float *y = kd_vk_buffer_map(set.y);
@@ -100,7 +100,7 @@ static void ranges(void **state)
     d.bindings[0] = (struct kd_vk_binding) { .buffer = block, .offset = 4 * at, .size = sizeof(struct kinds_block) };
     d.bindings[1] = (struct kd_vk_binding) { .buffer = singles, .offset = 8 * at, .size = 4 * n };
     d.bindings[2] = (struct kd_vk_binding) { .buffer = fours, .offset = 4 * at };
-    OK(kd_vk_fill(vk, set.y, 0, 4 * n, 0, &error));
+    OK(kd_vk_fill(vk, "fill", set.y, 0, 4 * n, 0, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
     finish(vk);
     const float *y = kd_vk_buffer_map(set.y);
@@ -127,12 +127,12 @@ static void order(void **state)
     struct kd_vk_dispatch d = dispatch_of(pipeline, &set, n);
     for (int k = 0; k < 3; k++)
         d.bindings[k].buffer = read[k];
-    OK(kd_vk_fill(vk, set.y, 0, 4 * n, 0, &error));
+    OK(kd_vk_fill(vk, "fill", set.y, 0, 4 * n, 0, &error));
     for (int round = 0; round < rounds; round++)
         for (int k = 0; k < 3; k++) { /* by a copy, then by a kernel that adds 0 to 1 times the same */
             for (int j = 0; j < 3 && (k == 0 || !round); j++)
                 OK(kd_vk_copy(vk, NULL, read[j], 0, from[j], 0, kd_vk_buffer_size(from[j]), &error));
-            OK(kd_vk_fill(vk, read[k], 0, kd_vk_buffer_size(read[k]), 0, &error));
+            OK(kd_vk_fill(vk, "fill", read[k], 0, kd_vk_buffer_size(read[k]), 0, &error));
             mix(vk, add, from[k], read[k], (uint32_t)(kd_vk_buffer_size(from[k]) / 4), 1);
             OK(kd_vk_dispatch(vk, &d, &error));
         }
@@ -194,7 +194,7 @@ static void limits(void **state)
     for (int k = 0; k < 3; k++) {
         struct kd_vk_buffer *large = make_buffer(vk, (uint32_t)(most[k] / 4 + 64), KD_VK_DEVICE, "large");
         struct kd_vk_dispatch d = dispatch_of(pipeline, &set, 64);
-        OK(kd_vk_fill(vk, large, 0, kd_vk_buffer_size(large), 0, &error));
+        OK(kd_vk_fill(vk, "fill", large, 0, kd_vk_buffer_size(large), 0, &error));
         d.bindings[k].buffer = large;
         FAILS(KD_ETOOBIG, "binds at most", kd_vk_dispatch(vk, &d, &error));
         d.bindings[k].size = most[k] + 16;
@@ -228,7 +228,7 @@ static void views(void **state)
     struct kd_vk_pipeline *pipeline = make_kinds(vk);
     struct set set = make_set(vk, n * parts, 0);
     struct kd_vk_dispatch d = dispatch_of(pipeline, &set, n);
-    OK(kd_vk_fill(vk, set.y, 0, 4 * n * parts, 0, &error));
+    OK(kd_vk_fill(vk, "fill", set.y, 0, 4 * n * parts, 0, &error));
     for (int i = 0; i < 100; i++)
         OK(kd_vk_dispatch(vk, &d, &error));
     assert_int_equal(views_of(set.singles), 1);

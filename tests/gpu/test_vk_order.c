@@ -31,7 +31,7 @@ static void counted(void **state)
     for (int i = 0; i < 4; i++)
         b[i] = make_buffer(vk, n, KD_VK_DEVICE, "b");
     for (int i = 0; i < 4; i++)
-        OK(kd_vk_fill(vk, b[i], 0, n * 4, 1, &error));
+        OK(kd_vk_fill(vk, "fill", b[i], 0, n * 4, 1, &error));
     real_barrier = vk->fn.CmdPipelineBarrier;
     vk->fn.CmdPipelineBarrier = counting;
 
@@ -47,7 +47,7 @@ static void counted(void **state)
     assert_int_equal(barriers, 3);
     mix(vk, pipeline, b[2], b[0], n, 1);
     assert_int_equal(barriers, 3);
-    OK(kd_vk_fill(vk, b[2], 0, n * 4, 0, &error)); /* write after read, the other stage */
+    OK(kd_vk_fill(vk, "fill", b[2], 0, n * 4, 0, &error)); /* write after read, the other stage */
     assert_int_equal(barriers, 4);
 
     count_from_here(vk);
@@ -79,7 +79,7 @@ static void random_command(struct kd_vk *vk, const struct kd_vk_pipeline *pipeli
     const struct mix_push push = { count, value | 1 };
     switch (rand() % 4) {
     case 0:
-        OK(kd_vk_fill(vk, b[to], at * 4, count * 4, value, &error));
+        OK(kd_vk_fill(vk, "fill", b[to], at * 4, count * 4, value, &error));
         for (uint32_t i = 0; i < count; i++)
             model[to][at + i] = value;
         break;
@@ -110,7 +110,7 @@ static void random_programs(void **state)
     srand(3);
     for (int i = 0; i < 4; i++) { /* of every kind: b[2] and b[3] are checked through a copy */
         b[i] = make_buffer(vk, n, i == 0 ? KD_VK_UPLOAD : i == 1 ? KD_VK_READBACK : KD_VK_DEVICE, "b");
-        OK(kd_vk_fill(vk, b[i], 0, n * 4, 0, &error));
+        OK(kd_vk_fill(vk, "fill", b[i], 0, n * 4, 0, &error));
     }
     struct kd_vk_buffer *back = make_buffer(vk, n, KD_VK_READBACK, "back");
     memset(model, 0, sizeof model);

@@ -28,7 +28,7 @@ static void many(void **state)
     uint64_t first, last = 0, held = kd_vk_allocated(vk);
     size_t settled = 0;
     memset(words(x), 0, n * 4);
-    OK(kd_vk_fill(vk, y, 0, n * 4, 0, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 0, &error));
     OK(kd_vk_submit(vk, &first, &error));
     for (int i = 0; i < submissions; i++) {
         uint64_t ticket;
@@ -61,7 +61,7 @@ static void one_large(void **state)
     struct kd_vk_buffer *x = make_buffer(vk, n, KD_VK_UPLOAD, "x"),
                         *y = make_buffer(vk, n, KD_VK_READBACK, "y");
     memset(words(x), 0, n * 4);
-    OK(kd_vk_fill(vk, y, 0, n * 4, 0, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 0, &error));
     for (int i = 0; i < dispatches; i++)
         mix(vk, pipeline, x, y, n, 1);
     finish(vk);
@@ -77,21 +77,21 @@ static void nothing_and_discarded(void **state)
     enum { n = 64 };
     uint64_t before, after;
     struct kd_vk_buffer *y = make_buffer(vk, n, KD_VK_READBACK, "y");
-    OK(kd_vk_fill(vk, y, 0, n * 4, 1, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 1, &error));
     OK(kd_vk_submit(vk, &before, &error));
     OK(kd_vk_submit(vk, &after, &error)); /* nothing recorded */
     assert_int_equal(before, after);
-    OK(kd_vk_fill(vk, y, 0, n * 4, 2, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 2, &error));
     kd_vk_discard(vk);
     kd_vk_discard(vk);
     OK(kd_vk_submit(vk, &after, &error));
     assert_int_equal(before, after);
     OK(kd_vk_wait(vk, 0, &error));
     assert_int_equal(words(y)[0], 1);
-    OK(kd_vk_fill(vk, y, 0, n * 4, 3, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 3, &error));
     finish(vk);
     assert_int_equal(words(y)[0], 3);
-    OK(kd_vk_fill(vk, y, 0, n * 4, 4, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 4, &error));
     kd_vk_buffer_destroy(vk, y); /* recorded, then discarded: freed all the same */
     kd_vk_discard(vk);
     assert_int_equal(kd_vk_allocated(vk), 0);

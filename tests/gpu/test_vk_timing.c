@@ -132,7 +132,7 @@ static void lesser_devices(void **state)
         vk->physical.host_query_reset = false;
         vk->physical.info.timestamps = had && timestamps;
         for (int i = 0; i < 10; i++) {
-            OK(kd_vk_fill(vk, a, 0, 256, 1, &error));
+            OK(kd_vk_fill(vk, "fill", a, 0, 256, 1, &error));
             finish(vk);
         }
         assert_int_equal(kd_vk_times(vk, times), had && timestamps);

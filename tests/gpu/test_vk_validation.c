@@ -23,8 +23,8 @@ static uint32_t fill_then_add(bool barriers)
                         *y = make_buffer(vk, 64, KD_VK_DEVICE, "y");
     if (!barriers)
         vk->fn.CmdPipelineBarrier = no_barrier;
-    OK(kd_vk_fill(vk, x, 0, 256, 1, &error));
-    OK(kd_vk_fill(vk, y, 0, 256, 1, &error));
+    OK(kd_vk_fill(vk, "fill", x, 0, 256, 1, &error));
+    OK(kd_vk_fill(vk, "fill", y, 0, 256, 1, &error));
     mix(vk, pipeline, x, y, 64, 1);
     finish(vk);
     kd_vk_buffer_destroy(vk, x);
@@ -49,7 +49,7 @@ static uint32_t fill_then_read(int k, bool barriers)
                                 .bindings = { { .buffer = still }, { .buffer = still }, { .buffer = still },
                                               { .buffer = y, .write = true } } };
     d.bindings[k].buffer = x;
-    OK(kd_vk_fill(vk, x, 0, 1024, 0, &error));
+    OK(kd_vk_fill(vk, "fill", x, 0, 1024, 0, &error));
     OK(kd_vk_dispatch(vk, &d, &error));
     finish(vk);
     kd_vk_buffer_destroy(vk, still);

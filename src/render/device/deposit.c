@@ -81,7 +81,7 @@ static enum kd_status prepare(struct kd_renderer *r, struct kd_prepared *own, co
     KD_TRY(guides(r, p, scene, &grid, time, error));
     KD_TRY(kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error));
     KD_TRY(kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error));
-    KD_TRY(kd_vk_fill(r->vk, p->grid, 0, bytes, 0, error));
+    KD_TRY(kd_vk_fill(r->vk, "particles", p->grid, 0, bytes, 0, error));
     if (grid.plunging)
         KD_TRY(share_out(r, p, scene, true, &push, grid.plunging, ns, error));
     KD_TRY(share_out(r, p, scene, false, &push, grid.count, ns, error));

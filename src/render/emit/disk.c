@@ -43,13 +43,23 @@ double kd_disk_peak_temperature(const struct kd_scene *scene)
     return kd_disk_temperature(largest_flux(scene), a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
+static double inner(const struct kd_scene *scene)
+{
+    return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
+}
+
+void kd_disk_reach(const struct kd_scene *scene, double radii[2])
+{
+    radii[0] = inner(scene);
+    radii[1] = scene->disk.outer;
+}
+
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_disk *d = &scene->disk;
-    double r_in = isinf(d->inner) ? kd_kerr_isco(scene->spacetime.spin) : d->inner;
     double peak = kd_disk_peak_temperature(scene) * d->hardening;
     out->disk = (struct kd_disk_block) {
-        .r_in = (float)r_in,
+        .r_in = (float)inner(scene),
         .r_out = (float)d->outer,
         .fade = (float)(1 / fmax(d->outer * d->taper, 1e-6)),
         .opacity = (float)d->opacity,
@@ -99,6 +109,7 @@ const struct kd_emitter kd_emit_disk = {
     .present = present,
     .traits = kd_disk_traits,
     .needs = needs,
+    .reach = kd_disk_reach,
     .fill = fill,
     .tables = tables,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk) },

@@ -120,9 +120,31 @@ static bool is_current(const struct kd_emit_state *state, int i, const struct kd
     return true;
 }
 
+#define SHINES(number, name) true,
+#define SHINES_NOT(number, name) false,
+static const bool at_crossings[] = { KD_EMITTERS(SHINES, SHINES, SHINES_NOT, SHINES_NOT) };
+
+/* Radii between which some emitter of crossings may be; the first is above the second if there is none. */
+static void reach_of_all(const struct kd_scene *scene, double radii[2])
+{
+    radii[0] = INFINITY;
+    radii[1] = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        double own[2] = { 0, INFINITY };
+        if (!at_crossings[i] || !kd_emitters[i]->present(scene))
+            continue;
+        if (kd_emitters[i]->reach)
+            kd_emitters[i]->reach(scene, own);
+        radii[0] = fmin(radii[0], own[0]);
+        radii[1] = fmax(radii[1], own[1]);
+    }
+}
+
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels)
 {
     struct kd_emission *numbers = &state->data.emission;
+    double reach[2];
+    reach_of_all(scene, reach);
     if (!state->colours)
         kd_colour_tables(&state->data.tables);
     state->colours = true;
@@ -135,6 +157,9 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .band_pixels = band_pixels,
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .delay = (float)kd_particle_delay(scene),
+        /* Wider than a float is rough: the edge itself is the emitter's. */
+        .w_least = (float)((1 - 1e-6) / reach[1]),
+        .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
         .one_minus_a = (float)(1 - scene->spacetime.spin),
     };

@@ -42,6 +42,8 @@ struct kd_emitter {
      * plan/pass.h, and its functions in device/prepare.h. NULL, both: none. */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*invocations)(const struct kd_scene *scene);
+    /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */
+    void (*reach)(const struct kd_scene *scene, double radii[2]);
     /* Numbers; and tables, which may take milliseconds. Called anew when a part of the scene that they depend on has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
@@ -90,6 +92,8 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
 extern const struct kd_emitter kd_emit_disk;
 /* For those that shine by the smooth disk's numbers and tables. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
+/* Radii of its edges. */
+void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 /* For those that go round: Doppler shift and redshift as KD_TRAIT_..., needs, and how they vary. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);

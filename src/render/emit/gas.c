@@ -120,6 +120,7 @@ const struct kd_emitter kd_emit_gas = {
     .traits = traits,
     .needs = needs,
     .varies = varies,
+    .reach = kd_disk_reach,
     .fill = fill,
     .tables = tables,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(gas), KD_SCENE_PART(top) },

@@ -319,6 +319,7 @@ const struct kd_emitter kd_emit_particles = {
     .varies = kd_orbit_varies,
     .device_bytes = device_bytes,
     .invocations = invocations,
+    .reach = kd_disk_reach,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(accuracy) },
     .sentences = sentences,

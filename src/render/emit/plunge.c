@@ -58,6 +58,13 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     }
 }
 
+static void reach(const struct kd_scene *scene, double radii[2])
+{
+    const struct kd_plunging p = kd_plunging_of(scene);
+    radii[0] = p.curve.horizon;
+    radii[1] = p.curve.isco;
+}
+
 static const struct kd_sentence sentences[] = {
     { "particles: inside the ISCO gas falls freely on its E and L; grey, of one chosen temperature, of an optical depth that is "
       "its surface density over the disk's at the ISCO; no stress, no heating", NULL },
@@ -69,6 +76,7 @@ const struct kd_emitter kd_emit_plunge = {
     .traits = kd_disk_traits,
     .needs = needs,
     .varies = kd_orbit_varies,
+    .reach = reach,
     .fill = fill,
     .tables = tables,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(disk), KD_SCENE_PART(accuracy) },

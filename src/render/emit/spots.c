@@ -45,6 +45,19 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     }
 }
 
+static void reach(const struct kd_scene *scene, double radii[2])
+{
+    const struct kd_spot *on[KD_SPOTS];
+    size_t n = kd_scene_spots(scene, on);
+    radii[0] = INFINITY;
+    radii[1] = 0;
+    for (size_t i = 0; i < n; i++) {
+        radii[0] = fmin(radii[0], on[i]->r - REACH * on[i]->size);
+        radii[1] = fmax(radii[1], on[i]->r + REACH * on[i]->size);
+    }
+    radii[0] = fmax(radii[0], kd_kerr_isco(scene->spacetime.spin));
+}
+
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(without_shift, scene->disk.model == KD_DISK_NONE && (!scene->disk.doppler || !scene->disk.redshift))
@@ -64,6 +77,7 @@ const struct kd_emitter kd_emit_spots = {
     .traits = traits,
     .needs = kd_orbit_needs,
     .varies = kd_orbit_varies,
+    .reach = reach,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(top) },
     .sentences = sentences,

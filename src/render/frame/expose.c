@@ -11,7 +11,7 @@ static enum kd_status measure(struct kd_frame_job *j)
     const struct kd_vk_pipeline *expose;
     enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error);
     if (!status)
-        status = kd_vk_fill(vk, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
+        status = kd_vk_fill(vk, "expose", s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
         uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
         const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };

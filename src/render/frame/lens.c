@@ -75,7 +75,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     push.stride = p->width * p->side * p->band_rows * p->side;
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
-    d->groups[1] = rays ? push.rows : s->count;
+    d->groups[1] = rays ? push.rows : p->side == 1 ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
     return kd_vk_dispatch(j->r->vk, d, j->error);
 }
 
@@ -159,6 +159,22 @@ static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *trac
     return status ? status : footprint_slice(j, whole);
 }
 
+/* The transfer kernel leaves pixels without light as they are, where a pixel has one ray and nothing lies behind. */
+static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
+{
+    const struct kd_plan *p = j->plan;
+    struct kd_vk_buffer *radiance = j->store->radiance.buffers[s->band];
+    uint64_t first = (uint64_t)p->width * (s->first - kd_frame_band_first(j, s->band)), n = (uint64_t)p->width * s->count;
+    enum kd_status status = KD_OK;
+    if (p->side > 1 || kd_plan_holds(p, KD_LENS_FATE))
+        return KD_OK;
+    KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12 * first, 12 * n, 0, j->error));
+    if (p->apart)
+        KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12ull * p->width * p->band_rows + 4 * first, 4 * n, 0, j->error));
+done:
+    return status;
+}
+
 /* Record and submit; s: what is lit. */
 static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
 {
@@ -167,7 +183,8 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
     if (status)
         return status;
     struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band);
-    if (s->count)
+    status = darken(j, s);
+    if (!status && s->count)
         status = record(j, s, &d, false);
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
 }
@@ -344,7 +361,7 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double
 
 static enum kd_status forget_undecided(struct kd_frame_job *j)
 {
-    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, j->store->undecided, 0, 16, 0, j->error) : KD_OK;
+    return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, "trace", j->store->undecided, 0, 16, 0, j->error) : KD_OK;
 }
 
 enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
