@@ -1,0 +1,101 @@
+/* Two ways of the transfer kernel through the same rays give the same light: pixels of one ray in columns, which pass over crossings that
+ * no emitter reaches, and pixels of several rays, which look at each crossing. */
+#include "render/render.h"
+
+#include "render_support.h"
+
+#include <math.h>
+
+static double linear(uint16_t word)
+{
+    double v = word / 65535.0;
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+static struct kd_frame render(const struct kd_scene *scene)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+/* Pixels of 2 x 2 rays against those of one ray of a picture twice as wide and high. */
+static void assert_same_light(struct kd_scene scene)
+{
+    const int w = 96, h = 60;
+    scene.image = (struct kd_image){ .width = w, .height = h, .samples = 2, .critical_factor = 1, .bit_depth = 16 };
+    scene.style.tone_map = KD_TONE_SRGB;
+    scene.style.exposure = -4;
+    scene.style.dither = false;
+    struct kd_frame coarse = render(&scene);
+    scene.image.width = 2 * w;
+    scene.image.height = 2 * h;
+    scene.image.samples = 1;
+    struct kd_frame fine = render(&scene);
+    const uint16_t *a = (const uint16_t *)kd_frame_pixels(&coarse), *b = (const uint16_t *)kd_frame_pixels(&fine);
+    double lit = 0;
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++)
+            for (int c = 0; c < 3; c++) {
+                double sum = 0, one = linear(a[3 * (y * w + x) + c]);
+                for (int i = 0; i < 4; i++)
+                    sum += linear(b[3 * ((2 * y + i / 2) * 2 * w + 2 * x + i % 2) + c]);
+                lit += one;
+                if (fabs(one - sum / 4) > 2e-5 + 1e-4 * one) /* half a step of 16 bits is at most 1.7e-5 here */
+                    fail_msg("pixel (%d, %d), channel %d: %.7f by four rays, %.7f by four pixels", x, y, c, one, sum / 4);
+            }
+    assert_true(lit > 1);
+    kd_frame_finish(&coarse);
+    kd_frame_finish(&fine);
+}
+
+static struct kd_scene scene_of(const char *json)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+    return scene;
+}
+
+static void test_disk(void **state)
+{
+    (void)state;
+    assert_same_light(scene_of("{\"disk\":{\"opacity\":0.6}}"));
+    assert_same_light(scene_of("{\"disk\":{\"opacity\":0.6},\"sky\":{\"model\":\"grid\"}}"));
+    assert_same_light(scene_of("{\"disk\":{\"inner\":12,\"outer\":15,\"taper\":0},\"camera\":{\"r\":20,\"inclination_deg\":60}}"));
+}
+
+static void test_spots(void **state)
+{
+    (void)state;
+    assert_same_light(scene_of("{\"disk\":{\"model\":\"none\"},\"spots\":[{\"brightness\":3,\"size\":2},{\"brightness\":1,\"r\":15,\"phase_deg\":120}]}"));
+}
+
+static void test_plunging(void **state)
+{
+    (void)state;
+    assert_same_light(scene_of("{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":50,\"field_m\":20},\"disk\":{\"model\":\"particles\","
+                               "\"plunging\":0.3,\"particles\":50000,\"opacity\":0.9},\"sky\":{\"model\":\"grid\"}}"));
+}
+
+static void test_nothing_but_sky(void **state)
+{
+    (void)state;
+    assert_same_light(scene_of("{\"disk\":{\"model\":\"none\"},\"sky\":{\"model\":\"grid\",\"brightness\":5}}"));
+}
+
+int main(void)
+{
+    int status = open_renderer();
+    if (status)
+        return status;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_disk), cmocka_unit_test(test_spots), cmocka_unit_test(test_plunging), cmocka_unit_test(test_nothing_but_sky),
+    };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
