@@ -29,7 +29,7 @@ layout(set = 0, binding = 2) uniform textureBuffer tables;
 #define TABLE(name, first, rows) const uint KD_TABLE_##name = first;
 KD_EMIT_TABLES(TABLE)
 vec4 kd_table_row(uint table, uint row) { return texelFetch(tables, int(table + row)); }
-layout(set = 0, binding = 3) buffer Radiance { float radiance[]; };
+layout(set = 0, binding = 3) writeonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 4) readonly buffer Density { float density[]; };
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
@@ -107,21 +107,17 @@ void store(uint at, vec3 light, float apart)
         radiance[3 * emission.frame.band_pixels + at] = apart;
 }
 
-/* KD_TRANSFER_ROWS pixels below one another, of one ray each: first what lies behind, then the crossings in front of it. Pixels where
- * nothing shines are left as they are if nothing can lie behind either: they were made dark before.
+/* KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which nothing can lie. Those where nothing shines are left as they
+ * are: they were made dark before.
  *
  * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the next crossing that
- * may shine, which takes little, and the outer one lights it. */
+ * may shine, which takes little, and the outer one lights it. With a sky each pixel has light, and looking for it only takes time. */
+const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && !ENDS;
+
 void light_column(uint x, uint y, uint end)
 {
-    for (uint k = 0; ENDS && k < KD_TRANSFER_ROWS; k++)
-        if (y + k < end)
-            store(light_at(x, y + k), background((y + k - cam.band0) * cam.width + x), 0.0);
-    if (!KD_GLOWS)
-        return;
     uint n = 0, of = end;
     kd_beam beam;
-    vec3 behind = vec3(0.0);
     for (;;) {
         float w;
         uint at;
@@ -138,15 +134,11 @@ void light_column(uint x, uint y, uint end)
         }
         if (y >= end)
             break;
-        uint o = light_at(x, y);
-        if (y != of) {
+        if (y != of)
             beam = kd_beam(vec3(0.0), 0.0, 1.0);
-            if (ENDS)
-                behind = vec3(radiance[3 * o], radiance[3 * o + 1], radiance[3 * o + 2]);
-        }
         of = y;
         meet(beam, w, n, uvec2(x, y), at);
-        store(o, beam.light + beam.through * behind, beam.apart);
+        store(light_at(x, y), beam.light, beam.apart);
         bool more = beam.through > 0.0 && n + 1 < ORDERS;
         y += more ? 0 : 1;
         n = more ? n + 1 : 0;
@@ -160,9 +152,10 @@ void main()
     uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
     if (px >= (CRITICAL > 0 ? cam.rows : emission.frame.pixels_x))
         return;
-    if (SIDE == 1 && CRITICAL == 0) {
+    if (COLUMNS) {
         uint y = cam.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS;
-        light_column(px, y, min(y + KD_TRANSFER_ROWS, cam.row0 + cam.rows));
+        if (KD_GLOWS)
+            light_column(px, y, min(y + KD_TRANSFER_ROWS, cam.row0 + cam.rows));
         return;
     }
     if (CRITICAL > 0) {

@@ -64,6 +64,9 @@ static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_cr
 /* Rows of pixels of a band, traced and lit in one go. */
 struct slice { uint32_t band, first, count; };
 
+/* Whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
+static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !kd_plan_holds(p, KD_LENS_FATE); }
+
 /* Record a kernel over a slice. rays: the grid is that of the rays, not of the pixels. */
 static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, bool rays)
 {
@@ -75,7 +78,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     push.stride = p->width * p->side * p->band_rows * p->side;
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
-    d->groups[1] = rays ? push.rows : p->side == 1 ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
+    d->groups[1] = rays ? push.rows : in_columns(p) ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
     return kd_vk_dispatch(j->r->vk, d, j->error);
 }
 
@@ -159,14 +162,14 @@ static enum kd_status map_slice(struct kd_frame_job *j, const struct slice *trac
     return status ? status : footprint_slice(j, whole);
 }
 
-/* The transfer kernel leaves pixels without light as they are, where a pixel has one ray and nothing lies behind. */
+/* Make those pixels dark. */
 static enum kd_status darken(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_plan *p = j->plan;
     struct kd_vk_buffer *radiance = j->store->radiance.buffers[s->band];
     uint64_t first = (uint64_t)p->width * (s->first - kd_frame_band_first(j, s->band)), n = (uint64_t)p->width * s->count;
     enum kd_status status = KD_OK;
-    if (p->side > 1 || kd_plan_holds(p, KD_LENS_FATE))
+    if (!in_columns(p))
         return KD_OK;
     KD_TRY(kd_vk_fill(j->r->vk, "transfer", radiance, 12 * first, 12 * n, 0, j->error));
     if (p->apart)
