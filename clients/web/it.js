@@ -231,6 +231,11 @@ const refusals = [
   ['{} is {}{?}, allowed are {} up to, not including, {}', '{} è {}{?}, ammessi sono da {} fino a {} escluso'],
   ['{} is {}{?}, allowed are {} to {}, and {}', '{} è {}{?}, ammessi sono da {} a {}, e {}'],
   ['{} is {}{?}, allowed are {} to {}', '{} è {}{?}, ammessi sono da {} a {}'],
+  [
+    'frame {}: the picture needs {} of {} memory, {} are allowed (by {…}): lower image.width, image.height or image.samples',
+    'fotogramma {}: l’immagine vuole {} di memoria ({}), ammessi sono {} ({…}): riduci image.width, image.height o image.samples',
+  ],
+  ['frame {}: it would take about {}, more than the {} a frame may take', 'fotogramma {}: ci vorrebbero circa {}, più dei {} ammessi per un fotogramma'],
   ['{} is {}, allowed are {…} and {}', '{} è {}, ammessi sono {…} e {}'],
   ['{} is {}, allowed is at least {}, the ISCO of {} {}, or {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}, o {}'],
   ['{} is {}, allowed is at least {}, the ISCO of {} {}', '{} è {}, ammesso è almeno {}, l’ISCO per {} {}'],
@@ -262,7 +267,7 @@ const refusals = [
   ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
 ].map(([english, italian]) => {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
-  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc))?)';
+  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|GiB|s))?)';
   return [
     new RegExp(`^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`),
     italian.replace('{?}', '{}').replace('{…}', '{}'),
@@ -275,6 +280,10 @@ const amounts = {
   'solar masses': 'masse solari',
   'solar radii': 'raggi solari',
   'Eddington rates': 'tassi di Eddington',
+  'what the host has left': 'quanto resta al computer',
+  'the device': 'il dispositivo',
+  device: 'dispositivo',
+  host: 'computer',
   pixels: 'pixel',
   'degrees per second': 'gradi al secondo',
   degrees: 'gradi',

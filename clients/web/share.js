@@ -2,23 +2,16 @@
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';
-import { samples } from './source.js';
+import { buildSave, picked } from './save.js';
 
 const shell = text => `'${text.replaceAll("'", `'\\''`)}'`;
 
 export function share(scene, size) {
   const box = byId('scene-text'),
-    form = byId('scene-form'),
-    sizes = byId('save-size');
-
-  function picked() {
-    const [width, height] = sizes.value === 'window' ? [size().width, size().height] : sizes.value.split('x').map(Number);
-    return { 'image.width': width, 'image.height': height, 'image.samples': samples(scene) };
-  }
+    form = byId('scene-form');
 
   function show() {
-    const json = scene.document(picked());
-    byId('save').href = 'v1/render?' + scene.query(picked());
+    const json = scene.document(picked(scene, size));
     box.value =
       form.value === 'json'
         ? JSON.stringify(json, null, 2)
@@ -38,15 +31,14 @@ export function share(scene, size) {
     }
   }
 
-  byId('save').addEventListener('click', show); // of this moment, where time goes on
   byId('copy-scene').addEventListener('click', () => (show(), copy(box.value, box)));
   byId('copy-link').addEventListener('click', () => {
     link.set('time', scene.get('time') || null);
     link.flush();
     copy(location.href);
   });
-  for (const control of [form, sizes]) control.addEventListener('change', show);
+  form.addEventListener('change', show);
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);
-  show();
+  buildSave(scene, size, show);
   return show;
 }

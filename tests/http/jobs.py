@@ -200,6 +200,7 @@ class Jobs(Case):
         fractions = [s['fraction'] for s in seen]
         self.assertEqual(seen[-1]['state'], 'done')
         self.assertGreater(len({f for f in fractions if 0 < f < 0.25}), 1, fractions)  # within a frame
+        self.assertEqual(fractions, sorted(fractions), 'none falls while a frame is encoded')
         self.assertGreater(len({s['finished'] for s in seen}), 3)
         last = [s['remaining_s'] for s in seen if s['finished'] == 3 and s['remaining_s'] is not None]
         self.assertTrue(last and all(0 <= s < 3 for s in last), last)

@@ -35,6 +35,7 @@ struct kd_job {
     char delayed[160];               /* why it waits until due_ms */
     bool struck;                     /* by this server: one attempt of the record is for it */
     unsigned finished_here;
+    unsigned encoding; /* frames that are drawn, and not yet in their files */
     uint64_t bytes;
     unsigned revision; /* of what its status says */
     char client[KD_CLIENT]; /* "": nobody knows any more */

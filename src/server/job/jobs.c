@@ -378,10 +378,13 @@ static bool is_next(const struct kd_job *job)
     return other == job;
 }
 
+/* Frames that are drawn, those that are still being encoded and the drawn part of one among them. Called locked. */
+static double drawn(const struct kd_job *job) { return fmin(job->finished + job->encoding + job->fraction, job->frames); }
+
 /* Estimates what is left of a job; NAN: it cannot be said. Called locked. */
 static double remaining_s(const struct kd_job *job)
 {
-    double left = job->frames - job->finished - job->fraction;
+    double left = job->frames - drawn(job);
     if (!kd_job_is_active(job) || *job->delayed || !(job->began_ms > 0 || is_next(job)))
         return NAN;
     double frame_ms = job->finished_here ? (kd_clock_ms() - job->began_ms) / (job->finished_here + job->fraction)
@@ -407,7 +410,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .series = job->series, .frames = job->frames,
                                     .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
                                     .bytes = job->bytes, .remaining_s = remaining_s(job) };
-    out->fraction = job->frames ? fmin((job->finished + (kd_job_is_active(job) ? job->fraction : 0)) / job->frames, 1) : 0;
+    out->fraction = !job->frames ? 0 : (kd_job_is_active(job) ? drawn(job) : job->finished) / job->frames;
     for (const struct kd_job *other = all->first; other && other != job && kd_job_is_active(job); other = other->link)
         out->place += kd_job_is_active(other);
     snprintf(out->error, sizeof out->error, "%s", job->record.error);

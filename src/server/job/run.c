@@ -167,6 +167,7 @@ static void rendered(struct kd_render_job *render)
     frame->rendered = true;
     all->rendering = NULL;
     all->behind++;
+    frame->job->encoding++;
     frame->job->fraction = 0; /* of the next */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
@@ -184,9 +185,10 @@ static void done(struct kd_render_job *render)
     if (stored && status)
         render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
     pthread_mutex_lock(&all->lock);
-    if (frame->rendered)
+    if (frame->rendered) {
         all->behind--;
-    else
+        job->encoding--;
+    } else
         all->rendering = NULL;
     if (!status)
         finished(job, frame->number, render->file.size);

@@ -1,0 +1,171 @@
+"""A picture saved at any size, through a job: saving.py KERRD FOLDER (browser.py)."""
+import json
+import pathlib
+import struct
+
+from browser import AT_REST, FINE, Browser, main
+import daemon
+
+
+def chunks(png):
+    """(type, data) of each chunk."""
+    at = 8
+    while at < len(png):
+        length, kind = struct.unpack('>I4s', png[at:at + 8])
+        yield kind, png[at + 8:at + 8 + length]
+        at += 12 + length
+
+
+def scene_of(png):
+    return json.loads(next(data.split(b'\0', 1)[1] for kind, data in chunks(png) if kind == b'tEXt' and data.startswith(b'kerrd:scene\0')))
+
+
+class Saving(Browser):
+    def choose(self, page, size, width=None, height=None):
+        page.evaluate('() => { document.getElementById("take").open = true; }')
+        page.select_option('#save-size', size)
+        if width:
+            page.fill('#save-width', str(width))
+            page.fill('#save-height', str(height))
+
+    def save(self, page):
+        with page.expect_download(timeout=60000) as download:
+            page.click('#save')
+        return download.value.suggested_filename, pathlib.Path(download.value.path()).read_bytes()
+
+    def jobs(self):
+        return [r for r in self.requests if r.url.endswith('/v1/jobs') and r.method == 'POST']
+
+    def test_any_size_with_the_scene_inside(self):
+        page = self.open('lang=en&spacetime.spin=0.9&camera.inclination_deg=70&spots.1.brightness=4&pause=1', FINE)
+        self.choose(page, 'own', 333, 217)
+        name, png = self.save(page)
+        self.assertEqual((name, struct.unpack('>II', png[16:24])), ('kerrd-333x217.png', (333, 217)))
+        scene = scene_of(png)
+        self.assertEqual((scene['spacetime']['spin'], scene['camera']['inclination_deg'], scene['spots'][1]['brightness'], scene['image']['samples']), (0.9, 70, 4, 2))
+        self.assertEqual(page.inner_text('#save-told'), 'Saved.')
+        differ = page.evaluate("""async scene => {
+            const pixels = async src => {
+                const image = new Image();
+                image.src = src;
+                await image.decode();
+                const context = new OffscreenCanvas(image.naturalWidth, image.naturalHeight).getContext('2d');
+                context.drawImage(image, 0, 0);
+                return context.getImageData(0, 0, image.naturalWidth, image.naturalHeight).data;
+            };
+            const rendered = await fetch('v1/render', { method: 'POST', body: scene, headers: { 'Content-Type': 'application/json' } });
+            const [a, b] = await Promise.all([document.getElementById('save-got').href, URL.createObjectURL(await rendered.blob())].map(pixels));
+            return a.length === b.length ? a.filter((v, i) => v !== b[i]).length : -1;
+        }""", json.dumps(scene))
+        self.assertEqual(differ, 0, 'the picture of that scene')
+        with page.expect_download() as download:
+            page.click('#save-got')
+        self.assertEqual(pathlib.Path(download.value.path()).read_bytes(), png)
+        job = self.jobs()[-1].response().json()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).status == 404), 'the server keeps it no longer')
+
+    def test_sizes(self):
+        """What the choices ask for; the real pictures would take minutes."""
+        page = self.open()
+        page.route('**/v1/jobs', lambda route: route.fulfill(status=202, json={'id': '0' * 16, 'token': 't'}))
+        page.route('**/v1/jobs/*', lambda route: route.fulfill(json={'state': 'running', 'place': 0, 'fraction': 0.42, 'remaining_s': 100}))
+        stage = page.locator('#stage').bounding_box()
+        shape = stage['height'] / stage['width']
+        asked = {}
+        for size in page.locator('#save-size option').evaluate_all('all => all.map(o => o.value)'):
+            self.choose(page, size)
+            page.click('#save')
+            page.wait_for_selector('#save-told >> text=42 %, 1.67 minutes to go')
+            self.assertEqual(page.evaluate('document.activeElement.id'), 'save-cancel')
+            self.assertEqual((page.get_attribute('#save-told', 'aria-live'), page.evaluate('document.getElementById("save-bar").value')), ('off', 0.42))
+            image = json.loads(self.jobs()[-1].post_data)['scene']['image']
+            asked[size] = (image['width'], image['height'])
+            page.click('#save-cancel')
+            page.wait_for_selector('#save-cancel', state='hidden')
+            self.assertEqual(page.evaluate('document.activeElement.id'), 'save')
+        self.assertEqual((asked['3840x2160'], asked['7680x4320']), ((3840, 2160), (7680, 4320)))
+        for size in ('window', 'window-3840', 'window-7680', 'own'):
+            self.assertAlmostEqual(asked[size][1] / asked[size][0], shape, delta=5e-3, msg=size)
+        self.assertEqual((asked['window-3840'][0], asked['window-7680'][0]), (3840, 7680))
+
+    def test_what_is_saved_is_what_is_seen(self):
+        """The window's own size to the rounding of a level, and a larger one once it is averaged down."""
+        for preset in ('gargantua', 'living-disk'):
+            page = self.open(f'lang=en&pause=1&preset={preset}', FINE)
+            seen = page.evaluate('() => [document.getElementById("picture").naturalWidth, document.getElementById("picture").naturalHeight]')
+            for times in (1, 2):
+                self.choose(page, 'own', seen[0] * times, seen[1] * times)
+                self.save(page)
+                mean, worst = page.evaluate("""async ([width, height]) => {
+                    const [a, b] = await Promise.all([document.getElementById('picture').src, document.getElementById('save-got').href].map(async src => {
+                        const image = new Image();
+                        image.src = src;
+                        await image.decode();
+                        const context = new OffscreenCanvas(width, height).getContext('2d');
+                        context.imageSmoothingQuality = 'high';
+                        context.drawImage(image, 0, 0, width, height);
+                        return context.getImageData(0, 0, width, height).data;
+                    }));
+                    const differences = a.map((v, i) => Math.abs(v - b[i])).sort();
+                    return [differences.reduce((s, d) => s + d, 0) / differences.length, differences.at(-1 - differences.length / 1000 | 0)];
+                }""", seen)
+                self.assertLess(mean, 0.05 if times == 1 else 1.5, (preset, times))
+                self.assertLessEqual(worst, 2 if times == 1 else 40, (preset, times))
+
+    def test_it_is_cancelled(self):
+        page = self.open()
+        self.choose(page, '3840x2160')
+        page.click('#save')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0, 20))
+        self.assertIn('%', page.inner_text('#save-told'))
+        self.shot(page, 'saving')
+        job = self.jobs()[-1].response().json()
+        self.assertEqual(self.daemon.get('/v1/jobs/' + job['id']).status, 200)
+        page.click('#save-cancel')
+        self.assertEqual(page.inner_text('#save-told'), 'Cancelled.')
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).status == 404))
+        self.assertFalse(page.is_visible('#save-bar') or page.is_visible('#save-got') or page.is_disabled('#save'))
+
+    def test_what_cannot_be_saved_is_said(self):
+        self.expected = '422'
+        for lang, told in (('en', 'GiB are allowed'), ('it', 'GiB di memoria')):
+            page = self.open('lang=' + lang)
+            self.choose(page, 'own', 32768, 32768)
+            page.click('#save')
+            page.wait_for_selector(f'#save-fault:has-text("{told}")')
+            self.assertEqual(page.locator('#save-fault[lang]').count(), 0)
+            self.assertFalse(page.is_visible('#save-bar') or page.is_disabled('#save'))
+        before = len(self.jobs())
+        self.choose(page, 'own', 40000, 100)
+        page.click('#save')
+        self.assertEqual((len(self.jobs()), page.locator('#save-width:invalid').count()), (before, 1))
+
+    def test_a_job_that_fails_or_a_server_that_does_not_answer(self):
+        self.expected = 'ERR_FAILED'
+        page = self.open()
+        self.choose(page, 'own', 64, 36)
+        page.route('**/v1/jobs/*', lambda route: route.abort())
+        page.click('#save')
+        page.wait_for_selector('#save-fault >> text=The server does not answer – trying again')
+        page.unroute('**/v1/jobs/*')
+        with page.expect_download():
+            pass
+        self.assertEqual((page.inner_text('#save-told'), page.inner_text('#save-fault')), ('Saved.', ''))
+        page.route('**/v1/jobs/*', lambda route: route.fulfill(json={'state': 'failed', 'error': 'what it says'}))
+        page.click('#save')
+        page.wait_for_selector('#save-fault >> text=what it says')
+        self.assertFalse(page.is_disabled('#save'))
+
+    def test_a_reload_goes_on_with_it(self):
+        page = self.open()
+        self.choose(page, 'own', 2400, 1350)
+        page.click('#save')
+        self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0, 20))
+        with page.expect_download(timeout=60000) as download:
+            page.reload()
+        self.assertEqual(download.value.suggested_filename, 'kerrd-2400x1350.png')
+        self.assertEqual(len(self.jobs()), 1)
+
+
+if __name__ == '__main__':
+    main()
