@@ -28,14 +28,11 @@ static enum kd_status buffer_init(struct kd_vk *vk, struct kd_vk_buffer *buffer,
                                       .usage = KD_VK_BUFFER_USAGE };
     KD_VK_TRY(&vk->fn, CreateBuffer, vk->device, &info, NULL, &buffer->handle);
     vk->fn.GetBufferMemoryRequirements(vk->device, buffer->handle, &needs);
-    status = kd_vk_heap_take(vk, buffer->memory, needs.size, needs.alignment, &buffer->slice, error);
-    if (status)
-        return status;
+    KD_TRY(kd_vk_heap_take(vk, buffer->memory, needs.size, needs.alignment, &buffer->slice, error));
     KD_VK_TRY(&vk->fn, BindBufferMemory, vk->device, buffer->handle, buffer->slice.block->memory,
               buffer->slice.offset);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_BUFFER, KD_VK_HANDLE(buffer->handle), "%s", buffer->name);
-    return KD_OK;
-fail:
+done:
     return status;
 }
 

@@ -103,7 +103,7 @@ enum kd_status kd_vk_cache_init(struct kd_vk *vk, const char *dir, struct kd_err
         info.initialDataSize = 0;
     KD_VK_TRY(&vk->fn, CreatePipelineCache, vk->device, &info, NULL, &cache->handle);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_CACHE, KD_VK_HANDLE(cache->handle), "pipeline cache");
-fail:
+done:
     kd_buffer_finish(&file);
     return status;
 }

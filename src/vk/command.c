@@ -151,13 +151,10 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
     const char *pass = dispatch->pass       ? dispatch->pass
                        : dispatch->pipeline ? dispatch->pipeline->name
                                             : "unnamed";
-    enum kd_status status = check_dispatch(vk, dispatch, pass, error);
-    if (!status)
-        status = kd_vk_submit_slot(vk, &slot, error);
-    if (!status)
-        status = bind_buffers(vk, slot, dispatch, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(check_dispatch(vk, dispatch, pass, error));
+    KD_TRY(kd_vk_submit_slot(vk, &slot, error));
+    KD_TRY(bind_buffers(vk, slot, dispatch, error));
     const struct kd_vk_pipeline *pipeline = dispatch->pipeline;
     const uint32_t *groups = dispatch->groups;
     kd_vk_timing_pass(vk, &slot->stamps, slot->commands, pass);
@@ -170,7 +167,8 @@ enum kd_status kd_vk_dispatch(struct kd_vk *vk, const struct kd_vk_dispatch *dis
                        groups[2] + !groups[2]);
     ((struct kd_vk_pipeline *)pipeline)->retired.ticket =
         kd_vk_current(vk); /* ours to write, not the caller's */
-    return KD_OK;
+done:
+    return status;
 }
 
 enum kd_status kd_vk_copy(struct kd_vk *vk, const char *pass, struct kd_vk_buffer *to, uint64_t to_offset,

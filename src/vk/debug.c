@@ -40,8 +40,7 @@ enum kd_status kd_vk_debug_listen(struct kd_vk_debug *debug, const struct kd_vk_
         return kd_error_set(error, KD_EDEVICE, "validation was asked for, but there is no %s to hear it",
                             VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     KD_VK_TRY(fn, CreateDebugUtilsMessengerEXT, instance, &info, NULL, &debug->messenger);
-    return KD_OK;
-fail:
+done:
     return status;
 }
 

@@ -25,8 +25,7 @@ static enum kd_status grow(struct kd_vk *vk, struct kd_vk_descriptors *descripto
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_DESCRIPTOR_POOL, KD_VK_HANDLE(pool), "descriptor pool %zu",
                      descriptors->n_pools);
     pools[descriptors->n_pools++] = pool;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
@@ -44,8 +43,7 @@ enum kd_status kd_vk_descriptors_take(struct kd_vk *vk, struct kd_vk_descriptors
                                                .pSetLayouts = &layout };
     KD_VK_TRY(&vk->fn, AllocateDescriptorSets, vk->device, &info, out);
     descriptors->used++;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 

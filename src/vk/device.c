@@ -33,16 +33,16 @@ static enum kd_status choose(struct kd_vk *vk, const char *wish, struct kd_error
 {
     struct kd_vk_physical *list = NULL;
     size_t n = 0, index = 0;
-    enum kd_status status = kd_vk_physical_list(&vk->instance.fn, vk->instance.handle, &list, &n, error);
-    struct kd_vk_info *infos = status ? NULL : calloc(n, sizeof *infos);
-    if (!status && !infos)
-        status = kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n);
-    for (size_t i = 0; infos && i < n; i++)
+    struct kd_vk_info *infos = NULL;
+    enum kd_status status;
+    KD_TRY(kd_vk_physical_list(&vk->instance.fn, vk->instance.handle, &list, &n, error));
+    if (!(infos = calloc(n, sizeof *infos)))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n));
+    for (size_t i = 0; i < n; i++)
         infos[i] = list[i].info;
-    if (!status)
-        status = kd_vk_choose(infos, n, wish, &index, vk->choice, sizeof vk->choice, error);
-    if (!status)
-        vk->physical = list[index];
+    KD_TRY(kd_vk_choose(infos, n, wish, &index, vk->choice, sizeof vk->choice, error));
+    vk->physical = list[index];
+done:
     free(infos);
     free(list);
     return status;
@@ -82,13 +82,12 @@ static enum kd_status open_device(struct kd_vk *vk, struct kd_error *error)
                                       .enabledExtensionCount = n_extensions,
                                       .ppEnabledExtensionNames = extensions };
     KD_VK_TRY(&vk->fn, CreateDevice, vk->physical.handle, &info, NULL, &vk->device);
-    status = kd_vk_functions_device(&vk->fn, vk->device, error);
-    if (status)
-        goto fail;
+    KD_TRY(kd_vk_functions_device(&vk->fn, vk->device, error));
     vk->fn.GetDeviceQueue(vk->device, vk->physical.family, 0, &vk->queue);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_QUEUE, KD_VK_HANDLE(vk->queue), "queue");
-    return KD_OK;
-fail:
+done:
+    if (!status)
+        return KD_OK;
     if (vk->device && vk->fn.DestroyDevice)
         vk->fn.DestroyDevice(vk->device, NULL);
     vk->device = VK_NULL_HANDLE; /* what follows may rely on: a device has all its functions */

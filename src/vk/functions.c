@@ -103,6 +103,8 @@ const char *kd_vk_result_name(VkResult result)
 
 enum kd_status kd_vk_result_error(struct kd_error *error, VkResult result, const char *call)
 {
+    if (result >= 0)
+        return KD_OK;
     bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     return kd_error_set(error, memory ? KD_ENOMEM : KD_EDEVICE, "%s: %s (%d)", call,
                         kd_vk_result_name(result), (int)result);

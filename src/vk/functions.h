@@ -114,17 +114,10 @@ enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice devic
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 
 const char *kd_vk_result_name(VkResult result); /* "VK_ERROR_DEVICE_LOST", ... never NULL */
-/* KD_ENOMEM for the two out-of-memory results, KD_EDEVICE for any other. */
+/* KD_OK for a success, KD_ENOMEM for the two out-of-memory results, KD_EDEVICE for any other. */
 enum kd_status kd_vk_result_error(struct kd_error *error, VkResult result, const char *call);
 
-/* Call fn->name(...). On failure fill the `error` in scope, set the `status` in scope and go to `fail`. */
-#define KD_VK_TRY(fn, name, ...)                                                                             \
-    do {                                                                                                     \
-        VkResult try_result = (fn)->name(__VA_ARGS__);                                                       \
-        if (try_result < 0) {                                                                                \
-            status = kd_vk_result_error(error, try_result, "vk" #name);                                      \
-            goto fail;                                                                                       \
-        }                                                                                                    \
-    } while (0)
+/* A step of Vulkan: calls fn->name(...), fills the `error` in scope, and is a KD_TRY. */
+#define KD_VK_TRY(fn, name, ...) KD_TRY(kd_vk_result_error(error, (fn)->name(__VA_ARGS__), "vk" #name))
 
 #endif

@@ -80,11 +80,10 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
 {
     struct kd_vk_functions *fn = &instance->fn;
     *instance = (struct kd_vk_instance) { 0 };
-    enum kd_status status = kd_vk_functions_load(fn, error);
-    if (!status && validate)
-        status = check_validation(fn, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(kd_vk_functions_load(fn, error));
+    if (validate)
+        KD_TRY(check_validation(fn, error));
 
     const char *extensions[4];
     uint32_t n = 0;
@@ -131,9 +130,10 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
         .enabledExtensionCount = n,
         .ppEnabledExtensionNames = extensions,
     };
-    status = create(instance, &info, error);
-    if (!status && validate)
-        status = kd_vk_debug_listen(&instance->debug, fn, instance->handle, error);
+    KD_TRY(create(instance, &info, error));
+    if (validate)
+        KD_TRY(kd_vk_debug_listen(&instance->debug, fn, instance->handle, error));
+done:
     if (status)
         kd_vk_instance_finish(instance);
     return status;

@@ -59,8 +59,7 @@ static enum kd_status allowed_types(struct kd_vk *vk, uint32_t *allowed, struct 
     vk->fn.GetBufferMemoryRequirements(vk->device, probe, &requirements);
     vk->fn.DestroyBuffer(vk->device, probe, NULL);
     *allowed = requirements.memoryTypeBits;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
@@ -118,8 +117,7 @@ static enum kd_status block_fill(struct kd_vk *vk, struct kd_vk_block *block, ui
     if (flags & VISIBLE)
         KD_VK_TRY(&vk->fn, MapMemory, vk->device, block->memory, 0, VK_WHOLE_SIZE, 0, &map);
     block->map = map;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 

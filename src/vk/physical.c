@@ -187,8 +187,7 @@ enum kd_status kd_vk_physical_list(const struct kd_vk_functions *fn, VkInstance 
     }
     *out = list;
     *count = n;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
@@ -199,18 +198,15 @@ enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_erro
     size_t n = 0;
     *out = NULL;
     *count = 0;
-    enum kd_status status = kd_vk_instance_init(&instance, false, error);
-    if (!status)
-        status = kd_vk_physical_list(&instance.fn, instance.handle, &list, &n, error);
-    struct kd_vk_info *infos = status ? NULL : calloc(n, sizeof *infos);
-    if (!status && !infos)
-        status = kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n);
-    for (size_t i = 0; infos && i < n; i++)
-        infos[i] = list[i].info;
-    if (!status) {
-        *out = infos;
-        *count = n;
-    }
+    enum kd_status status;
+    KD_TRY(kd_vk_instance_init(&instance, false, error));
+    KD_TRY(kd_vk_physical_list(&instance.fn, instance.handle, &list, &n, error));
+    if (!(*out = calloc(n, sizeof **out)))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "no memory for a list of %zu devices", n));
+    for (size_t i = 0; i < n; i++)
+        (*out)[i] = list[i].info;
+    *count = n;
+done:
     free(list);
     kd_vk_instance_finish(&instance);
     return status;

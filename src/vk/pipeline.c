@@ -60,8 +60,7 @@ static enum kd_status make_layout(struct kd_vk *vk, struct kd_vk_pipeline *pipel
     KD_VK_TRY(&vk->fn, CreatePipelineLayout, vk->device, &layout, NULL, &pipeline->layout);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE_LAYOUT, KD_VK_HANDLE(pipeline->layout), "%s",
                      pipeline->name);
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
@@ -89,8 +88,7 @@ static enum kd_status make_pipeline(struct kd_vk *vk, struct kd_vk_pipeline *pip
               &pipeline->handle);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_PIPELINE, KD_VK_HANDLE(pipeline->handle), "%s", pipeline->name);
     vk->cache.grown = true;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
@@ -101,13 +99,12 @@ static enum kd_status pipeline_init(struct kd_vk *vk, struct kd_vk_pipeline *pip
     const VkShaderModuleCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                             .codeSize = params->spirv_bytes,
                                             .pCode = params->spirv };
-    enum kd_status status = make_layout(vk, pipeline, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(make_layout(vk, pipeline, error));
     KD_VK_TRY(&vk->fn, CreateShaderModule, vk->device, &info, NULL, &module);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_SHADER_MODULE, KD_VK_HANDLE(module), "%s", pipeline->name);
-    status = make_pipeline(vk, pipeline, module, params, error);
-fail:
+    KD_TRY(make_pipeline(vk, pipeline, module, params, error));
+done:
     if (module)
         vk->fn.DestroyShaderModule(vk->device, module, NULL);
     return status;

@@ -29,22 +29,21 @@ static enum kd_status slot_init(struct kd_vk *vk, uint32_t index, struct kd_erro
                                                  .commandBufferCount = 1 };
     KD_VK_TRY(&vk->fn, AllocateCommandBuffers, vk->device, &buffer, &slot->commands);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_COMMAND_BUFFER, KD_VK_HANDLE(slot->commands), "slot %u", index);
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
 enum kd_status kd_vk_submit_init(struct kd_vk *vk, struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
+    enum kd_status status;
     const VkSemaphoreTypeCreateInfo type = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                              .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE };
     const VkSemaphoreCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type };
     KD_VK_TRY(&vk->fn, CreateSemaphore, vk->device, &info, NULL, &vk->timeline);
     kd_vk_debug_name(vk, VK_OBJECT_TYPE_SEMAPHORE, KD_VK_HANDLE(vk->timeline), "timeline");
-    for (uint32_t i = 0; i < KD_VK_SLOTS && !status; i++)
-        status = slot_init(vk, i, error);
-fail:
+    for (uint32_t i = 0; i < KD_VK_SLOTS; i++)
+        KD_TRY(slot_init(vk, i, error));
+done:
     return status;
 }
 
@@ -143,8 +142,7 @@ enum kd_status kd_vk_submit_slot(struct kd_vk *vk, struct kd_vk_slot **out, stru
     kd_vk_timing_begin(vk, &slot->stamps, slot->commands);
     vk->hazards_before = vk->hazards;
     vk->recording = true;
-    return KD_OK;
-fail:
+done:
     return status;
 }
 
@@ -170,7 +168,7 @@ static enum kd_status enqueue(struct kd_vk *vk, struct kd_vk_slot *slot, uint64_
         return failed(vk, error, result, "vkFlushMappedMemoryRanges");
     result = vk->fn.QueueSubmit(vk->queue, 1, &info, VK_NULL_HANDLE);
     return result < 0 ? failed(vk, error, result, "vkQueueSubmit") : KD_OK;
-fail:
+done:
     return status;
 }
 

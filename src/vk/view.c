@@ -33,7 +33,7 @@ static void thin_out(struct kd_vk *vk, struct kd_vk_buffer *buffer)
 enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkFormat format, uint64_t offset, uint64_t range,
                               VkBufferView *out, struct kd_error *error)
 {
-    enum kd_status status;
+    enum kd_status status = KD_OK;
     struct kd_vk_view *view = find(buffer, format, offset, range);
     if (!view) {
         const VkBufferViewCreateInfo info = { .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
@@ -55,9 +55,9 @@ enum kd_status kd_vk_view_get(struct kd_vk *vk, struct kd_vk_buffer *buffer, VkF
     }
     view->ticket = kd_vk_current(vk);
     *out = view->handle;
-    return KD_OK;
-fail:
-    free(view);
+done:
+    if (status)
+        free(view);
     return status;
 }
 
