@@ -108,17 +108,18 @@ enum kd_status kd_deflate_append(struct kd_deflate *deflate, const void *data, s
 {
     static const uint8_t head[2] = { 0x78, 0x01 }; /* a window of 32 KiB, the fastest level */
     size_t start = out->size;
-    enum kd_status status = kd_buffer_append(out, head, sizeof head);
-    if (!status && deflate->engine == KD_DEFLATE_LIBDEFLATE)
-        status = by_libdeflate(deflate, data, size, out);
+    enum kd_status status;
+    KD_TRY(kd_buffer_append(out, head, sizeof head));
+    if (deflate->engine == KD_DEFLATE_LIBDEFLATE)
+        KD_TRY(by_libdeflate(deflate, data, size, out));
 #ifdef KD_HAVE_ISAL
-    else if (!status)
-        status = by_isal(deflate, data, size, out);
+    else
+        KD_TRY(by_isal(deflate, data, size, out));
 #endif
     uint32_t sum = libdeflate_adler32(1, data, size);
     const uint8_t tail[4] = { (uint8_t)(sum >> 24), (uint8_t)(sum >> 16), (uint8_t)(sum >> 8), (uint8_t)sum };
-    if (!status)
-        status = kd_buffer_append(out, tail, sizeof tail);
+    KD_TRY(kd_buffer_append(out, tail, sizeof tail));
+done:
     if (status)
         out->size = start;
     return status;

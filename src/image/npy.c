@@ -25,40 +25,38 @@ static enum kd_status write_type(const struct kd_npy *array, struct kd_buffer *t
 {
     if (!array->fields[0].name[0])
         return kd_buffer_printf(text, "'%s'", types[array->fields[0].type].code);
-    enum kd_status status = kd_buffer_printf(text, "[");
-    for (size_t i = 0; i < array->n_fields && !status; i++) {
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(text, "["));
+    for (size_t i = 0; i < array->n_fields; i++) {
         const struct kd_npy_field *field = &array->fields[i];
-        status = kd_buffer_printf(text, "%s('%s', '%s'", i ? ", " : "", field->name, types[field->type].code);
-        if (!status && field->count)
-            status = kd_buffer_printf(text, ", (%u,)", field->count);
-        if (!status)
-            status = kd_buffer_printf(text, ")");
+        KD_TRY(kd_buffer_printf(text, "%s('%s', '%s'", i ? ", " : "", field->name, types[field->type].code));
+        if (field->count)
+            KD_TRY(kd_buffer_printf(text, ", (%u,)", field->count));
+        KD_TRY(kd_buffer_printf(text, ")"));
     }
-    return status ? status : kd_buffer_printf(text, "]");
+    KD_TRY(kd_buffer_printf(text, "]"));
+done:
+    return status;
 }
 
 enum kd_status kd_npy_write_header(const struct kd_npy *array, struct kd_buffer *out)
 {
     struct kd_buffer text = { 0 };
-    enum kd_status status = kd_buffer_printf(&text, "{'descr': ");
-    if (!status)
-        status = write_type(array, &text);
-    if (!status)
-        status = kd_buffer_printf(&text, ", 'fortran_order': False, 'shape': (");
-    for (size_t i = 0; i < array->n_dimensions && !status; i++)
-        status = kd_buffer_printf(&text, "%s%llu%s", i ? " " : "", (unsigned long long)array->shape[i],
-                                  i + 1 < array->n_dimensions || array->n_dimensions == 1 ? "," : "");
-    if (!status)
-        status = kd_buffer_printf(&text, "), }");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&text, "{'descr': "));
+    KD_TRY(write_type(array, &text));
+    KD_TRY(kd_buffer_printf(&text, ", 'fortran_order': False, 'shape': ("));
+    for (size_t i = 0; i < array->n_dimensions; i++)
+        KD_TRY(kd_buffer_printf(&text, "%s%llu%s", i ? " " : "", (unsigned long long)array->shape[i],
+                                i + 1 < array->n_dimensions || array->n_dimensions == 1 ? "," : ""));
+    KD_TRY(kd_buffer_printf(&text, "), }"));
     size_t bare = sizeof MAGIC - 1 + 4 + text.size + 1, padded = (bare + 63) / 64 * 64;
-    if (!status)
-        status = kd_buffer_printf(&text, "%*s\n", (int)(padded - bare), "");
+    KD_TRY(kd_buffer_printf(&text, "%*s\n", (int)(padded - bare), ""));
     uint8_t start[10] = { [6] = 1, [8] = (uint8_t)text.size, [9] = (uint8_t)(text.size >> 8) };
     memcpy(start, MAGIC, sizeof MAGIC - 1);
-    if (!status)
-        status = kd_buffer_append(out, start, sizeof start);
-    if (!status)
-        status = kd_buffer_append(out, text.data, text.size);
+    KD_TRY(kd_buffer_append(out, start, sizeof start));
+    KD_TRY(kd_buffer_append(out, text.data, text.size));
+done:
     kd_buffer_finish(&text);
     return status;
 }

@@ -75,19 +75,23 @@ static enum kd_status chunk_close(struct kd_buffer *out, size_t start)
 static enum kd_status put_chunk(struct kd_buffer *out, const char type[5], const void *data, size_t size)
 {
     size_t start = out->size;
-    enum kd_status status = chunk_open(out, type);
-    if (!status)
-        status = kd_buffer_append(out, data, size);
-    return status ? status : chunk_close(out, start);
+    enum kd_status status;
+    KD_TRY(chunk_open(out, type));
+    KD_TRY(kd_buffer_append(out, data, size));
+    KD_TRY(chunk_close(out, start));
+done:
+    return status;
 }
 
 static enum kd_status put_pixels(struct kd_png_live *live, size_t filtered, struct kd_buffer *out)
 {
     size_t start = out->size;
-    enum kd_status status = chunk_open(out, "IDAT");
-    if (!status)
-        status = kd_deflate_append(live->deflate, live->rows, filtered, out);
-    return status ? status : chunk_close(out, start);
+    enum kd_status status;
+    KD_TRY(chunk_open(out, "IDAT"));
+    KD_TRY(kd_deflate_append(live->deflate, live->rows, filtered, out));
+    KD_TRY(chunk_close(out, start));
+done:
+    return status;
 }
 
 static enum kd_status put_file(struct kd_png_live *live, uint32_t width, uint32_t height, size_t filtered, struct kd_buffer *out)
@@ -96,14 +100,14 @@ static enum kd_status put_file(struct kd_png_live *live, uint32_t width, uint32_
     uint8_t header[13] = { [8] = 8, [9] = 2 }; /* bits a channel; RGB */
     big_endian(header, width);
     big_endian(header + 4, height);
-    enum kd_status status = kd_buffer_append(out, signature, sizeof signature);
-    if (!status)
-        status = put_chunk(out, "IHDR", header, sizeof header);
-    if (!status)
-        status = put_chunk(out, "sRGB", "", 1); /* perceptual, as image/png.c */
-    if (!status)
-        status = put_pixels(live, filtered, out);
-    return status ? status : put_chunk(out, "IEND", NULL, 0);
+    enum kd_status status;
+    KD_TRY(kd_buffer_append(out, signature, sizeof signature));
+    KD_TRY(put_chunk(out, "IHDR", header, sizeof header));
+    KD_TRY(put_chunk(out, "sRGB", "", 1)); /* perceptual, as image/png.c */
+    KD_TRY(put_pixels(live, filtered, out));
+    KD_TRY(put_chunk(out, "IEND", NULL, 0));
+done:
+    return status;
 }
 
 static enum kd_status make_room(struct kd_png_live *live, size_t size)

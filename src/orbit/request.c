@@ -173,10 +173,12 @@ static enum kd_status read_orbit(struct kd_orbit_spec *spec, const cJSON *object
     *spec = empty_spec();
     if (!cJSON_IsObject(object))
         return not_a(object, pointer, "an object with fields", error);
-    for (const cJSON *item = object->child; item && !status; item = item->next)
-        status = read_item(&target, item, pointer, error);
+    for (const cJSON *item = object->child; item; item = item->next)
+        KD_TRY(read_item(&target, item, pointer, error));
     spec->seen = target.seen;
-    return status ? status : settle(spec, pointer, error);
+    KD_TRY(settle(spec, pointer, error));
+done:
+    return status;
 }
 
 static enum kd_status read_orbits(struct kd_orbit_request *request, const cJSON *item, struct kd_error *error)
@@ -223,11 +225,13 @@ static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *r
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length, struct kd_error *error)
 {
     cJSON *root = NULL;
-    enum kd_status status = kd_tree_parse(text, length, KD_ORBIT_BODY_MAX, 16 * KD_ORBITS_MAX, &root, error);
-    if (!status)
-        status = read_tree(request, root, error);
+    enum kd_status status;
+    KD_TRY(kd_tree_parse(text, length, KD_ORBIT_BODY_MAX, 16 * KD_ORBITS_MAX, &root, error));
+    KD_TRY(read_tree(request, root, error));
+    KD_TRY(kd_orbit_request_check(request, error));
+done:
     cJSON_Delete(root);
-    return status ? status : kd_orbit_request_check(request, error);
+    return status;
 }
 
 static const struct kd_orbit_field *by_name(const struct kd_orbit_field *table, size_t n, const char *name)

@@ -39,12 +39,12 @@ enum kd_status kd_scene_resolve(struct kd_scene *scene, kd_asset_find_fn find, v
 {
     struct kd_scene resolved = *scene;
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < KD_FIELD_COUNT && !status; i++) {
+    for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_section *section = kd_section_find(kd_fields[i].section);
-        for (size_t k = 0; kd_fields[i].kind == KD_FIELD_ASSET && k < kd_section_size(scene, section) && !status; k++)
-            status = resolve(&resolved, &kd_fields[i], k, find, user, error);
+        for (size_t k = 0; kd_fields[i].kind == KD_FIELD_ASSET && k < kd_section_size(scene, section); k++)
+            KD_TRY(resolve(&resolved, &kd_fields[i], k, find, user, error));
     }
-    if (!status)
-        *scene = resolved;
+    *scene = resolved;
+done:
     return status;
 }

@@ -101,11 +101,12 @@ static enum kd_status read_element(struct reader *reader, const struct kd_sectio
 static enum kd_status read_array(struct reader *reader, const struct kd_section *list, const cJSON *array)
 {
     size_t index = 0;
-    enum kd_status status = kd_element_count(list, (size_t)cJSON_GetArraySize(array), reader->error);
-    if (!status)
-        kd_section_resize(&reader->scene, list, 0);
-    for (const cJSON *item = array->child; item && !status; item = item->next)
-        status = read_element(reader, list, index++, item, false);
+    enum kd_status status;
+    KD_TRY(kd_element_count(list, (size_t)cJSON_GetArraySize(array), reader->error));
+    kd_section_resize(&reader->scene, list, 0);
+    for (const cJSON *item = array->child; item; item = item->next)
+        KD_TRY(read_element(reader, list, index++, item, false));
+done:
     return status;
 }
 
@@ -115,23 +116,23 @@ static enum kd_status read_indices(struct reader *reader, const struct kd_sectio
     size_t before = kd_section_size(&reader->scene, list), last = before;
     const cJSON *given[KD_LIST_MOST] = { NULL };
     enum kd_status status = KD_OK;
-    for (const cJSON *item = object->child; item && !status; item = item->next) {
+    for (const cJSON *item = object->child; item; item = item->next) {
         size_t index = 0;
         char pointer[KD_PATH_SIZE];
-        status = kd_element_find(list, item->string, &index, reader->error);
+        KD_TRY(kd_element_find(list, item->string, &index, reader->error));
         kd_element_pointer(list, index, pointer);
         bool seen = given[index];
-        if (!status)
-            status = once(reader, &seen, pointer);
+        KD_TRY(once(reader, &seen, pointer));
         given[index] = item;
         last = index >= last ? index + 1 : last;
     }
-    for (size_t i = 0; i < last && !status; i++) {
+    for (size_t i = 0; i < last; i++) {
         if (given[i])
-            status = read_element(reader, list, i, given[i], reader->patch);
+            KD_TRY(read_element(reader, list, i, given[i], reader->patch));
         else if (i >= before)
-            status = kd_element_reach(list, i, last - 1, reader->error);
+            KD_TRY(kd_element_reach(list, i, last - 1, reader->error));
     }
+done:
     return status;
 }
 
@@ -176,11 +177,14 @@ static enum kd_status read_old(struct reader *reader, const struct kd_old_name *
     const struct kd_section *list = kd_section_find(old->section);
     char pointer[KD_PATH_SIZE];
     snprintf(pointer, sizeof pointer, "/%s", old->name);
-    enum kd_status status = once(reader, &reader->seen_old[old - kd_old_names], pointer);
-    if (!status && reader->seen_section[list - kd_sections])
-        status = both_names(reader, old);
+    enum kd_status status;
+    KD_TRY(once(reader, &reader->seen_old[old - kd_old_names], pointer));
+    if (reader->seen_section[list - kd_sections])
+        KD_TRY(both_names(reader, old));
     reader->old[list - kd_sections] = old;
-    return status ? status : read_element(reader, list, old->index, item, reader->patch);
+    KD_TRY(read_element(reader, list, old->index, item, reader->patch));
+done:
+    return status;
 }
 
 static enum kd_status read_member(struct reader *reader, struct object *top, const cJSON *item)

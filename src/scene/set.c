@@ -103,24 +103,22 @@ enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char
     struct place place;
     if (!strcmp(path, "version"))
         return kd_value_version(&value, error);
-    enum kd_status status = find_place(path, &place, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(find_place(path, &place, error));
     const struct kd_field *field = kd_field_find(place.section->name, place.name);
     if (!field)
         return kd_hint_unknown(error, place.section->name, place.index, place.name);
 
     struct kd_scene grown = *scene;
     size_t size = kd_section_size(scene, place.section);
-    if (!place.old)
-        status = place.section->most ? kd_element_reach(place.section, size, place.index, error) : KD_OK;
-    if (place.index >= size && !status)
+    if (!place.old && place.section->most)
+        KD_TRY(kd_element_reach(place.section, size, place.index, error));
+    if (place.index >= size)
         kd_section_resize(&grown, place.section, place.index + 1);
-    if (!status)
-        status = kd_value_store(&grown, field, place.index, &value, error);
-    if (!status && place.old)
+    KD_TRY(kd_value_store(&grown, field, place.index, &value, error));
+    if (place.old)
         kd_section_trim(&grown, place.section, size);
-    if (!status)
-        *scene = grown;
+    *scene = grown;
+done:
     return status;
 }
