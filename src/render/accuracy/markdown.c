@@ -16,21 +16,17 @@ static enum kd_status add_row(struct kd_buffer *out, const struct kd_accuracy_ta
         return KD_OK;
     bool closed = row->engine == KD_ENGINE_CLOSED;
     uint32_t cores = closed || !table->cores ? 1 : table->cores;
-    status = kd_buffer_printf(out, "| %s | %s |", kd_engine_name(row->engine), kd_precision_name(row->precision));
-    if (!status)
-        status = row->steps ? kd_buffer_printf(out, " %u |", row->steps) : kd_buffer_printf(out, " – |");
-    if (!status)
-        status = kd_buffer_printf(out, " %.3g |", e->rays_per_s / cores * 1e-6);
-    for (int q = 0; q < KD_ACCURACY_QUANTITIES && !status; q++) {
-        status = add_error(out, e->of[q].median);
-        if (!status)
-            status = add_error(out, e->of[q].p99);
-        if (!status)
-            status = add_error(out, e->of[q].worst);
+    KD_TRY(kd_buffer_printf(out, "| %s | %s |", kd_engine_name(row->engine), kd_precision_name(row->precision)));
+    KD_TRY(row->steps ? kd_buffer_printf(out, " %u |", row->steps) : kd_buffer_printf(out, " – |"));
+    KD_TRY(kd_buffer_printf(out, " %.3g |", e->rays_per_s / cores * 1e-6));
+    for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++) {
+        KD_TRY(add_error(out, e->of[q].median));
+        KD_TRY(add_error(out, e->of[q].p99));
+        KD_TRY(add_error(out, e->of[q].worst));
     }
-    if (status)
-        return status;
-    return closed ? kd_buffer_printf(out, " – |\n") : kd_buffer_printf(out, " %u of %u |\n", e->differ, e->rays);
+    KD_TRY(closed ? kd_buffer_printf(out, " – |\n") : kd_buffer_printf(out, " %u of %u |\n", e->differ, e->rays));
+done:
+    return status;
 }
 
 static enum kd_status add_set(struct kd_buffer *out, const struct kd_accuracy_table *table, enum kd_accuracy_set set)

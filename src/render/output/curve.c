@@ -20,32 +20,38 @@ _Static_assert(sizeof(struct kd_curve_row) == COLUMNS * sizeof(double), "a row i
 static enum kd_status write_row(const double *values, bool csv, bool last, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
-    for (int i = 0; i < COLUMNS && !status; i++) {
+    for (int i = 0; i < COLUMNS; i++) {
         char number[KD_NUMBER_SIZE] = "";
         if (!isnan(values[i]))
             kd_number_format(number, values[i] == 0 ? 0 : values[i]); /* no -0 */
-        status = csv ? kd_buffer_printf(out, "%s%s", i ? "," : "", number)
-                     : kd_buffer_printf(out, "%s\"%s\":%s", i ? "," : "{", names[i], *number ? number : "null");
+        KD_TRY(csv ? kd_buffer_printf(out, "%s%s", i ? "," : "", number)
+                   : kd_buffer_printf(out, "%s\"%s\":%s", i ? "," : "{", names[i], *number ? number : "null"));
     }
-    return status ? status : kd_buffer_printf(out, "%s", csv ? "\n" : last ? "}" : "},\n");
+    KD_TRY(kd_buffer_printf(out, "%s", csv ? "\n" : last ? "}" : "},\n"));
+done:
+    return status;
 }
 
 static enum kd_status write_csv(const void *rows, size_t n, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
-    for (int i = 0; i < COLUMNS && !status; i++)
-        status = kd_buffer_printf(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n");
-    for (size_t i = 0; i < n && !status; i++)
-        status = write_row((const double *)rows + i * COLUMNS, true, i + 1 == n, out);
+    for (int i = 0; i < COLUMNS; i++)
+        KD_TRY(kd_buffer_printf(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n"));
+    for (size_t i = 0; i < n; i++)
+        KD_TRY(write_row((const double *)rows + i * COLUMNS, true, i + 1 == n, out));
+done:
     return status;
 }
 
 static enum kd_status write_json(const void *rows, size_t n, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "{\"frames\":[\n");
-    for (size_t i = 0; i < n && !status; i++)
-        status = write_row((const double *)rows + i * COLUMNS, false, i + 1 == n, out);
-    return status ? status : kd_buffer_printf(out, "]}\n");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "{\"frames\":[\n"));
+    for (size_t i = 0; i < n; i++)
+        KD_TRY(write_row((const double *)rows + i * COLUMNS, false, i + 1 == n, out));
+    KD_TRY(kd_buffer_printf(out, "]}\n"));
+done:
+    return status;
 }
 
 static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,

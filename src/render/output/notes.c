@@ -27,11 +27,11 @@ enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *ou
 {
     *out = (struct kd_notes) { 0 };
     kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
-    enum kd_status status = kd_scene_to_json(picture->scene, &out->scene);
-    if (!status)
-        status = kd_scene_hash(picture->scene, out->hash);
-    if (!status)
-        status = join_approximations(picture->plan, &out->approximations);
+    enum kd_status status;
+    KD_TRY(kd_scene_to_json(picture->scene, &out->scene));
+    KD_TRY(kd_scene_hash(picture->scene, out->hash));
+    KD_TRY(join_approximations(picture->plan, &out->approximations));
+done:
     return status ? kd_error_set(error, status, "cannot describe the scene inside its picture: %s", kd_status_name(status)) : KD_OK;
 }
 

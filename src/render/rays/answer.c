@@ -73,21 +73,20 @@ static enum kd_status add_number(struct kd_buffer *out, const char *before, doub
 static enum kd_status json_accuracy(const struct kd_rays_answer *answer, struct kd_buffer *out)
 {
     const struct kd_rays_params *p = &answer->params;
-    enum kd_status status =
-        kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\",\"steps\":%u,\"rays\":%zu,\"undecided\":%zu",
-                         kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n,
-                         answer->undecided);
-    if (!status && p->tolerance > 0)
-        status = add_number(out, ",\"tolerance\":", p->tolerance);
-    if (!status && p->tolerance > 0)
-        status = kd_buffer_printf(out, ",\"followed_again\":%zu,\"beyond\":%zu", answer->followed_again, answer->beyond);
-    if (!status && p->holds > 0)
-        status = add_number(out, ",\"holds\":", p->holds);
-    if (!status)
-        status = add_number(out, ",\"worst_error\":", answer->worst_error);
-    if (!status)
-        status = add_number(out, ",\"median_error\":", answer->median_error);
-    return status ? status : kd_buffer_printf(out, "}");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\",\"steps\":%u,\"rays\":%zu,\"undecided\":%zu",
+                            kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps, answer->n, answer->undecided));
+    if (p->tolerance > 0) {
+        KD_TRY(add_number(out, ",\"tolerance\":", p->tolerance));
+        KD_TRY(kd_buffer_printf(out, ",\"followed_again\":%zu,\"beyond\":%zu", answer->followed_again, answer->beyond));
+    }
+    if (p->holds > 0)
+        KD_TRY(add_number(out, ",\"holds\":", p->holds));
+    KD_TRY(add_number(out, ",\"worst_error\":", answer->worst_error));
+    KD_TRY(add_number(out, ",\"median_error\":", answer->median_error));
+    KD_TRY(kd_buffer_printf(out, "}"));
+done:
+    return status;
 }
 
 const char *kd_rays_approximation(const struct kd_rays_params *params, size_t index)
@@ -119,21 +118,19 @@ static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_b
 {
     const struct kd_rays_params *p = &answer->params;
     const char *sentence;
-    enum kd_status status = add_number(out, "{\"spin\":", p->spin);
-    if (!status)
-        status = isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
-                             : add_number(out, ",\"observer\":{\"r\":", p->r);
-    if (!status)
-        status = add_number(out, ",\"inclination_deg\":", p->inclination_deg);
-    if (!status)
-        status = kd_buffer_printf(out, "},\"orders\":%u,\"accuracy\":", p->orders);
-    if (!status)
-        status = json_accuracy(answer, out);
-    if (!status)
-        status = kd_buffer_printf(out, ",\"approximations\":[");
-    for (size_t i = 0; !status && (sentence = kd_rays_approximation(p, i)); i++)
-        status = kd_buffer_printf(out, "%s\"%s\"", i ? "," : "", sentence);
-    return status ? status : kd_buffer_printf(out, "],\"rays\":[");
+    enum kd_status status;
+    KD_TRY(add_number(out, "{\"spin\":", p->spin));
+    KD_TRY(isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
+                       : add_number(out, ",\"observer\":{\"r\":", p->r));
+    KD_TRY(add_number(out, ",\"inclination_deg\":", p->inclination_deg));
+    KD_TRY(kd_buffer_printf(out, "},\"orders\":%u,\"accuracy\":", p->orders));
+    KD_TRY(json_accuracy(answer, out));
+    KD_TRY(kd_buffer_printf(out, ",\"approximations\":["));
+    for (size_t i = 0; (sentence = kd_rays_approximation(p, i)); i++)
+        KD_TRY(kd_buffer_printf(out, "%s\"%s\"", i ? "," : "", sentence));
+    KD_TRY(kd_buffer_printf(out, "],\"rays\":["));
+done:
+    return status;
 }
 
 static enum kd_status npy_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
@@ -152,10 +149,13 @@ static enum kd_status npy_head(const struct kd_rays_answer *answer, struct kd_bu
 
 static enum kd_status csv_head(const struct kd_rays_answer *answer, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "alpha,beta,fate,n_crossings,error,sky_theta,sky_phi");
-    for (uint32_t n = 0; n < answer->params.orders && !status; n++)
-        status = kd_buffer_printf(out, ",r%u,phi%u,delay%u,g%u", n, n, n, n);
-    return status ? status : kd_buffer_printf(out, "\n");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "alpha,beta,fate,n_crossings,error,sky_theta,sky_phi"));
+    for (uint32_t n = 0; n < answer->params.orders; n++)
+        KD_TRY(kd_buffer_printf(out, ",r%u,phi%u,delay%u,g%u", n, n, n, n));
+    KD_TRY(kd_buffer_printf(out, "\n"));
+done:
+    return status;
 }
 
 enum kd_status kd_rays_stream_init(struct kd_rays_stream *stream, const struct kd_rays_answer *answer,

@@ -55,19 +55,18 @@ static enum kd_status check_number(double value, size_t ray, int component, stru
 enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha_beta, size_t n,
                              struct kd_error *error)
 {
-    enum kd_status status = check_observer(p, error);
-    if (!status)
-        status = check_accuracy(p, error);
-    if (!status && (!n || n > KD_RAYS_MAX))
-        status = kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX);
+    enum kd_status status;
+    KD_TRY(check_observer(p, error));
+    KD_TRY(check_accuracy(p, error));
+    if (!n || n > KD_RAYS_MAX)
+        KD_TRY(kd_error_field(error, "/rays", "there are %zu rays, allowed are 1 to %d", n, KD_RAYS_MAX));
     double s = kd_sin_deg(p->inclination_deg), u = kd_cos_deg(p->inclination_deg), u2 = u * u, a = p->spin, r = p->r;
     double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a));
-    for (size_t i = 0; i < n && !status; i++) {
+    for (size_t i = 0; i < n; i++) {
         double alpha = alpha_beta[2 * i], beta = alpha_beta[2 * i + 1];
-        status = check_number(alpha, i, 0, error);
-        if (!status)
-            status = check_number(beta, i, 1, error);
-        if (status || isinf(r))
+        KD_TRY(check_number(alpha, i, 0, error));
+        KD_TRY(check_number(beta, i, 1, error));
+        if (isinf(r))
             continue;
         /* The radial potential, negative where light with these constants never comes. */
         double lambda = -alpha * s, eta = (alpha * alpha - a * a) * u2 + beta * beta, w = r * r + a * a - a * lambda;
@@ -75,8 +74,9 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
             continue;
         char pointer[32];
         snprintf(pointer, sizeof pointer, "/rays/%zu", i);
-        status = kd_error_field(error, pointer, "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, "
-                                "reaches an observer at r = %.9g", i, alpha, beta, r);
+        KD_TRY(kd_error_field(error, pointer, "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, "
+                              "reaches an observer at r = %.9g", i, alpha, beta, r));
     }
+done:
     return status;
 }

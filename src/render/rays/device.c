@@ -119,10 +119,12 @@ static enum kd_status send(const struct work *w, const struct set *set, const st
         { (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE },
     };
     (w->kerr_schild ? upload_states : upload)(w, set, rays);
-    enum kd_status status = kd_vk_dispatch(vk, &d, w->error);
-    if (!status)
-        status = kd_vk_copy(vk, "readback", set->host, 0, set->ends, 0, (uint64_t)n * w->per_ray * (w->wide ? 8 : 4), w->error);
-    return status ? status : kd_vk_submit(vk, ticket, w->error);
+    enum kd_status status;
+    KD_TRY(kd_vk_dispatch(vk, &d, w->error));
+    KD_TRY(kd_vk_copy(vk, "readback", set->host, 0, set->ends, 0, (uint64_t)n * w->per_ray * (w->wide ? 8 : 4), w->error));
+    KD_TRY(kd_vk_submit(vk, ticket, w->error));
+done:
+    return status;
 }
 
 /* Unpacks one ray's numbers into its records. */
@@ -189,12 +191,11 @@ static enum kd_status hold_set(struct work *w, int k, uint64_t room)
     struct kd_renderer *r = w->r;
     struct set *set = &w->sets[k];
     uint64_t number = w->wide ? 8 : 4, per_start = w->kerr_schild ? 8 : 3;
-    enum kd_status status =
-        hold(r, &r->rays[k][0], (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &set->rays, w->error);
-    if (!status)
-        status = hold(r, &r->rays[k][1], room * w->per_ray * number, KD_VK_DEVICE, "ray ends", &set->ends, w->error);
-    if (!status)
-        status = hold(r, &r->rays[k][2], room * w->per_ray * number, KD_VK_READBACK, "ray ends on the host", &set->host, w->error);
+    enum kd_status status;
+    KD_TRY(hold(r, &r->rays[k][0], (HEADER + per_start * room) * number, KD_VK_UPLOAD, "rays", &set->rays, w->error));
+    KD_TRY(hold(r, &r->rays[k][1], room * w->per_ray * number, KD_VK_DEVICE, "ray ends", &set->ends, w->error));
+    KD_TRY(hold(r, &r->rays[k][2], room * w->per_ray * number, KD_VK_READBACK, "ray ends on the host", &set->host, w->error));
+done:
     return status;
 }
 
@@ -316,12 +317,13 @@ enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd
     bool wide = params->precision == KD_PRECISION_F64;
     uint64_t size = (uint64_t)numbers * (wide ? 8 : 4);
     struct kd_vk_buffer *buffer = NULL;
-    enum kd_status status = kd_vk_buffer_create(renderer->vk, size, KD_VK_READBACK, "steps of a ray", &buffer, error);
-    if (!status)
-        status = device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, 1 }, crossings, end, NULL, NULL, buffer, error);
-    const void *from = status ? NULL : kd_vk_buffer_map(buffer);
-    for (size_t i = 0; i < numbers && !status; i++)
+    enum kd_status status;
+    KD_TRY(kd_vk_buffer_create(renderer->vk, size, KD_VK_READBACK, "steps of a ray", &buffer, error));
+    KD_TRY(device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, 1 }, crossings, end, NULL, NULL, buffer, error));
+    const void *from = kd_vk_buffer_map(buffer);
+    for (size_t i = 0; i < numbers; i++)
         told[i] = wide ? ((const double *)from)[i] : (double)((const float *)from)[i];
+done:
     kd_vk_buffer_destroy(renderer->vk, buffer);
     return status;
 }

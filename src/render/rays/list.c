@@ -144,14 +144,16 @@ static enum kd_status pair(struct reader *r, struct kd_rays_list *list)
         const char *given = describe(r);
         return given ? wrong(r, -1, given) : not_json(r, "no value");
     }
-    enum kd_status status = number(r, 0, &alpha);
-    if (!status && !take(r, ','))
-        status = take(r, ']') ? wrong(r, -1, "an array of one number") : not_json(r, "neither , nor ]");
-    if (!status)
-        status = number(r, 1, &beta);
-    if (!status && !take(r, ']'))
-        status = take(r, ',') ? wrong(r, -1, "an array of more than two values") : not_json(r, "neither , nor ]");
-    return status ? status : kd_rays_list_add(list, alpha, beta, r->error);
+    enum kd_status status;
+    KD_TRY(number(r, 0, &alpha));
+    if (!take(r, ','))
+        KD_TRY(take(r, ']') ? wrong(r, -1, "an array of one number") : not_json(r, "neither , nor ]"));
+    KD_TRY(number(r, 1, &beta));
+    if (!take(r, ']'))
+        KD_TRY(take(r, ',') ? wrong(r, -1, "an array of more than two values") : not_json(r, "neither , nor ]"));
+    KD_TRY(kd_rays_list_add(list, alpha, beta, r->error));
+done:
+    return status;
 }
 
 enum kd_status kd_rays_list_read(struct kd_rays_list *list, const char *text, size_t length, size_t *at,

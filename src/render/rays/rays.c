@@ -53,17 +53,18 @@ static enum kd_status compare(const struct kd_rays_params *params, const double 
     struct kd_ray_end *true_ends = malloc(most * sizeof *true_ends);
     enum kd_status status = KD_OK;
     if (!truth || !true_ends)
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", most);
-    for (size_t first = 0, m; first < n && !status; first += m) {
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays", most));
+    for (size_t first = 0, m; first < n; first += m) {
         m = n - first < SLICE ? n - first : SLICE;
         const struct kd_ray_labels labels = { alpha_beta + 2 * first, NULL, m };
-        status = kd_rays_closed(&closed, &labels, true, truth, true_ends, NULL, NULL, error);
-        for (size_t i = 0; i < m && !status; i++)
+        KD_TRY(kd_rays_closed(&closed, &labels, true, truth, true_ends, NULL, NULL, error));
+        for (size_t i = 0; i < m; i++)
             ends[first + i].error = error_of(crossings + (first + i) * params->orders, &ends[first + i],
                                              truth + i * params->orders, &true_ends[i]);
-        if (!status && progress && !progress(user, 1))
-            status = kd_error_set(error, KD_ECANCELLED, "the rays were cancelled");
+        if (progress && !progress(user, 1))
+            KD_TRY(kd_error_set(error, KD_ECANCELLED, "the rays were cancelled"));
     }
+done:
     free(truth);
     free(true_ends);
     return status;
@@ -76,14 +77,14 @@ static enum kd_status trace_on_device(struct kd_renderer *renderer, const struct
 {
     if (!renderer)
         return kd_error_field(error, "/accuracy/engine", "engine %s needs a device", kd_engine_name(params->engine));
-    enum kd_status status =
-        kd_rays_device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, crossings, ends, progress, user, error);
-    if (!status)
-        kd_rays_redshift(params, alpha_beta, n, crossings, ends);
-    if (!status && params->engine >= KD_ENGINE_KS_EULER)
-        status = compare(params, alpha_beta, n, crossings, ends, progress, user, error);
-    if (!status && params->tolerance > 0)
-        status = kd_rays_hold(renderer, params, alpha_beta, n, crossings, ends, progress, user, error);
+    enum kd_status status;
+    KD_TRY(kd_rays_device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, n }, crossings, ends, progress, user, error));
+    kd_rays_redshift(params, alpha_beta, n, crossings, ends);
+    if (params->engine >= KD_ENGINE_KS_EULER)
+        KD_TRY(compare(params, alpha_beta, n, crossings, ends, progress, user, error));
+    if (params->tolerance > 0)
+        KD_TRY(kd_rays_hold(renderer, params, alpha_beta, n, crossings, ends, progress, user, error));
+done:
     return status;
 }
 

@@ -220,10 +220,11 @@ static enum kd_status read_tree(struct document *d, const cJSON *root)
         wrong_type(d, root, "", "an object");
         return KD_EINVAL;
     }
-    for (const cJSON *item = root->child; item && !status; item = item->next)
-        status = read_outermost(d, item);
-    if (!status && !(d->seen & 1u << (N_FIELDS + 2)))
-        status = kd_error_field(d->error, "/rays", "rays is missing: an array of pairs of numbers [alpha, beta]");
+    for (const cJSON *item = root->child; item; item = item->next)
+        KD_TRY(read_outermost(d, item));
+    if (!(d->seen & 1u << (N_FIELDS + 2)))
+        KD_TRY(kd_error_field(d->error, "/rays", "rays is missing: an array of pairs of numbers [alpha, beta]"));
+done:
     return status;
 }
 
@@ -309,18 +310,26 @@ bool kd_rays_request_is_npy(const void *data, size_t size)
     return size >= 6 && !memcmp(data, "\x93NUMPY", 6);
 }
 
+/* Reads the header, which must be that of pairs of doubles. */
+static enum kd_status read_pairs(const void *data, size_t size, struct kd_npy *array, struct kd_error *error)
+{
+    enum kd_status status = kd_npy_read(data, size, array, error);
+    if (status)
+        return status;
+    if (array->n_fields != 1 || array->fields[0].name[0] || array->fields[0].type != KD_NPY_F8)
+        return kd_error_set(error, KD_EINVAL, "the elements of the array are not 8-byte floats, <f8");
+    if (array->n_dimensions != 2 || array->shape[1] != 2)
+        return kd_error_set(error, KD_EINVAL, "the shape of the array is not (n, 2)");
+    if (array->shape[0] > KD_RAYS_MAX)
+        return kd_error_set(error, KD_EINVAL, "there are %llu rays, allowed are 1 to %d", (unsigned long long)array->shape[0], KD_RAYS_MAX);
+    return KD_OK;
+}
+
 enum kd_status kd_rays_request_npy(struct kd_rays_request *request, const void *data, size_t size,
                                    struct kd_error *error)
 {
     struct kd_npy array;
-    enum kd_status status = kd_npy_read(data, size, &array, error);
-    if (!status && (array.n_fields != 1 || array.fields[0].name[0] || array.fields[0].type != KD_NPY_F8))
-        status = kd_error_set(error, KD_EINVAL, "the elements of the array are not 8-byte floats, <f8");
-    if (!status && (array.n_dimensions != 2 || array.shape[1] != 2))
-        status = kd_error_set(error, KD_EINVAL, "the shape of the array is not (n, 2)");
-    if (!status && array.shape[0] > KD_RAYS_MAX)
-        status = kd_error_set(error, KD_EINVAL, "there are %llu rays, allowed are 1 to %d",
-                              (unsigned long long)array.shape[0], KD_RAYS_MAX);
+    enum kd_status status = read_pairs(data, size, &array, error);
     if (status) {
         if (error)
             snprintf(error->pointer, sizeof error->pointer, "/rays");

@@ -126,30 +126,27 @@ enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_
 {
     *out = (struct kd_rays_steps) { .params = *params, .alpha = alpha, .beta = beta };
     const double ray[] = { alpha, beta };
-    enum kd_status status = kd_rays_check(params, ray, 1, error);
-    if (status)
-        return status;
+    double *numbers = NULL;
+    enum kd_status status;
+    KD_TRY(kd_rays_check(params, ray, 1, error));
     if (params->engine == KD_ENGINE_CLOSED)
         return kd_error_field(error, "/accuracy/engine", "the closed form takes no steps: choose an engine of the device");
     out->params.steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     size_t most = room(&out->params);
-    double *numbers = calloc(most, sizeof *numbers);
-    if (!numbers)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the steps");
-    status = kd_rays_device_told(renderer, &out->params, ray, out->crossings, &out->end, numbers, most, error);
-    if (!status) {
-        const struct constants *c = (const struct constants *)numbers;
-        size_t kept = (most - KD_TRACE_HEADER) / KD_TRACE_RECORD, count = (size_t)c->count;
-        out->n = count < kept ? count : kept;
-        out->lost = count - out->n;
-        out->steps = malloc((out->n + 1) * sizeof *out->steps);
-        if (out->steps)
-            tell(out, c, (const struct record *)(numbers + KD_TRACE_HEADER));
-        else
-            status = kd_error_set(error, KD_ENOMEM, "out of memory for the steps");
-    }
+    if (!(numbers = calloc(most, sizeof *numbers)))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the steps"));
+    KD_TRY(kd_rays_device_told(renderer, &out->params, ray, out->crossings, &out->end, numbers, most, error));
+    const struct constants *c = (const struct constants *)numbers;
+    size_t kept = (most - KD_TRACE_HEADER) / KD_TRACE_RECORD, count = (size_t)c->count;
+    out->n = count < kept ? count : kept;
+    out->lost = count - out->n;
+    if (!(out->steps = malloc((out->n + 1) * sizeof *out->steps)))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the steps"));
+    tell(out, c, (const struct record *)(numbers + KD_TRACE_HEADER));
+    KD_TRY(compare(renderer, out, error));
+done:
     free(numbers);
-    return status ? status : compare(renderer, out, error);
+    return status;
 }
 
 void kd_rays_steps_finish(struct kd_rays_steps *steps)

@@ -296,18 +296,19 @@ enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd
     *out = (struct kd_accuracy_table) { 0 };
     kd_accuracy_head(renderer, params, out);
     list_rows(out, kd_vk_info(renderer->vk)->float64);
-    enum kd_status status = prepare(&b);
-    for (uint32_t i = 0; i < out->n && !status; i++) {
+    enum kd_status status;
+    KD_TRY(prepare(&b));
+    for (uint32_t i = 0; i < out->n; i++) {
         double s; /* this run compiles, which does not count */
         const struct truth *first = &b.truths[KD_ACCURACY_BULK][0];
-        status = trace(&b, &out->rows[i], &first->view, first->rays, WARM_UP, &s);
-        for (int set = 0; set < KD_ACCURACY_SETS && !status; set++) {
-            status = measure_set(&b, &out->rows[i], set);
-            double done = (i + (set + 1.0) / KD_ACCURACY_SETS) / out->n;
-            if (!status && progress && !progress(user, done))
-                status = kd_error_set(error, KD_ECANCELLED, "the measurement was cancelled");
+        KD_TRY(trace(&b, &out->rows[i], &first->view, first->rays, WARM_UP, &s));
+        for (int set = 0; set < KD_ACCURACY_SETS; set++) {
+            KD_TRY(measure_set(&b, &out->rows[i], set));
+            if (progress && !progress(user, (i + (set + 1.0) / KD_ACCURACY_SETS) / out->n))
+                KD_TRY(kd_error_set(error, KD_ECANCELLED, "the measurement was cancelled"));
         }
     }
+done:
     finish(&b);
     return status;
 }

@@ -42,18 +42,16 @@ static enum kd_status luminance(const struct kd_selftest *test, const struct kd_
     struct kd_plan plan;
     struct kd_frame frame;
     kd_renderer_capacity(test->renderer, &capacity);
-    enum kd_status status = kd_scene_validate(scene, test->error);
-    if (!status)
-        status = kd_plan_make(scene, &capacity, &plan, test->error);
-    if (!status)
-        status = kd_render(test->renderer, scene, &plan, NULL, NULL, &frame, test->error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(kd_scene_validate(scene, test->error));
+    KD_TRY(kd_plan_make(scene, &capacity, &plan, test->error));
+    KD_TRY(kd_render(test->renderer, scene, &plan, NULL, NULL, &frame, test->error));
     const uint16_t *rgb = kd_frame_pixels(&frame);
     *out = (0.2126 * decode(rgb[0] / LEVELS) + 0.7152 * decode(rgb[1] / LEVELS) + 0.0722 * decode(rgb[2] / LEVELS)) *
            exp2(-scene->style.exposure);
     kd_frame_finish(&frame);
-    return KD_OK;
+done:
+    return status;
 }
 
 /* g^4 F/F_max. A file's 16 bits round a luminance of 0.2 to 0.9 (1/2)/65535 of it, 3.4e-5; the tables between whose
@@ -90,17 +88,16 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
     for (uint32_t i = 0; i < 3 * pixels; i++)
         at[i] = (float)test->reference->greys[i / 12].linear;
     const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(r->vk, pixels));
-    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, kernel, (uint32_t[]) { film, true }, 2, &post, test->error);
+    enum kd_status status;
+    KD_TRY(kd_kernels_get(&r->kernels, r->vk, kernel, (uint32_t[]) { film, true }, 2, &post, test->error));
     const struct kd_vk_dispatch d = {
         "post", post, { { radiance, 0, 0, false }, { words, 0, 0, true } }, &push,
         { kd_post_groups(pixels) },
     };
-    if (!status)
-        status = kd_vk_dispatch(r->vk, &d, test->error);
-    if (!status)
-        status = kd_vk_submit(r->vk, NULL, test->error);
-    if (!status)
-        status = kd_vk_wait(r->vk, 0, test->error);
+    KD_TRY(kd_vk_dispatch(r->vk, &d, test->error));
+    KD_TRY(kd_vk_submit(r->vk, NULL, test->error));
+    KD_TRY(kd_vk_wait(r->vk, 0, test->error));
+done:
     return status;
 }
 
@@ -111,14 +108,17 @@ static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd
     struct kd_selftest_row row;
     kd_selftest_begin(&row, film ? "S. Hill 2016, in 38 digits" : "IEC 61966-2-1", "post f32",
                       film ? "film-like curve of greys (1/65535)" : "sRGB of greys (1/65535)");
-    enum kd_status status = encode(test, film, radiance, words);
+    enum kd_status status;
+    KD_TRY(encode(test, film, radiance, words));
     const uint16_t *found = kd_vk_buffer_map(words);
-    for (size_t i = 0; i < test->reference->n_greys && !status; i++) {
+    for (size_t i = 0; i < test->reference->n_greys; i++) {
         const struct kd_selftest_grey *g = &test->reference->greys[i];
         for (int k = 0; k < 12; k++)
             kd_selftest_compare(&row, found[12 * i + k] - LEVELS * (film ? g->film[k % 3] : g->srgb), 1);
     }
-    return status ? status : kd_selftest_end(test, &row);
+    KD_TRY(kd_selftest_end(test, &row));
+done:
+    return status;
 }
 
 static enum kd_status encoding(const struct kd_selftest *test)
@@ -126,11 +126,12 @@ static enum kd_status encoding(const struct kd_selftest *test)
     struct kd_vk *vk = test->renderer->vk;
     struct kd_vk_buffer *radiance = NULL, *words = NULL;
     uint64_t pixels = 4 * test->reference->n_greys;
-    enum kd_status status = kd_vk_buffer_create(vk, 12 * pixels, KD_VK_UPLOAD, "greys", &radiance, test->error);
-    if (!status)
-        status = kd_vk_buffer_create(vk, kd_post_bytes(pixels, 16), KD_VK_READBACK, "encoded greys", &words, test->error);
-    for (int film = 0; film < 2 && !status; film++)
-        status = greys(test, film, radiance, words);
+    enum kd_status status;
+    KD_TRY(kd_vk_buffer_create(vk, 12 * pixels, KD_VK_UPLOAD, "greys", &radiance, test->error));
+    KD_TRY(kd_vk_buffer_create(vk, kd_post_bytes(pixels, 16), KD_VK_READBACK, "encoded greys", &words, test->error));
+    for (int film = 0; film < 2; film++)
+        KD_TRY(greys(test, film, radiance, words));
+done:
     if (status)
         kd_vk_discard(vk);
     kd_vk_buffer_destroy(vk, radiance);

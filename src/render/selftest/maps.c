@@ -43,10 +43,12 @@ static enum kd_status trace(const struct kd_selftest *test, const struct kd_scen
     struct kd_capacity capacity;
     struct kd_plan plan;
     kd_renderer_capacity(test->renderer, &capacity);
-    enum kd_status status = kd_scene_validate(scene, test->error);
-    if (!status)
-        status = kd_plan_make_for(scene, needs, &capacity, &plan, test->error);
-    return status ? status : kd_render_lens(test->renderer, scene, &plan, planes, NULL, test->error);
+    enum kd_status status;
+    KD_TRY(kd_scene_validate(scene, test->error));
+    KD_TRY(kd_plan_make_for(scene, needs, &capacity, &plan, test->error));
+    KD_TRY(kd_render_lens(test->renderer, scene, &plan, planes, NULL, test->error));
+done:
+    return status;
 }
 
 /* Radii; a plane holds w = 1/r, or 0 where there is no crossing. */
@@ -80,7 +82,9 @@ static void judge_angles(const struct kd_selftest_ray *ray, const float *planes,
 static enum kd_status far(const struct kd_selftest *test)
 {
     static const char taylor[] = "equations of motion by Taylor series, 38 digits";
+    const struct kd_needs needs = { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY };
     struct kd_selftest_row closed, closed_phi, closed_sky, r, phi, sky;
+    enum kd_status status;
     kd_selftest_begin(&closed, taylor, "lens_closed f32", "lens map: r (relative)");
     kd_selftest_begin(&closed_phi, taylor, "lens_closed f32", "lens map: phi (rad)");
     kd_selftest_begin(&closed_sky, taylor, "lens_closed f32", "lens map: fate, direction (rad)");
@@ -93,30 +97,29 @@ static enum kd_status far(const struct kd_selftest *test)
         float planes[PLANES];
         if (!isinf(ray->radius))
             continue;
-        enum kd_status status = trace(test, &scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, planes);
-        if (status)
-            return status;
+        KD_TRY(trace(test, &scene, &needs, planes));
         judge_radii(ray, planes, &closed);
         judge_angles(ray, planes, &closed_phi, &closed_sky);
         scene.accuracy.steps = STEPS;
-        status = trace(test, &scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, planes);
-        if (status)
-            return status;
+        KD_TRY(trace(test, &scene, &needs, planes));
         judge_radii(ray, planes, &r);
         judge_angles(ray, planes, &phi, &sky);
     }
-    enum kd_status status = kd_selftest_end(test, &closed);
-    status = status ? status : kd_selftest_end(test, &closed_phi);
-    status = status ? status : kd_selftest_end(test, &closed_sky);
-    status = status ? status : kd_selftest_end(test, &r);
-    status = status ? status : kd_selftest_end(test, &phi);
-    return status ? status : kd_selftest_end(test, &sky);
+    KD_TRY(kd_selftest_end(test, &closed));
+    KD_TRY(kd_selftest_end(test, &closed_phi));
+    KD_TRY(kd_selftest_end(test, &closed_sky));
+    KD_TRY(kd_selftest_end(test, &r));
+    KD_TRY(kd_selftest_end(test, &phi));
+    KD_TRY(kd_selftest_end(test, &sky));
+done:
+    return status;
 }
 
 static enum kd_status near(const struct kd_selftest *test)
 {
     static const char tetrad[] = "tetrad by Gram-Schmidt, ray by Taylor series";
     struct kd_selftest_row r, phi, sky;
+    enum kd_status status;
     kd_selftest_begin(&r, tetrad, "lens_map f32", "lens map of a camera nearby: r (relative)");
     kd_selftest_begin(&phi, tetrad, "lens_map f32", "lens map of a camera nearby: phi (rad)");
     kd_selftest_begin(&sky, tetrad, "lens_map f32", "lens map of a camera nearby: direction (rad)");
@@ -126,15 +129,15 @@ static enum kd_status near(const struct kd_selftest *test)
         const struct kd_needs needs = { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY };
         scene.accuracy.steps = STEPS;
         float planes[PLANES];
-        enum kd_status status = trace(test, &scene, &needs, planes);
-        if (status)
-            return status;
+        KD_TRY(trace(test, &scene, &needs, planes));
         judge_radii(&camera->ray, planes, &r);
         judge_angles(&camera->ray, planes, &phi, &sky);
     }
-    enum kd_status status = kd_selftest_end(test, &r);
-    status = status ? status : kd_selftest_end(test, &phi);
-    return status ? status : kd_selftest_end(test, &sky);
+    KD_TRY(kd_selftest_end(test, &r));
+    KD_TRY(kd_selftest_end(test, &phi));
+    KD_TRY(kd_selftest_end(test, &sky));
+done:
+    return status;
 }
 
 enum kd_status kd_selftest_maps(const struct kd_selftest *test)

@@ -101,11 +101,11 @@ enum kd_status kd_selftest_orbits(const struct kd_selftest *test)
         { "efficiency, 1 - E(ISCO)", kd_kerr_efficiency, offsetof(struct kd_selftest_orbit, efficiency) },
     };
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < sizeof list / sizeof *list && !status; i++)
-        status = radius(test, list[i].what, list[i].of, list[i].at);
-    if (!status)
-        status = bound_orbits(test);
-    if (!status)
-        status = mercury(test);
-    return status ? status : flux(test);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        KD_TRY(radius(test, list[i].what, list[i].of, list[i].at));
+    KD_TRY(bound_orbits(test));
+    KD_TRY(mercury(test));
+    KD_TRY(flux(test));
+done:
+    return status;
 }

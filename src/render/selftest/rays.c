@@ -130,14 +130,18 @@ static enum kd_status ends(const struct kd_selftest *test, const struct engine *
     char by[32];
     name_of(e, by);
     kd_selftest_begin(&same, "each other", by, "rays: copies of %d that differ", COPIES);
-    enum kd_status status = c ? KD_OK : kd_error_set(test->error, KD_ENOMEM, "out of memory for the self-test");
-    for (size_t i = 0, n; i < reference->n_rays && !status; i += n) {
+    enum kd_status status;
+    if (!c)
+        KD_TRY(kd_error_set(test->error, KD_ENOMEM, "out of memory for the self-test"));
+    for (size_t i = 0, n; i < reference->n_rays; i += n) {
         for (n = 1; i + n < reference->n_rays && !strcmp(reference->rays[i].set, reference->rays[i + n].set);)
             n++;
-        status = ray_set(test, e, i, n, c, &same);
+        KD_TRY(ray_set(test, e, i, n, c, &same));
     }
+    KD_TRY(kd_selftest_end(test, &same));
+done:
     free(c);
-    return status ? status : kd_selftest_end(test, &same);
+    return status;
 }
 
 /* Compares the azimuth of the direction of escape in the equatorial plane. */
@@ -196,15 +200,15 @@ enum kd_status kd_selftest_rays(const struct kd_selftest *test)
 {
     bool wide = kd_vk_info(test->renderer->vk)->float64;
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < ENGINES && !status; i++) {
+    for (size_t i = 0; i < ENGINES; i++) {
         const struct engine *e = &engines[i];
         if (e->engine != KD_ENGINE_CLOSED && e->precision == KD_PRECISION_F64 && !wide)
             continue;
-        status = ends(test, e);
-        if (!status)
-            status = deflection(test, e);
-        for (size_t k = 0; k < test->reference->n_criticals && !status; k++)
-            status = critical(test, e, &test->reference->criticals[k]);
+        KD_TRY(ends(test, e));
+        KD_TRY(deflection(test, e));
+        for (size_t k = 0; k < test->reference->n_criticals; k++)
+            KD_TRY(critical(test, e, &test->reference->criticals[k]));
     }
+done:
     return status;
 }

@@ -26,11 +26,12 @@ static enum kd_status draw(const struct kd_selftest *test, const struct kd_capac
     struct kd_plan plan;
     for (size_t i = 0; i < KD_LENS_MAPS_KEPT; i++)
         test->renderer->store.maps[i].key[0] = '\0';
-    enum kd_status status = kd_plan_make(&scene, capacity, &plan, test->error);
-    if (!status)
-        status = kd_render(test->renderer, &scene, &plan, NULL, NULL, out, test->error);
-    if (!status && bands)
+    enum kd_status status;
+    KD_TRY(kd_plan_make(&scene, capacity, &plan, test->error));
+    KD_TRY(kd_render(test->renderer, &scene, &plan, NULL, NULL, out, test->error));
+    if (bands)
         *bands = plan.bands;
+done:
     return status;
 }
 
