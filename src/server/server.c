@@ -117,6 +117,38 @@ static uint64_t bytes_share_of(const struct kd_server_params *params, uint64_t b
     return bytes / 100 * (percent > 100 ? 100 : percent);
 }
 
+static enum kd_status start_sessions(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+{
+    const unsigned most = or_default(params->sessions, 16);
+    const struct kd_sessions_params sessions = {
+        .renders = server->renders, .limit = most, .client_limit = share_of(params, most),
+        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .longest_s = server->longest_s,
+    };
+    return kd_sessions_create(&sessions, &server->sessions, error);
+}
+
+static enum kd_status start_jobs(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+{
+    const unsigned most = or_default(params->jobs, 16);
+    const struct kd_jobs_params jobs = {
+        .renders = server->renders, .state = params->state, .limit = most, .kept = KD_JOBS_KEPT,
+        .client_limit = params->client_jobs ? params->client_jobs : share_of(params, most),
+        .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
+        .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,
+    };
+    return kd_jobs_create(&jobs, &server->jobs, error);
+}
+
+/* Assets come behind the jobs, which lock the folder. */
+static enum kd_status start_assets(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+{
+    const unsigned most = or_default(params->assets, KD_ASSETS);
+    const uint64_t bytes = params->assets_kib ? (uint64_t)params->assets_kib << 10 : KD_ASSETS_BYTES;
+    const struct kd_asset_limits limits = { most, share_of(params, most), bytes, bytes_share_of(params, bytes),
+                                            params->asset_keep_s ? params->asset_keep_s : KD_ASSET_KEEP_S };
+    return kd_asset_store_open(params->state, &limits, &server->assets, error);
+}
+
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
                             struct kd_error *error)
 {
@@ -137,61 +169,27 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
                                                                   KD_REPLIES_RESERVE, KD_REPLIES_SMALL, true });
     if (server->stop_fd < 0 || !server->connections || !server->bodies || !server->replies)
         return kd_error_set(error, KD_ENOMEM, "no memory or descriptor for the server");
-    enum kd_status status = collect_hosts(server, address, params->hosts, error);
-    if (!status)
-        status = kd_kept_create(&server->kept, error);
+    enum kd_status status;
+    KD_TRY(collect_hosts(server, address, params->hosts, error));
+    KD_TRY(kd_kept_create(&server->kept, error));
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
-    if (!status)
-        status = kd_listen_open(address, &server->port, &fd, error);
-    if (!status)
-        status =
-            kd_render_queue_create(&params->renderer, or_default(params->queue, 16), share_of(params, or_default(params->queue, 16)),
-                                   &server->renders, error);
-    if (status) {
-        if (fd >= 0)
-            close(fd);
-        return status;
-    }
-    set_etag_tail(server);
+    KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);
-    status = kd_turns_create(tasks, share_of(params, tasks), &server->rays, error);
-    if (!status)
-        status = kd_turns_create(tasks, share_of(params, tasks), &server->turns, error);
-    if (status) {
+    KD_TRY(kd_render_queue_create(&params->renderer, tasks, share_of(params, tasks), &server->renders, error));
+    set_etag_tail(server);
+    KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->rays, error));
+    KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->turns, error));
+    KD_TRY(start_sessions(server, params, error));
+    KD_TRY(start_jobs(server, params, error));
+    KD_TRY(start_assets(server, params, error));
+    const int listening = fd;
+    fd = -1; /* from here on it is HTTP's to close */
+    KD_TRY(start_http(server, listening, connections, error));
+    KD_TRY(start_keeper(server, error));
+done:
+    if (fd >= 0)
         close(fd);
-        return status;
-    }
-    const struct kd_sessions_params sessions = {
-        .renders = server->renders, .limit = or_default(params->sessions, 16),
-        .client_limit = share_of(params, or_default(params->sessions, 16)),
-        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .longest_s = server->longest_s,
-    };
-    status = kd_sessions_create(&sessions, &server->sessions, error);
-    if (status) {
-        close(fd);
-        return status;
-    }
-    const struct kd_jobs_params jobs = {
-        .renders = server->renders, .state = params->state, .limit = or_default(params->jobs, 16), .kept = KD_JOBS_KEPT,
-        .client_limit = params->client_jobs ? params->client_jobs : share_of(params, or_default(params->jobs, 16)), .longest_s = server->longest_s, .longest_job_s = KD_JOB_LONGEST_S,
-        .bytes = params->jobs_kib ? (uint64_t)params->jobs_kib << 10 : KD_JOB_BYTES, .keep_s = KD_JOB_KEEP_S,
-    };
-    status = kd_jobs_create(&jobs, &server->jobs, error);
-    if (status) {
-        close(fd);
-        return status;
-    }
-    const unsigned assets = or_default(params->assets, KD_ASSETS);
-    const uint64_t asset_bytes = params->assets_kib ? (uint64_t)params->assets_kib << 10 : KD_ASSETS_BYTES;
-    const struct kd_asset_limits asset_limits = { assets, share_of(params, assets), asset_bytes, bytes_share_of(params, asset_bytes),
-                                                  params->asset_keep_s ? params->asset_keep_s : KD_ASSET_KEEP_S };
-    status = kd_asset_store_open(params->state, &asset_limits, &server->assets, error); /* behind the jobs, who have the folder's lock */
-    if (status) {
-        close(fd);
-        return status;
-    }
-    status = start_http(server, fd, connections, error);
-    return status ? status : start_keeper(server, error);
+    return status;
 }
 
 enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out,

@@ -69,10 +69,11 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)kd_bytes_held(s->replies) },
         { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },
     };
-    enum kd_status status = add_answers(&text, s);
-    if (!status)
-        status = add_jobs(&text, &now.jobs);
-    for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
-        status = add(&text, rows[i].name, rows[i].type, rows[i].help, rows[i].value);
+    enum kd_status status;
+    KD_TRY(add_answers(&text, s));
+    KD_TRY(add_jobs(&text, &now.jobs));
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        KD_TRY(add(&text, rows[i].name, rows[i].type, rows[i].help, rows[i].value));
+done:
     return kd_reply_json(request, status, &text, request->route->answer);
 }

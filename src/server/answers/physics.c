@@ -51,18 +51,22 @@ static enum form accepted(struct kd_request *request, const struct kd_quantity *
 static enum kd_status read_query(const struct kd_target *target, struct kd_quantity_request *quantity, enum form *form,
                                  struct kd_error *error)
 {
-    enum kd_status status = kd_target_distinct(target, error);
-    for (size_t i = 0; i < target->n_pairs && !status; i++) {
+    enum kd_status status;
+    KD_TRY(kd_target_distinct(target, error));
+    for (size_t i = 0; i < target->n_pairs; i++) {
         const char *name = target->pairs[i].name, *value = target->pairs[i].value;
         if (strcmp(name, "format"))
-            status = kd_quantity_request_set(quantity, name, value, error);
+            KD_TRY(kd_quantity_request_set(quantity, name, value, error));
         else if (!strcmp(value, "json") || !strcmp(value, "csv") || !strcmp(value, "wav"))
             *form = *value == 'c' ? FORM_CSV : *value == 'w' ? FORM_WAV : FORM_JSON;
         else
-            status = kd_error_field(error, "/format", "format is \"%.40s\", allowed are \"json\", \"csv\"%s", value,
-                                    quantity->quantity->sound ? ", \"wav\"" : "");
+            KD_TRY(kd_error_field(error, "/format", "format is \"%.40s\", allowed are \"json\", \"csv\"%s", value,
+                                  quantity->quantity->sound ? ", \"wav\"" : ""));
     }
-    return status || *form != FORM_WAV ? status : kd_quantity_sound_check(quantity, error);
+    if (*form == FORM_WAV)
+        KD_TRY(kd_quantity_sound_check(quantity, error));
+done:
+    return status;
 }
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
@@ -106,14 +110,14 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     struct job *job = (struct job *)task;
     struct kd_quantity_run *run = &job->run;
     struct kd_error error = { 0 };
-    enum kd_status status = KD_OK;
-    while (!status && run->point < run->answer.points) {
-        status = kd_quantity_run_next(run, &error);
-        if (!status && kd_clock_ms() > until_ms)
+    enum kd_status status;
+    while (run->point < run->answer.points) {
+        KD_TRY(kd_quantity_run_next(run, &error));
+        if (kd_clock_ms() > until_ms)
             return KD_TURN_MORE;
     }
-    if (!status)
-        status = write_answer(job, &error);
+    KD_TRY(write_answer(job, &error));
+done:
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
 }

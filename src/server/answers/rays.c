@@ -136,12 +136,14 @@ static enum MHD_Result deliver(struct kd_request *request)
 static enum kd_status read_query(const struct kd_target *target, bool npy, struct kd_rays_request *request,
                                  struct kd_error *error)
 {
-    enum kd_status status = kd_target_distinct(target, error);
-    if (!status && target->n_pairs && !npy)
-        status = kd_error_field(error, "", "the query may hold parameters beside a body of " KD_NPY_TYPE
-                                " only; in JSON they belong to the document");
-    for (size_t i = 0; i < target->n_pairs && !status; i++)
-        status = kd_rays_request_set(request, target->pairs[i].name, target->pairs[i].value, error);
+    enum kd_status status;
+    KD_TRY(kd_target_distinct(target, error));
+    if (target->n_pairs && !npy)
+        KD_TRY(kd_error_field(error, "", "the query may hold parameters beside a body of " KD_NPY_TYPE
+                              " only; in JSON they belong to the document"));
+    for (size_t i = 0; i < target->n_pairs; i++)
+        KD_TRY(kd_rays_request_set(request, target->pairs[i].name, target->pairs[i].value, error));
+done:
     return status;
 }
 

@@ -23,20 +23,19 @@ static enum kd_status read_body(struct kd_rays_job *job, struct kd_error *error)
                                      : kd_rays_request_json(request, text, body->size, error);
     job->malformed = status == KD_EINVAL && !*error->pointer;
     kd_task_drop_body(job->task.request);
-    struct kd_capacity capacity;
-    kd_render_queue_capacity(server->renders, &capacity);
-    if (!status)
-        status = kd_rays_request_settle(request, &capacity, error);
-    if (!status)
-        status = kd_rays_request_check(request, error);
-    if (!status)
-        status = kd_task_hold(server, job->task.turns.client, kd_rays_answer_bytes(&request->params, request->n), &job->task.held, &job->task.quota,
-                              error);
     if (status)
         return status;
+    struct kd_capacity capacity;
+    kd_render_queue_capacity(server->renders, &capacity);
+    KD_TRY(kd_rays_request_settle(request, &capacity, error));
+    KD_TRY(kd_rays_request_check(request, error));
+    KD_TRY(kd_task_hold(server, job->task.turns.client, kd_rays_answer_bytes(&request->params, request->n), &job->task.held, &job->task.quota,
+                        error));
     double *alpha_beta = request->alpha_beta;
     request->alpha_beta = NULL;
-    return kd_rays_answer_init(&job->answer, &request->params, alpha_beta, request->n, error);
+    KD_TRY(kd_rays_answer_init(&job->answer, &request->params, alpha_beta, request->n, error));
+done:
+    return status;
 }
 
 /* With the device. */

@@ -227,13 +227,15 @@ size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*typ
 
 enum kd_status kd_reply_quote(struct kd_buffer *out, const char *text)
 {
-    enum kd_status status = kd_buffer_printf(out, "%s\"", out->size ? ", " : "");
-    for (; *text && !status; text++) {
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%s\"", out->size ? ", " : ""));
+    for (; *text; text++) {
         unsigned char c = (unsigned char)*text;
-        status = c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c)
-                                                             : kd_buffer_append(out, &c, 1);
+        KD_TRY(c < 0x20 || c > 0x7e || strchr("\"%\\,", c) ? kd_buffer_printf(out, "%%%02X", c) : kd_buffer_append(out, &c, 1));
     }
-    return status ? status : kd_buffer_append(out, "\"", 1);
+    KD_TRY(kd_buffer_append(out, "\"", 1));
+done:
+    return status;
 }
 
 const char *kd_token_of(struct kd_request *request)

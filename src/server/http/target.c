@@ -55,11 +55,12 @@ static enum kd_status add_pair(struct kd_target *target, char *pair, struct kd_e
         *value++ = 0;
     else
         value = empty;
-    enum kd_status status = decode(pair, true, error);
-    if (!status && *value)
-        status = decode(value, true, error);
-    if (!status)
-        target->pairs[target->n_pairs++] = (struct kd_target_pair) { pair, value };
+    enum kd_status status;
+    KD_TRY(decode(pair, true, error));
+    if (*value)
+        KD_TRY(decode(value, true, error));
+    target->pairs[target->n_pairs++] = (struct kd_target_pair) { pair, value };
+done:
     return status;
 }
 

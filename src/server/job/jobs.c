@@ -283,20 +283,19 @@ static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char 
 {
     struct kd_job *oldest;
     pthread_mutex_lock(&all->lock);
-    enum kd_status status = admit(all, job->client, quota, &oldest, error);
-    if (!status && !all->store)
-        status = kd_job_store_open(NULL, &all->store, error);
-    if (!status)
-        status = kd_job_store_create(all->store, &job->record, text, length, error);
-    if (!status) {
-        if (oldest) {
-            kd_job_unlist(oldest);
-            let_go(oldest);
-        }
-        append(all, job);
-        job->references++;
-        kd_jobs_pump(all);
+    enum kd_status status;
+    KD_TRY(admit(all, job->client, quota, &oldest, error));
+    if (!all->store)
+        KD_TRY(kd_job_store_open(NULL, &all->store, error));
+    KD_TRY(kd_job_store_create(all->store, &job->record, text, length, error));
+    if (oldest) {
+        kd_job_unlist(oldest);
+        let_go(oldest);
     }
+    append(all, job);
+    job->references++;
+    kd_jobs_pump(all);
+done:
     pthread_mutex_unlock(&all->lock);
     return status;
 }

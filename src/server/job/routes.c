@@ -112,14 +112,15 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
     const struct kd_buffer *body = &task->request->body;
     const char *text = body->data ? (const char *)body->data : "";
     struct kd_error error = { 0 };
-    enum kd_status status = d->read ? KD_OK : kd_job_spec_parse(text, body->size, d->draft.preset, &d->draft.spec, &error);
+    enum kd_status status;
+    if (!d->read)
+        KD_TRY(kd_job_spec_parse(text, body->size, d->draft.preset, &d->draft.spec, &error));
     d->read = true;
-    if (!status)
-        status = kd_jobs_check(jobs, &d->draft, until_ms, &error);
-    if (!status && d->draft.checked < d->draft.spec.frames)
+    KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
+    if (d->draft.checked < d->draft.spec.frames)
         return KD_TURN_MORE;
-    if (!status)
-        status = kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &task->quota, &d->job, &error);
+    KD_TRY(kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &task->quota, &d->job, &error));
+done:
     kd_task_fail(task, status, &error);
     return KD_TURN_LAST;
 }

@@ -200,17 +200,16 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
                                       { "output", &r.output } };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
-    enum kd_status status = *preset ? inside(&r, kd_scene_preset(&r.base, preset, error), "/preset") : KD_OK;
-    if (!status)
-        status = kd_tree_parse(text, length, KD_JOB_BODY_MAX, VALUES_MAX, &root, error);
-    if (!status && !cJSON_IsObject(root))
-        status = not_a(&r, root, "", "an object");
-    if (!status)
-        status = read_members(&r, root, "", members, sizeof members / sizeof *members);
-    if (!status)
-        status = read_output(&r);
-    if (!status)
-        status = r.scenes ? read_list(&r) : read_sequence(&r);
+    enum kd_status status;
+    if (*preset)
+        KD_TRY(inside(&r, kd_scene_preset(&r.base, preset, error), "/preset"));
+    KD_TRY(kd_tree_parse(text, length, KD_JOB_BODY_MAX, VALUES_MAX, &root, error));
+    if (!cJSON_IsObject(root))
+        KD_TRY(not_a(&r, root, "", "an object"));
+    KD_TRY(read_members(&r, root, "", members, sizeof members / sizeof *members));
+    KD_TRY(read_output(&r));
+    KD_TRY(r.scenes ? read_list(&r) : read_sequence(&r));
+done:
     cJSON_Delete(root);
     if (status)
         kd_job_spec_finish(&spec);

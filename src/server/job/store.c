@@ -413,13 +413,17 @@ enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_j
     char name[KD_JOB_NAME];
     snprintf(name, sizeof name, "%s.new", record->id);
     int folder = mkdirat(store->folder, name, 0700) ? -1 : kd_job_folder_open(store->folder, name);
-    enum kd_status status = folder < 0 ? failed(error, "the job cannot be kept") : write_record(folder, record, error);
-    if (!status && !kd_replace_file_at(folder, "request.json", request, size))
-        status = failed(error, "the job cannot be kept");
+    enum kd_status status;
+    if (folder < 0)
+        KD_TRY(failed(error, "the job cannot be kept"));
+    KD_TRY(write_record(folder, record, error));
+    if (!kd_replace_file_at(folder, "request.json", request, size))
+        KD_TRY(failed(error, "the job cannot be kept"));
+    if (renameat(store->folder, name, store->folder, record->id) || fsync(store->folder))
+        KD_TRY(failed(error, "the job cannot be kept"));
+done:
     if (folder >= 0)
         close(folder);
-    if (!status && (renameat(store->folder, name, store->folder, record->id) || fsync(store->folder)))
-        status = failed(error, "the job cannot be kept");
     if (status) {
         kd_job_folder_remove(store->folder, name, UINT_MAX);
         kd_job_folder_remove(store->folder, record->id, UINT_MAX);

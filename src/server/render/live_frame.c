@@ -174,9 +174,11 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
     describe_quality(frame, job, note);
     describe_timing(frame, job);
-    enum kd_status status = describe_event(frame, job, note);
-    for (size_t i = 0; i < job->plan.n_approximations && !status; i++)
-        status = kd_reply_quote(&frame->approximations, job->plan.approximations[i]);
+    enum kd_status status;
+    KD_TRY(describe_event(frame, job, note));
+    for (size_t i = 0; i < job->plan.n_approximations; i++)
+        KD_TRY(kd_reply_quote(&frame->approximations, job->plan.approximations[i]));
+done:
     if (!status)
         return frame;
     kd_live_frame_release(frame);

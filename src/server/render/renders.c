@@ -56,10 +56,11 @@ static void add_approximations(struct MHD_Response *response, const struct kd_pl
 {
     struct kd_buffer list = { 0 };
     enum kd_status status = KD_OK;
-    for (size_t i = 0; i < plan->n_approximations && !status; i++)
-        status = kd_reply_quote(&list, plan->approximations[i]);
-    if (!status && list.data)
+    for (size_t i = 0; i < plan->n_approximations; i++)
+        KD_TRY(kd_reply_quote(&list, plan->approximations[i]));
+    if (list.data)
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)list.data);
+done:
     kd_buffer_finish(&list);
 }
 
@@ -90,16 +91,15 @@ static void add_accuracy(struct MHD_Response *response, const struct kd_render_j
 static void add_timings(struct MHD_Response *response, const struct kd_render_job *job)
 {
     struct kd_buffer list = { 0 };
-    enum kd_status status = kd_buffer_printf(&list, "queue;dur=%.3f", job->queue_ms);
-    if (job->frame.lens_reused && !status)
-        status = kd_buffer_printf(&list, ", trace;desc=\"reused\";dur=0");
-    for (size_t i = 0; i < job->frame.n_timings && !status; i++)
-        status =
-            kd_buffer_printf(&list, ", %s;dur=%.3f", job->frame.timings[i].name, job->frame.timings[i].ms);
-    if (!status)
-        status = kd_buffer_printf(&list, ", encode;dur=%.3f", job->encode_ms);
-    if (!status)
-        MHD_add_response_header(response, "Server-Timing", (const char *)list.data);
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&list, "queue;dur=%.3f", job->queue_ms));
+    if (job->frame.lens_reused)
+        KD_TRY(kd_buffer_printf(&list, ", trace;desc=\"reused\";dur=0"));
+    for (size_t i = 0; i < job->frame.n_timings; i++)
+        KD_TRY(kd_buffer_printf(&list, ", %s;dur=%.3f", job->frame.timings[i].name, job->frame.timings[i].ms));
+    KD_TRY(kd_buffer_printf(&list, ", encode;dur=%.3f", job->encode_ms));
+    MHD_add_response_header(response, "Server-Timing", (const char *)list.data);
+done:
     kd_buffer_finish(&list);
 }
 
@@ -188,11 +188,13 @@ static bool admitted(struct kd_request *request, const struct kd_plan *plan, str
         return false;
     }
     bool quota;
-    enum kd_status status = kd_render_queue_admit(server->renders, request->client, &quota, error);
+    enum kd_status status;
+    KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
     /* How many bytes it will have is known when it has been encoded: fewer than its pixels. */
-    if (!status && kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
-        status = kd_error_set(error, KD_EBUSY, quota ? "as many bytes of pictures wait for you to take them as may for one client"
-                                                     : "too many pictures wait for their clients to take them");
+    if (kd_bytes_take(server->replies, request->client, 0, plan->host_bytes, &quota))
+        KD_TRY(kd_error_set(error, KD_EBUSY, quota ? "as many bytes of pictures wait for you to take them as may for one client"
+                                                   : "too many pictures wait for their clients to take them"));
+done:
     if (!status)
         return true;
     *problem = kd_problem_from(error);

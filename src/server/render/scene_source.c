@@ -72,18 +72,18 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
     bool post = !strcmp(request->method, "POST"), malformed = false;
 
     kd_scene_defaults(scene);
-    enum kd_status status = kd_scene_query_check(&request->target, !post, error);
-    if (!status)
-        status = apply_preset(&request->target, scene, error);
-    if (!status && post) {
-        status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
-                                    request->body.size, error);
+    enum kd_status status;
+    KD_TRY(kd_scene_query_check(&request->target, !post, error));
+    KD_TRY(apply_preset(&request->target, scene, error));
+    if (post) {
+        status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "", request->body.size, error);
         malformed = status == KD_EINVAL && !*error->pointer; /* what has no place in the document */
-    } else if (!status) {
-        status = apply_fields(&request->target, scene, error);
+        KD_TRY(status);
+    } else {
+        KD_TRY(apply_fields(&request->target, scene, error));
     }
-    if (!status)
-        status = kd_scene_validate(scene, error);
+    KD_TRY(kd_scene_validate(scene, error));
+done:
     if (status) {
         *problem = kd_problem_from(error);
         if (malformed)

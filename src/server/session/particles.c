@@ -123,10 +123,13 @@ static enum kd_status allocate(struct kd_particles_job *job, bool *quota, struct
 
 static enum kd_status read_query(const struct kd_target *target, struct kd_particle_list *list, struct kd_error *error)
 {
-    enum kd_status status = kd_target_distinct(target, error);
-    for (size_t i = 0; i < target->n_pairs && !status; i++)
-        status = kd_particle_list_set(list, target->pairs[i].name, target->pairs[i].value, error);
-    return status ? status : kd_particle_list_settle(list, BYTES_MAX, error);
+    enum kd_status status;
+    KD_TRY(kd_target_distinct(target, error));
+    for (size_t i = 0; i < target->n_pairs; i++)
+        KD_TRY(kd_particle_list_set(list, target->pairs[i].name, target->pairs[i].value, error));
+    KD_TRY(kd_particle_list_settle(list, BYTES_MAX, error));
+done:
+    return status;
 }
 
 static enum MHD_Result submit(struct kd_request *request)

@@ -27,15 +27,16 @@ struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *re
 /* {"id", "revision", "frame", "viewers", "scene"}, and for who has just made it the token. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "{\"id\":\"%s\",", kd_session_id(session));
-    if (!status && token)
-        status = kd_buffer_printf(out, "\"token\":\"%s\",", kd_session_token(session));
-    if (!status)
-        status = kd_buffer_printf(out, "\"revision\":%u,\"frame\":%llu,\"viewers\":%u,\"scene\":", state->revision,
-                                  (unsigned long long)state->frame, state->viewers);
-    if (!status)
-        status = kd_scene_to_json(&state->scene, out);
-    return status ? status : kd_buffer_printf(out, "}\n");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "{\"id\":\"%s\",", kd_session_id(session)));
+    if (token)
+        KD_TRY(kd_buffer_printf(out, "\"token\":\"%s\",", kd_session_token(session)));
+    KD_TRY(kd_buffer_printf(out, "\"revision\":%u,\"frame\":%llu,\"viewers\":%u,\"scene\":", state->revision,
+                            (unsigned long long)state->frame, state->viewers));
+    KD_TRY(kd_scene_to_json(&state->scene, out));
+    KD_TRY(kd_buffer_printf(out, "}\n"));
+done:
+    return status;
 }
 
 static enum MHD_Result answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state,
@@ -136,24 +137,25 @@ static enum kd_status read_strike(const struct kd_buffer *body, double *amplitud
     cJSON *tree = NULL;
     enum kd_status status = KD_OK;
     if (body->size)
-        status = kd_tree_parse((const char *)body->data, body->size, KD_BODY_MAX, STRIKE_VALUES, &tree, error);
-    if (!status && tree && !cJSON_IsObject(tree))
-        status = kd_error_set(error, KD_EINVAL, "the body is no JSON object");
-    for (const cJSON *item = tree ? tree->child : NULL; item && !status; item = item->next) {
+        KD_TRY(kd_tree_parse((const char *)body->data, body->size, KD_BODY_MAX, STRIKE_VALUES, &tree, error));
+    if (tree && !cJSON_IsObject(tree))
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
+    for (const cJSON *item = tree ? tree->child : NULL; item; item = item->next) {
         char name[60], pointer[sizeof error->pointer] = "", given[KD_VALUE_SIZE];
         kd_text_clip(name, sizeof name, item->string);
         kd_text_pointer(pointer, sizeof pointer, item->string);
         const struct kd_value value = kd_tree_value(item);
         kd_value_describe(&value, given);
         if (strcmp(item->string, "amplitude"))
-            status = kd_error_field(error, pointer, "there is no field %s here; known is amplitude", name);
+            KD_TRY(kd_error_field(error, pointer, "there is no field %s here; known is amplitude", name));
         else if (item != tree->child)
-            status = kd_error_field(error, pointer, "amplitude is given twice");
+            KD_TRY(kd_error_field(error, pointer, "amplitude is given twice"));
         else if (!cJSON_IsNumber(item) || !(item->valuedouble >= 0 && item->valuedouble <= 1))
-            status = kd_error_field(error, pointer, "amplitude is %s, allowed are 0 to 1", given);
+            KD_TRY(kd_error_field(error, pointer, "amplitude is %s, allowed are 0 to 1", given));
         else
             *amplitude = item->valuedouble;
     }
+done:
     cJSON_Delete(tree);
     return status;
 }

@@ -177,13 +177,10 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     pthread_mutex_lock(&s->all->lock);
     struct kd_scene scene = kd_session_scene(s, now);
     pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
-    enum kd_status status = kd_scene_patch(&scene, text, length, error);
-    if (!status)
-        status = kd_scene_validate(&scene, error);
-    if (!status)
-        status = make_plan(s->all, &scene, &plan, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(kd_scene_patch(&scene, text, length, error));
+    KD_TRY(kd_scene_validate(&scene, error));
+    KD_TRY(make_plan(s->all, &scene, &plan, error));
     pthread_mutex_lock(&s->all->lock);
     s->scene = scene;
     s->since_ms = now;
@@ -196,7 +193,8 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     kd_session_pump(s);
     state(s, out);
     pthread_mutex_unlock(&s->all->lock);
-    return KD_OK;
+done:
+    return status;
 }
 
 void kd_session_end(struct kd_session *s)
