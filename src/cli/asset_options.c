@@ -69,14 +69,16 @@ static bool find(void *user, const char *name, char hash[KD_ASSET_NAME])
 enum kd_status kd_asset_options_resolve(const struct kd_asset_options *options, struct kd_scene *scene, struct kd_error *error)
 {
     struct known known = { options, calloc(options->n + 1, sizeof *known.of) };
-    enum kd_status status = known.of ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory");
-    for (size_t i = 0; i < options->n && !status; i++)
-        status = read_asset(options->list[i].path, known.of[i].hash, error);
-    if (!status)
-        status = kd_scene_resolve(scene, find, &known, error);
-    for (size_t i = 0; i < options->n && !status; i++)
+    enum kd_status status;
+    if (!known.of)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+    for (size_t i = 0; i < options->n; i++)
+        KD_TRY(read_asset(options->list[i].path, known.of[i].hash, error));
+    KD_TRY(kd_scene_resolve(scene, find, &known, error));
+    for (size_t i = 0; i < options->n; i++)
         if (!known.of[i].used)
-            status = kd_error_set(error, KD_EINVAL, "--asset %s: no field of the scene names it", options->list[i].name);
+            KD_TRY(kd_error_set(error, KD_EINVAL, "--asset %s: no field of the scene names it", options->list[i].name));
+done:
     free(known.of);
     return status;
 }

@@ -61,25 +61,26 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
 /* Prints a line for each row: speed and median errors over the bulk set, and what that and the other sets hold. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "%s\n%s\n\n%-10s %-9s %5s %12s %9s %9s %9s %7s %9s\n", t->device,
-                                             kd_accuracy_set_rays[KD_ACCURACY_BULK], "engine", "precision", "steps",
-                                             t->cores ? "Mray/s/core" : "Mray/s", "r", "phi", "delay", "differ", "holds");
-    for (uint32_t i = 0; i < t->n && !status; i++) {
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%s\n%s\n\n%-10s %-9s %5s %12s %9s %9s %9s %7s %9s\n", t->device,
+                            kd_accuracy_set_rays[KD_ACCURACY_BULK], "engine", "precision", "steps",
+                            t->cores ? "Mray/s/core" : "Mray/s", "r", "phi", "delay", "differ", "holds"));
+    for (uint32_t i = 0; i < t->n; i++) {
         const struct kd_accuracy_row *row = &t->rows[i];
         const struct kd_accuracy_entry *e = &row->sets[KD_ACCURACY_BULK];
         bool closed = row->engine == KD_ENGINE_CLOSED;
-        status = kd_buffer_printf(out, "%-10s %-9s %5u %12.3g", kd_engine_name(row->engine), kd_precision_name(row->precision),
-                                  row->steps, e->rays_per_s * 1e-6 / (closed || !t->cores ? 1 : t->cores));
-        for (int q = 0; q < KD_ACCURACY_G && !status; q++)
-            status = put_error(out, e->of[q].median);
-        if (!status)
-            status = closed ? kd_buffer_printf(out, " %7s", "-") : kd_buffer_printf(out, " %7u", e->differ);
-        if (!status)
-            status = put_error(out, kd_accuracy_holds(row));
-        if (!status)
-            status = kd_buffer_printf(out, "\n");
+        KD_TRY(kd_buffer_printf(out, "%-10s %-9s %5u %12.3g", kd_engine_name(row->engine), kd_precision_name(row->precision),
+                                row->steps, e->rays_per_s * 1e-6 / (closed || !t->cores ? 1 : t->cores)));
+        for (int q = 0; q < KD_ACCURACY_G; q++)
+            KD_TRY(put_error(out, e->of[q].median));
+        KD_TRY(closed ? kd_buffer_printf(out, " %7s", "-") : kd_buffer_printf(out, " %7u", e->differ));
+        KD_TRY(put_error(out, kd_accuracy_holds(row)));
+        KD_TRY(kd_buffer_printf(out, "\n"));
     }
-    return status || !t->skipped[0] ? status : kd_buffer_printf(out, "skipped: %s\n", t->skipped);
+    if (t->skipped[0])
+        KD_TRY(kd_buffer_printf(out, "skipped: %s\n", t->skipped));
+done:
+    return status;
 }
 
 static enum kd_status write_as(const struct kd_accuracy_table *table, const char *path, struct kd_error *error,
@@ -140,17 +141,17 @@ static enum kd_status measure(struct arguments *a, struct kd_accuracy_table *t, 
 static enum kd_status bench(struct arguments *a, struct kd_buffer *said, struct kd_error *error)
 {
     struct kd_accuracy_table *t = malloc(sizeof *t);
-    enum kd_status status = t ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the table");
-    if (!status && a->json)
-        status = kd_file_check(a->json, error);
-    if (!status && a->markdown)
-        status = kd_file_check(a->markdown, error);
-    if (!status)
-        status = measure(a, t, said, error);
-    if (!status)
-        status = write_as(t, a->json, error, kd_accuracy_to_json);
-    if (!status)
-        status = write_as(t, a->markdown, error, kd_accuracy_to_markdown);
+    enum kd_status status;
+    if (!t)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the table"));
+    if (a->json)
+        KD_TRY(kd_file_check(a->json, error));
+    if (a->markdown)
+        KD_TRY(kd_file_check(a->markdown, error));
+    KD_TRY(measure(a, t, said, error));
+    KD_TRY(write_as(t, a->json, error, kd_accuracy_to_json));
+    KD_TRY(write_as(t, a->markdown, error, kd_accuracy_to_markdown));
+done:
     free(t);
     return status;
 }

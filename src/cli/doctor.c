@@ -138,20 +138,20 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
     struct kd_plan plan;
     kd_scene_defaults(&scene);
     kd_renderer_capacity(renderer, &capacity);
-    enum kd_status status = kd_scene_set(&scene, "image.width", WIDTH, error);
-    if (!status)
-        status = kd_scene_set(&scene, "image.height", HEIGHT, error);
-    if (!status)
-        status = kd_plan_make(&scene, &capacity, &plan, error);
-    for (int i = 0; i < 2 && !status; i++) { /* the first compiles the kernels */
-        struct kd_frame frame = { 0 };
+    struct kd_frame frame = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_scene_set(&scene, "image.width", WIDTH, error));
+    KD_TRY(kd_scene_set(&scene, "image.height", HEIGHT, error));
+    KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
+    for (int i = 0; i < 2; i++) { /* the first compiles the kernels */
         double started = kd_progress_clock();
-        status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error);
-        if (!status)
-            printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n",
-                   1e3 * (kd_progress_clock() - started), i ? "" : ", kernels made on the way");
         kd_frame_finish(&frame);
+        KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
+        printf("render: " WIDTH " x " HEIGHT " pixels in %.1f ms%s\n",
+               1e3 * (kd_progress_clock() - started), i ? "" : ", kernels made on the way");
     }
+done:
+    kd_frame_finish(&frame);
     return status;
 }
 

@@ -126,19 +126,17 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     struct kd_scene scene;
     struct work work = { .frames = arguments->frames };
     double to = 0;
-    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
-    if (!status)
-        status = span(arguments, &scene, &to, error);
-    if (!status && strcmp(arguments->output, "-"))
-        status = kd_file_check(arguments->output, error);
-    if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &work.renderer, error);
-    if (!status && !(work.rows = malloc(work.frames * sizeof *work.rows)))
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for %u rows", work.frames);
-    if (!status)
-        status = measure(&work, &scene, to, error);
-    if (!status)
-        status = save(&work, arguments, error);
+    enum kd_status status;
+    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
+    KD_TRY(span(arguments, &scene, &to, error));
+    if (strcmp(arguments->output, "-"))
+        KD_TRY(kd_file_check(arguments->output, error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &work.renderer, error));
+    if (!(work.rows = malloc(work.frames * sizeof *work.rows)))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %u rows", work.frames));
+    KD_TRY(measure(&work, &scene, to, error));
+    KD_TRY(save(&work, arguments, error));
+done:
     free(work.rows);
     kd_renderer_destroy(work.renderer);
     return status;

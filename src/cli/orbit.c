@@ -81,20 +81,30 @@ static enum kd_orbit_format format_of(const struct arguments *arguments)
                                        : KD_ORBIT_JSON;
 }
 
-static enum kd_status load(const struct arguments *arguments, struct kd_orbit_request *request, struct kd_error *error)
+static enum kd_status load_file(const char *path, struct kd_orbit_request *request, struct kd_error *error)
 {
     struct kd_buffer file = { 0 };
-    enum kd_status status = KD_OK;
-    if (arguments->input) {
-        status = kd_file_read(arguments->input, KD_ORBIT_BODY_MAX, &file, error);
-        if (!status && (status = kd_orbit_request_json(request, file.data ? (const char *)file.data : "", file.size, error)))
-            kd_cli_prefix(error, strcmp(arguments->input, "-") ? arguments->input : "standard input");
-        kd_buffer_finish(&file);
-    }
-    for (size_t i = 0; i < N_FIELDS && !status; i++)
+    enum kd_status status;
+    KD_TRY(kd_file_read(path, KD_ORBIT_BODY_MAX, &file, error));
+    status = kd_orbit_request_json(request, file.data ? (const char *)file.data : "", file.size, error);
+    if (status)
+        kd_cli_prefix(error, strcmp(path, "-") ? path : "standard input");
+done:
+    kd_buffer_finish(&file);
+    return status;
+}
+
+static enum kd_status load(const struct arguments *arguments, struct kd_orbit_request *request, struct kd_error *error)
+{
+    enum kd_status status;
+    if (arguments->input)
+        KD_TRY(load_file(arguments->input, request, error));
+    for (size_t i = 0; i < N_FIELDS; i++)
         if (arguments->given[i])
-            status = kd_orbit_request_set(request, fields[i].name, arguments->given[i], error);
-    return status ? status : kd_orbit_request_check(request, error);
+            KD_TRY(kd_orbit_request_set(request, fields[i].name, arguments->given[i], error));
+    KD_TRY(kd_orbit_request_check(request, error));
+done:
+    return status;
 }
 
 /* The bytes of the answer as the file asks for them. */

@@ -99,19 +99,18 @@ static size_t produce(void *user, void *to, size_t size)
 static enum kd_status prepare(const struct arguments *arguments, struct source *s)
 {
     struct kd_scene scene;
-    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, &s->error);
-    if (!status)
-        status = kd_particle_list_init(&s->list, &scene, &s->error);
-    for (size_t i = 0; i < N_OPTIONS && !status; i++)
+    enum kd_status status;
+    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, &s->error));
+    KD_TRY(kd_particle_list_init(&s->list, &scene, &s->error));
+    for (size_t i = 0; i < N_OPTIONS; i++)
         if (arguments->given[i])
-            status = kd_particle_list_set(&s->list, names[i], arguments->given[i], &s->error);
-    if (!status)
-        status = kd_particle_list_settle(&s->list, 0, &s->error);
-    if (!status)
-        status = kd_file_check(arguments->output, &s->error);
-    if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &s->renderer, &s->error);
-    return status ? status : header(s);
+            KD_TRY(kd_particle_list_set(&s->list, names[i], arguments->given[i], &s->error));
+    KD_TRY(kd_particle_list_settle(&s->list, 0, &s->error));
+    KD_TRY(kd_file_check(arguments->output, &s->error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &s->renderer, &s->error));
+    KD_TRY(header(s));
+done:
+    return status;
 }
 
 int kd_cli_particles(int argc, char **argv)

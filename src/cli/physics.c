@@ -67,22 +67,20 @@ static enum kd_status answer_text(const struct arguments *arguments, struct kd_b
     struct kd_quantity_answer answer;
     const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
     const char *format = arguments->format ? arguments->format : dot ? dot + 1 : "";
-    enum kd_status status = KD_OK;
+    enum kd_status status;
     kd_quantity_request_init(&request, arguments->quantity);
-    for (size_t i = 0; i < arguments->quantity->n_parameters && !status; i++)
+    for (size_t i = 0; i < arguments->quantity->n_parameters; i++)
         if (arguments->given[i])
-            status = kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error);
-    if (!status && !strcmp(format, "wav"))
-        status = kd_quantity_sound_check(&request, error);
-    if (!status)
-        status = kd_quantity_evaluate(&request, &answer, error);
-    if (status)
-        return status;
+            KD_TRY(kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error));
+    if (!strcmp(format, "wav"))
+        KD_TRY(kd_quantity_sound_check(&request, error));
+    KD_TRY(kd_quantity_evaluate(&request, &answer, error));
     if (!strcmp(format, "wav"))
         status = kd_quantity_sound(&answer, out, error);
     else if ((status = strcmp(format, "csv") ? kd_quantity_json(&answer, out) : kd_quantity_csv(&answer, out)))
         kd_error_set(error, status, "out of memory for %zu points", answer.points);
     kd_quantity_answer_finish(&answer);
+done:
     return status;
 }
 

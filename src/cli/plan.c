@@ -26,17 +26,15 @@ static enum kd_status plan_scene(const struct arguments *arguments, struct kd_bu
     struct kd_capacity capacity;
     struct kd_plan plan;
     struct kd_renderer *renderer = NULL;
-    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
-    if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer,
-                                    error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &renderer, error));
     kd_renderer_capacity(renderer, &capacity);
-    status = kd_plan_make(&scene, &capacity, &plan, error);
+    KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
+    if (kd_plan_to_json(&plan, out) || kd_buffer_printf(out, "\n"))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the plan"));
+done:
     kd_renderer_destroy(renderer); /* which owns the accuracy table of the capacity */
-    if (!status && (kd_plan_to_json(&plan, out) || kd_buffer_printf(out, "\n")))
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for the plan");
     return status;
 }
 

@@ -127,12 +127,15 @@ static enum kd_status load_file(const char *path, struct kd_rays_request *reques
 /* Loads the file, then merges each option over what it said. */
 static enum kd_status load(const struct arguments *arguments, struct kd_rays_request *request, struct kd_error *error)
 {
-    enum kd_status status = arguments->input ? load_file(arguments->input, request, error) : KD_OK;
-    for (size_t i = 0; i < N_FIELDS && !status; i++)
+    enum kd_status status = KD_OK;
+    if (arguments->input)
+        KD_TRY(load_file(arguments->input, request, error));
+    for (size_t i = 0; i < N_FIELDS; i++)
         if (arguments->fields[i])
-            status = kd_rays_request_set(request, names[i], arguments->fields[i], error);
-    for (size_t i = 0; i < arguments->more.n && !status; i++)
-        status = kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1], error);
+            KD_TRY(kd_rays_request_set(request, names[i], arguments->fields[i], error));
+    for (size_t i = 0; i < arguments->more.n; i++)
+        KD_TRY(kd_rays_request_add(request, arguments->more.alpha_beta[2 * i], arguments->more.alpha_beta[2 * i + 1], error));
+done:
     return status;
 }
 
@@ -141,16 +144,16 @@ static enum kd_status settle(const struct arguments *arguments, struct kd_rays_r
                              struct kd_error *error)
 {
     struct kd_capacity capacity;
-    enum kd_status status = KD_OK;
+    enum kd_status status;
     bool device = kd_wish_needs_device(&request->wish);
-    if (device)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, renderer, error);
-    if (status)
-        return status;
-    if (device)
+    if (device) {
+        KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, renderer, error));
         kd_renderer_capacity(*renderer, &capacity);
-    status = kd_rays_request_settle(request, device ? &capacity : NULL, error);
-    return status ? status : kd_rays_request_check(request, error);
+    }
+    KD_TRY(kd_rays_request_settle(request, device ? &capacity : NULL, error));
+    KD_TRY(kd_rays_request_check(request, error));
+done:
+    return status;
 }
 
 static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer *answer, struct kd_error *error)
@@ -180,21 +183,18 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     struct kd_renderer *renderer = NULL;
     const char *path = arguments->output ? arguments->output : "-";
     kd_rays_request_init(&request);
-    enum kd_status status = load(arguments, &request, error);
-    if (!status)
-        status = settle(arguments, &request, &renderer, error);
-    if (!status && (strcmp(path, "-") || format == KD_RAYS_NPY))
-        status = kd_file_check(path, error);
-    if (!status) {
-        status = kd_rays_answer_init(&answer, &request.params, request.alpha_beta, request.n, error);
-        request.alpha_beta = NULL;
-    }
-    if (!status)
-        status = trace(renderer, &answer, error);
-    if (!status)
-        status = kd_rays_stream_init(&stream, &answer, format, error);
-    if (!status)
-        status = kd_file_stream(path, produce, &stream, error);
+    enum kd_status status;
+    KD_TRY(load(arguments, &request, error));
+    KD_TRY(settle(arguments, &request, &renderer, error));
+    if (strcmp(path, "-") || format == KD_RAYS_NPY)
+        KD_TRY(kd_file_check(path, error));
+    double *alpha_beta = request.alpha_beta; /* the answer's from here on */
+    request.alpha_beta = NULL;
+    KD_TRY(kd_rays_answer_init(&answer, &request.params, alpha_beta, request.n, error));
+    KD_TRY(trace(renderer, &answer, error));
+    KD_TRY(kd_rays_stream_init(&stream, &answer, format, error));
+    KD_TRY(kd_file_stream(path, produce, &stream, error));
+done:
     kd_renderer_destroy(renderer);
     kd_rays_stream_finish(&stream);
     kd_rays_answer_finish(&answer);
@@ -223,20 +223,19 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     struct kd_rays_steps steps = { 0 };
     struct kd_renderer *renderer = NULL;
     kd_rays_request_init(&request);
-    enum kd_status status = load(arguments, &request, error);
-    if (!status && request.n != 1)
-        status = kd_error_field(error, "/rays", "there are %zu rays, and --trace follows one", request.n);
-    if (!status && arguments->output && strcmp(arguments->output, "-"))
-        status = kd_file_check(arguments->output, error);
-    if (!status)
-        status = settle(arguments, &request, &renderer, error);
-    if (!status) {
-        status = kd_rays_steps(renderer, &request.params, request.alpha_beta[0], request.alpha_beta[1], &steps, error);
-        if (status == KD_EDEVICE && !*error->pointer) /* as below for whole lists */
-            kd_cli_device_lost(error);
-    }
-    if (!status)
-        status = tell(arguments, &steps, error);
+    enum kd_status status;
+    KD_TRY(load(arguments, &request, error));
+    if (request.n != 1)
+        KD_TRY(kd_error_field(error, "/rays", "there are %zu rays, and --trace follows one", request.n));
+    if (arguments->output && strcmp(arguments->output, "-"))
+        KD_TRY(kd_file_check(arguments->output, error));
+    KD_TRY(settle(arguments, &request, &renderer, error));
+    status = kd_rays_steps(renderer, &request.params, request.alpha_beta[0], request.alpha_beta[1], &steps, error);
+    if (status == KD_EDEVICE && !*error->pointer) /* as in trace() */
+        kd_cli_device_lost(error);
+    KD_TRY(status);
+    KD_TRY(tell(arguments, &steps, error));
+done:
     kd_rays_steps_finish(&steps);
     kd_renderer_destroy(renderer);
     kd_rays_request_finish(&request);

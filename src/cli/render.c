@@ -140,18 +140,16 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
 {
     struct kd_scene scene;
     struct work work = { 0 };
-    enum kd_status status = kd_scene_options_load(&arguments->scene, &scene, error);
-    if (!status)
-        status = kd_file_check(arguments->output, error);
-    if (!status)
-        status = kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory },
-                                    &work.renderer, error);
-    if (!status)
-        status = draw(&work, arguments->format, &scene, error);
-    if (!status)
-        status = save(&work, &scene, arguments, error);
-    if (!status && arguments->stats)
-        status = print_stats(&work, &scene, error);
+    enum kd_status status;
+    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
+    KD_TRY(kd_file_check(arguments->output, error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory },
+                              &work.renderer, error));
+    KD_TRY(draw(&work, arguments->format, &scene, error));
+    KD_TRY(save(&work, &scene, arguments, error));
+    if (arguments->stats)
+        KD_TRY(print_stats(&work, &scene, error));
+done:
     kd_frame_finish(&work.frame);
     kd_buffer_finish(&work.file);
     kd_renderer_destroy(work.renderer);

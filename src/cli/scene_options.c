@@ -128,19 +128,20 @@ static enum kd_status apply_set(const char *text, struct kd_scene *scene, struct
 enum kd_status kd_scene_options_load(const struct kd_scene_options *options, struct kd_scene *out,
                                      struct kd_error *error)
 {
-    enum kd_status status = KD_OK;
+    enum kd_status status;
     kd_scene_defaults(out);
     if (options->preset)
-        status = kd_scene_preset(out, options->preset, error);
-    if (!status && options->document)
-        status = merge_document(options->document, out, error);
-    if (!status && options->from)
-        status = take_picture(options->from, out, error);
-    for (size_t i = 0; i < options->n_set && !status; i++)
-        status = apply_set(options->set[i], out, error);
-    if (!status)
-        status = kd_asset_options_resolve(&options->assets, out, error);
-    return status ? status : kd_scene_validate(out, error);
+        KD_TRY(kd_scene_preset(out, options->preset, error));
+    if (options->document)
+        KD_TRY(merge_document(options->document, out, error));
+    if (options->from)
+        KD_TRY(take_picture(options->from, out, error));
+    for (size_t i = 0; i < options->n_set; i++)
+        KD_TRY(apply_set(options->set[i], out, error));
+    KD_TRY(kd_asset_options_resolve(&options->assets, out, error));
+    KD_TRY(kd_scene_validate(out, error));
+done:
+    return status;
 }
 
 void kd_scene_options_finish(struct kd_scene_options *options)

@@ -46,24 +46,29 @@ static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct c
 
 static enum kd_status put_text_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "%6u %-8s %5u", step->number, stage_name(step), step->order);
-    for (const struct column *c = columns_of(steps); c->name && !status; c++)
-        status = put_cell(steps, c, value(step, c), out);
-    return status ? status : kd_buffer_printf(out, "\n");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%6u %-8s %5u", step->number, stage_name(step), step->order));
+    for (const struct column *c = columns_of(steps); c->name; c++)
+        KD_TRY(put_cell(steps, c, value(step, c), out));
+    KD_TRY(kd_buffer_printf(out, "\n"));
+done:
+    return status;
 }
 
 static enum kd_status put_verdict(const struct kd_rays_steps *steps, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "%s, crossings %u", fate_name(steps), steps->end.n_crossings);
-    if (!status && isfinite(steps->end.theta))
-        status = kd_buffer_printf(out, ", from theta %.11g, phi %.11g", steps->end.theta, steps->end.phi);
-    if (!status && isfinite(steps->end.error))
-        status = kd_buffer_printf(out, ", estimated error %.1e", steps->end.error);
-    if (!status && steps->lost)
-        status = kd_buffer_printf(out, "\n%zu more steps are not shown", steps->lost);
-    return status ? status
-                  : kd_buffer_printf(out, "\nwithout --trace the device gives %s\n",
-                                     steps->same ? "the same, bit for bit" : "OTHER numbers: these steps are not quite those");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%s, crossings %u", fate_name(steps), steps->end.n_crossings));
+    if (isfinite(steps->end.theta))
+        KD_TRY(kd_buffer_printf(out, ", from theta %.11g, phi %.11g", steps->end.theta, steps->end.phi));
+    if (isfinite(steps->end.error))
+        KD_TRY(kd_buffer_printf(out, ", estimated error %.1e", steps->end.error));
+    if (steps->lost)
+        KD_TRY(kd_buffer_printf(out, "\n%zu more steps are not shown", steps->lost));
+    KD_TRY(kd_buffer_printf(out, "\nwithout --trace the device gives %s\n",
+                   steps->same ? "the same, bit for bit" : "OTHER numbers: these steps are not quite those"));
+done:
+    return status;
 }
 
 enum kd_status kd_trace_text(const struct kd_rays_steps *steps, struct kd_buffer *out)
@@ -74,18 +79,19 @@ enum kd_status kd_trace_text(const struct kd_rays_steps *steps, struct kd_buffer
     char given[sizeof numbers / sizeof *numbers][KD_DECIMAL_SIZE];
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         kd_decimal_print(given[i], numbers[i]);
-    enum kd_status status = kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1],
-                                             given[2], given[3], isinf(p->r) ? "infinity" : given[4]);
-    if (!status)
-        status = kd_buffer_printf(out, "%s %s, %u steps a half period\n%6s %-8s %5s", kd_engine_name(p->engine),
-                                  kd_precision_name(p->precision), p->steps, "number", "stage", "order");
-    for (const struct column *c = columns_of(steps); c->name && !status; c++)
-        status = kd_buffer_printf(out, " %*s", c->name[0] == 'r' && c->name[1] == 'e' ? 8 : wide ? 18 : 14, c->name);
-    if (!status)
-        status = kd_buffer_printf(out, "\n");
-    for (size_t i = 0; i < steps->n && !status; i++)
-        status = put_text_row(steps, &steps->steps[i], out);
-    return status ? status : put_verdict(steps, out);
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1],
+                            given[2], given[3], isinf(p->r) ? "infinity" : given[4]));
+    KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n%6s %-8s %5s", kd_engine_name(p->engine),
+                            kd_precision_name(p->precision), p->steps, "number", "stage", "order"));
+    for (const struct column *c = columns_of(steps); c->name; c++)
+        KD_TRY(kd_buffer_printf(out, " %*s", c->name[0] == 'r' && c->name[1] == 'e' ? 8 : wide ? 18 : 14, c->name));
+    KD_TRY(kd_buffer_printf(out, "\n"));
+    for (size_t i = 0; i < steps->n; i++)
+        KD_TRY(put_text_row(steps, &steps->steps[i], out));
+    KD_TRY(put_verdict(steps, out));
+done:
+    return status;
 }
 
 /* "name":number, with a comma before it; nothing for a number that does not exist. */
@@ -101,57 +107,64 @@ static enum kd_status put_member(const char *name, double x, struct kd_buffer *o
 static enum kd_status put_json_step(const struct kd_rays_steps *steps, size_t i, struct kd_buffer *out)
 {
     const struct kd_rays_step *step = &steps->steps[i];
-    enum kd_status status = kd_buffer_printf(out, "%s{\"number\":%u,\"stage\":\"%s\",\"order\":%u", i ? "," : "", step->number,
-                                             stage_name(step), step->order);
-    for (const struct column *c = columns_of(steps); c->name && !status; c++)
-        status = put_member(c->name, value(step, c), out);
-    return status ? status : kd_buffer_printf(out, "}");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%s{\"number\":%u,\"stage\":\"%s\",\"order\":%u", i ? "," : "", step->number,
+                            stage_name(step), step->order));
+    for (const struct column *c = columns_of(steps); c->name; c++)
+        KD_TRY(put_member(c->name, value(step, c), out));
+    KD_TRY(kd_buffer_printf(out, "}"));
+done:
+    return status;
 }
 
 enum kd_status kd_trace_json(const struct kd_rays_steps *steps, struct kd_buffer *out)
 {
     const struct kd_rays_params *p = &steps->params;
-    enum kd_status status = kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\"", kd_engine_name(p->engine),
-                                             kd_precision_name(p->precision));
-    if (!status)
-        status = kd_buffer_printf(out, ",\"steps_a_half_period\":%u,\"orders\":%u", p->steps, p->orders);
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\"", kd_engine_name(p->engine), kd_precision_name(p->precision)));
+    KD_TRY(kd_buffer_printf(out, ",\"steps_a_half_period\":%u,\"orders\":%u", p->steps, p->orders));
     const struct { const char *name; double x; } members[] = {
         { "spin", p->spin }, { "inclination_deg", p->inclination_deg }, { "r", p->r }, /* without r: from infinity */
         { "alpha", steps->alpha }, { "beta", steps->beta }, { "sky_theta", steps->end.theta }, { "sky_phi", steps->end.phi },
         { "error", steps->end.error },
     };
-    for (size_t i = 0; i < sizeof members / sizeof *members && !status; i++)
-        status = put_member(members[i].name, members[i].x, out);
-    if (!status)
-        status = kd_buffer_printf(out, ",\"fate\":\"%s\",\"crossings\":%u,\"not_shown\":%zu,\"same_without_trace\":%s,\"steps\":[",
-                                  fate_name(steps), steps->end.n_crossings, steps->lost, steps->same ? "true" : "false");
-    for (size_t i = 0; i < steps->n && !status; i++)
-        status = put_json_step(steps, i, out);
-    return status ? status : kd_buffer_printf(out, "]}\n");
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        KD_TRY(put_member(members[i].name, members[i].x, out));
+    KD_TRY(kd_buffer_printf(out, ",\"fate\":\"%s\",\"crossings\":%u,\"not_shown\":%zu,\"same_without_trace\":%s,\"steps\":[",
+                            fate_name(steps), steps->end.n_crossings, steps->lost, steps->same ? "true" : "false"));
+    for (size_t i = 0; i < steps->n; i++)
+        KD_TRY(put_json_step(steps, i, out));
+    KD_TRY(kd_buffer_printf(out, "]}\n"));
+done:
+    return status;
 }
 
 static enum kd_status put_csv_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step, struct kd_buffer *out)
 {
     char text[KD_DECIMAL_SIZE];
-    enum kd_status status = kd_buffer_printf(out, "%u,%s,%u", step->number, stage_name(step), step->order);
-    for (const struct column *c = columns_of(steps); c->name && !status; c++) {
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%u,%s,%u", step->number, stage_name(step), step->order));
+    for (const struct column *c = columns_of(steps); c->name; c++) {
         double x = value(step, c);
         text[0] = '\0';
         if (isfinite(x))
             kd_decimal_print(text, x);
-        status = kd_buffer_printf(out, ",%s", text);
+        KD_TRY(kd_buffer_printf(out, ",%s", text));
     }
-    return status ? status : kd_buffer_printf(out, "\n");
+    KD_TRY(kd_buffer_printf(out, "\n"));
+done:
+    return status;
 }
 
 enum kd_status kd_trace_csv(const struct kd_rays_steps *steps, struct kd_buffer *out)
 {
-    enum kd_status status = kd_buffer_printf(out, "number,stage,order");
-    for (const struct column *c = columns_of(steps); c->name && !status; c++)
-        status = kd_buffer_printf(out, ",%s", c->name);
-    if (!status)
-        status = kd_buffer_printf(out, "\n");
-    for (size_t i = 0; i < steps->n && !status; i++)
-        status = put_csv_row(steps, &steps->steps[i], out);
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "number,stage,order"));
+    for (const struct column *c = columns_of(steps); c->name; c++)
+        KD_TRY(kd_buffer_printf(out, ",%s", c->name));
+    KD_TRY(kd_buffer_printf(out, "\n"));
+    for (size_t i = 0; i < steps->n; i++)
+        KD_TRY(put_csv_row(steps, &steps->steps[i], out));
+done:
     return status;
 }
