@@ -86,6 +86,8 @@ class Assets(Case):
         after = told()
         self.assertEqual((after['assets'], after['bytes']), (before['assets'] + 1, before['bytes'] + asset['bytes']))
         self.assertNotIn(asset['sha256'], json.dumps(after), 'who knows a hash may have the bytes')
+        metrics = self.daemon.metrics()
+        self.assertEqual((metrics['kerrd_assets'], metrics['kerrd_asset_bytes']), (after['assets'], after['bytes']))
         self.delete(asset)
         self.assertEqual(told(), before)
 

@@ -1,4 +1,5 @@
 /* GET /metrics: counters and gauges in Prometheus's text format 0.0.4. */
+#include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/job/jobs.h"
@@ -52,6 +53,9 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
     struct kd_server *s = request->server;
     struct kd_buffer text = { 0 };
     struct counts now = count(s);
+    unsigned assets;
+    uint64_t asset_bytes;
+    kd_asset_store_count(s->assets, &assets, &asset_bytes);
     const struct { const char *name, *type, *help; double value; } rows[] = {
         { "requests", "gauge", "Requests begun and not yet answered in full.", atomic_load(&s->requests) },
         { "renders_unfinished", "gauge", "Pictures and device work waiting, being rendered or encoded.",
@@ -65,6 +69,8 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)now.sessions.bytes },
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },
+        { "assets", "gauge", "Assets that are kept.", assets },
+        { "asset_bytes", "gauge", "Bytes of all assets.", (double)asset_bytes },
         { "bodies_bytes", "gauge", "Bodies being received.", (double)kd_bytes_held(s->bodies) },
         { "replies_bytes", "gauge", "Answers not yet taken by their clients.", (double)kd_bytes_held(s->replies) },
         { "serving", "gauge", "1 until the server has been asked to stop.", atomic_load(&s->phase) == KD_SERVING },

@@ -52,7 +52,7 @@ enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error
 
 static void name_of(const char *hash, const char *kind, char out[FILE_NAME]) { snprintf(out, FILE_NAME, "%.64s.%s", hash, kind); }
 
-/* The hash that a name of ours begins with; false: it is none. */
+/* Reads the hash that a file's name begins with; false: the name is none of ours. */
 static bool hash_of(const char *name, const char *kind, char hash[KD_ASSET_NAME])
 {
     snprintf(hash, KD_ASSET_NAME, "%.64s", name);
@@ -78,7 +78,7 @@ static bool read_record(int folder, const char *hash, struct kd_asset_about *out
     return good;
 }
 
-/* Why not, or NULL. */
+/* Reads the bytes of an asset, and checks them. Returns why they are not taken, or NULL. */
 static const char *read_bytes(int folder, struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     char name[FILE_NAME], hash[KD_ASSET_NAME];
@@ -92,7 +92,7 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
     return NULL;
 }
 
-/* Whether its record is there, whatever it says. */
+/* Says whether an asset's record is there, whatever it holds. */
 static bool has_record(int folder, const char *hash)
 {
     char name[FILE_NAME];
@@ -101,7 +101,7 @@ static bool has_record(int folder, const char *hash)
     return !fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW);
 }
 
-/* Bytes whose record was not written any more, or is gone already, and the beginnings of files. */
+/* Says whether a server that was killed left the file behind: bytes without their record, or the beginning of a file. */
 static bool is_left_over(int folder, const char *name)
 {
     static const char *const kinds[] = { "png", "json" };

@@ -1,19 +1,19 @@
-/* The files of assets, these and no others, and through no link. Private to store.c. */
+/* Reads and writes the files of assets, these and no others, and follows no link. Private to store.c. */
 #ifndef KD_SERVER_ASSET_FOLDER_H
 #define KD_SERVER_ASSET_FOLDER_H
 
 #include "base/buffer.h"
 #include "server/asset/store.h"
 
-/* A descriptor of STATE/assets, made if it is not there; -1: KD_EIO with its path. */
+/* Opens STATE/assets, which is made if it is not there; *out is its descriptor. Fails with KD_EIO and the path. */
 enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error *error);
 
-/* Each asset that is whole and that look() takes; the bytes are found()'s to keep or free. What servers that were killed have left half
- * done is removed. */
+/* Calls found() for each asset that is whole and that kd_asset_look takes; the bytes are found()'s to keep or free. Files that a
+ * killed server left half done are removed. */
 enum kd_status kd_asset_folder_load(int folder, void (*found)(void *user, const struct kd_asset_about *about, struct kd_buffer *bytes), void *user,
                                     struct kd_error *error);
 
-/* KD_EFULL: the disk is full. */
+/* Writes the bytes, then the record. KD_EFULL: the disk is full. */
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);
 void kd_asset_folder_remove(int folder, const char *hash);
 

@@ -27,8 +27,8 @@ struct kd_asset_store {
     pthread_mutex_t lock; /* for what follows; never held while a file is written */
     int folder;           /* -1: none */
     struct kd_asset *first;
-    unsigned assets;
-    uint64_t bytes;
+    _Atomic unsigned assets; /* these two are written with the lock, and read without */
+    _Atomic uint64_t bytes;
 };
 
 const struct kd_asset_about *kd_asset_about(const struct kd_asset *asset) { return &asset->about; }
@@ -49,7 +49,7 @@ static struct kd_asset *make(const struct kd_asset_about *about, const void *dat
     return asset;
 }
 
-/* Locked. */
+/* With the lock. */
 static void insert(struct kd_asset_store *store, struct kd_asset *asset)
 {
     asset->next = store->first;
@@ -58,7 +58,7 @@ static void insert(struct kd_asset_store *store, struct kd_asset *asset)
     store->bytes += asset->about.size;
 }
 
-/* Locked. False: it is not in the store any more. */
+/* Takes the asset out of the list; false: it is not there any more. With the lock. */
 static bool take_out(struct kd_asset_store *store, struct kd_asset *asset)
 {
     struct kd_asset **at = &store->first;
@@ -72,7 +72,7 @@ static bool take_out(struct kd_asset_store *store, struct kd_asset *asset)
     return true;
 }
 
-/* Locked. */
+/* With the lock. */
 static void let_go(struct kd_asset *asset)
 {
     if (!--asset->references)
@@ -87,7 +87,7 @@ static struct kd_asset *find(const struct kd_asset_store *store, const char *has
     return NULL;
 }
 
-/* Who put these here is not known any more. */
+/* Takes in an asset from the folder. Who put it there is not known any more, so it counts to no client. */
 static void load(void *user, const struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     struct kd_asset_store *store = user;
@@ -133,7 +133,7 @@ void kd_asset_store_close(struct kd_asset_store *store)
     free(store);
 }
 
-/* Locked. The one that has been asked for least lately, so long ago that it may give way; NULL: none. */
+/* Finds the asset that nobody has asked for longest, if that is long enough to give way; NULL: none. With the lock. */
 static struct kd_asset *oldest(const struct kd_asset_store *store)
 {
     struct kd_asset *best = NULL;
@@ -149,7 +149,7 @@ static bool fits(const struct kd_asset_store *store, size_t size)
     return store->assets < store->limits.most && store->bytes + size <= store->limits.bytes;
 }
 
-/* Locked. Whether the client has its share without these bytes, or would have more with them. */
+/* Says whether the client has its share already, or would have more with these bytes. With the lock. */
 static bool has_share(const struct kd_asset_store *store, size_t size, const char *client)
 {
     unsigned assets = 0;
@@ -162,7 +162,7 @@ static bool has_share(const struct kd_asset_store *store, size_t size, const cha
     return assets >= store->limits.client_most || bytes > store->limits.client_bytes;
 }
 
-/* Locked. */
+/* With the lock. */
 static bool make_room(struct kd_asset_store *store, size_t size)
 {
     struct kd_asset *asset;
@@ -175,7 +175,7 @@ static bool make_room(struct kd_asset_store *store, size_t size)
     return fits(store, size);
 }
 
-/* Locked. One that is here already, or a place for a new one. */
+/* Finds the asset if it is here already, or makes place for a new one. With the lock. */
 static enum kd_status place(struct kd_asset_store *store, struct kd_asset *fresh, struct kd_asset_put *put, struct kd_error *error)
 {
     const struct kd_asset_limits *limits = &store->limits;
@@ -203,7 +203,7 @@ static enum kd_status place(struct kd_asset_store *store, struct kd_asset *fresh
     return KD_OK;
 }
 
-/* What has a place becomes a file, and can be found. */
+/* Writes the file of an asset that has a place. From then on it can be found. */
 static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asset, struct kd_error *error)
 {
     enum kd_status status = store->folder >= 0 ? kd_asset_folder_write(store->folder, &asset->about, error) : KD_OK;
@@ -275,10 +275,8 @@ void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset)
     pthread_mutex_unlock(&store->lock);
 }
 
-void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes)
+void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, uint64_t *bytes)
 {
-    pthread_mutex_lock(&store->lock);
     *assets = store->assets;
     *bytes = store->bytes;
-    pthread_mutex_unlock(&store->lock);
 }

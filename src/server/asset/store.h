@@ -23,11 +23,11 @@ struct kd_asset_limits {
     uint64_t bytes, client_bytes;     /* of all; of those of one client */
     double keep_s;                    /* that one stays though nobody asks for it and others want its room */
 };
-/* state: NULL, or the server's folder, of which this process holds the lock (job/store.h). What it holds is read; what cannot be read is
- * logged and left alone. */
+/* Opens the store. state: NULL, or the server's folder, of which this process holds the lock (job/store.h). Assets in it are read;
+ * what cannot be read is logged and left alone. */
 enum kd_status kd_asset_store_open(const char *state, const struct kd_asset_limits *limits, struct kd_asset_store **out,
                                    struct kd_error *error);
-/* When nobody holds a reference any more. Accepts NULL. */
+/* To be called when nobody holds a reference any more. Accepts NULL. */
 void kd_asset_store_close(struct kd_asset_store *store);
 const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);
 
@@ -40,14 +40,15 @@ struct kd_asset_put {
 };
 enum kd_status kd_asset_store_put(struct kd_asset_store *store, const void *data, size_t size, const char *client, struct kd_asset_put *put,
                                   struct kd_error *error);
-/* By its hash: a reference, or NULL. Who asks for an asset keeps it from giving way. */
+/* Finds an asset by its hash: a reference, or NULL. Who asks for an asset keeps it from giving way. */
 struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *hash);
-/* Nobody finds it any more; its bytes go with the last reference, its files at once. */
+/* Removes the asset: nobody finds it any more. Its files go at once, its bytes with the last reference. */
 void kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
-void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
+/* How many there are, and their bytes. It waits for nobody: an asset that comes or goes just then may be in one of the two alone. */
+void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
 
-/* Constant as long as it is held. */
+/* What is known of an asset stays the same as long as it is held. */
 struct kd_asset_about {
     char hash[KD_ASSET_NAME], token[KD_SECRET_TOKEN];
     uint32_t width, height;
