@@ -6,9 +6,9 @@
 
 #include "scene/scene.h"
 
-/* 64 hexadecimal digits, lower case. */
+/* A hash is 64 hexadecimal digits, lower case. */
 bool kd_asset_is_hash(const char *text);
-/* A letter, and up to 62 letters, digits, dots, dashes and underscores. */
+/* A name is a letter, and up to 62 letters, digits, dots, dashes and underscores. */
 bool kd_asset_is_name(const char *text);
 
 /* Puts the hash in the place of each name, by find(user, name or hash, hash), which is asked about hashes too. Where that knows none:

@@ -4,16 +4,16 @@
 
 #include "scene/table.h"
 
-/* token is "0", "1", ... below the list's `most`, without leading zeros; else KD_EINVAL with the pointer to it. */
+/* Reads an index: token is "0", "1", ... below the list's `most`, without leading zeros; else KD_EINVAL with the pointer to it. */
 enum kd_status kd_element_find(const struct kd_section *list, const char *token, size_t *index, struct kd_error *error);
 
 /* A list grows by the next free index alone: KD_EINVAL for one beyond it, which names it. */
 enum kd_status kd_element_reach(const struct kd_section *list, size_t size, size_t index, struct kd_error *error);
 
-/* Whether a list may have so many; else KD_EINVAL with the pointer to the first one that is too many. */
+/* Checks that a list may have so many; else KD_EINVAL with the pointer to the first one that is too many. */
 enum kd_status kd_element_count(const struct kd_section *list, size_t size, struct kd_error *error);
 
-/* "/spots/3" */
+/* Spells "/spots/3". */
 void kd_element_pointer(const struct kd_section *list, size_t index, char out[KD_PATH_SIZE]);
 
 #endif

@@ -21,7 +21,7 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
                                  kd_fields[section->first + i].name);
 }
 
-/* "; did you mean camera.r?" or "; known are ..." */
+/* Writes "; did you mean camera.r?" or "; known are ...". */
 static void hint(const char *section, size_t index, const char *name, char out[HINT_SIZE])
 {
     int best = KD_SLIP_FAR;

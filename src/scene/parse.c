@@ -17,7 +17,7 @@ struct reader {
     struct kd_error *error;
 };
 
-/* One object of the document: a section, an element of a list, or the document itself. */
+/* An object of the document is a section, an element of a list, or the document itself. */
 struct object {
     const struct kd_section *section;
     size_t index;
@@ -25,7 +25,7 @@ struct object {
     bool seen[KD_FIELD_COUNT];
 };
 
-/* Once each: a second one would silently win. */
+/* Each name is taken once: a second one would silently win. */
 static enum kd_status once(struct reader *reader, bool *seen, const char *pointer)
 {
     if (!*seen) {
@@ -39,7 +39,7 @@ static enum kd_status once(struct reader *reader, bool *seen, const char *pointe
     return kd_error_field(reader->error, pointer, "%s is given twice", path);
 }
 
-/* pointer: of what should be this, and is the item. */
+/* Says what the item is, and what is allowed at this pointer. */
 static enum kd_status not_a(struct reader *reader, const cJSON *item, const char *pointer, const char *allowed)
 {
     char given[KD_VALUE_SIZE], path[KD_PATH_SIZE];
@@ -67,7 +67,7 @@ static enum kd_status read_field(struct reader *reader, struct object *object, c
     return status ? status : kd_value_store(&reader->scene, field, object->index, &value, reader->error);
 }
 
-/* A section, or an element that is there. */
+/* Reads a section, or an element that is there. */
 static enum kd_status read_object(struct reader *reader, const struct kd_section *section, size_t index, const char *pointer,
                                   const cJSON *item, bool patch)
 {

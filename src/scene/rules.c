@@ -16,7 +16,7 @@ static struct shown show(double value)
     return s;
 }
 
-/* A computed bound, rounded up to what a person would type, so that typing it is accepted. */
+/* A computed bound is rounded up to what a person would type, so that typing it is accepted. */
 static struct shown show_bound(double value)
 {
     return show(ceil(value * 1e9) / 1e9);

@@ -1,4 +1,4 @@
-/* What ties fields together: a sentence for the reference and the check that enforces it. Any thread. */
+/* Rules tie fields together: each is a sentence for the reference and the check that enforces it. Any thread. */
 #ifndef KD_SCENE_RULES_H
 #define KD_SCENE_RULES_H
 
@@ -7,7 +7,7 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
-    /* Where the rule is that a whole number is a multiple of one, which a schema can say too; else NULL, NULL, 0. */
+    /* A schema can say it too where the rule is that a whole number is a multiple of one; else NULL, NULL, 0. */
     const char *section, *name;
     int32_t multiple;
 };

@@ -41,10 +41,10 @@ struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
 };
 
-/* Every field at its default: the picture of an empty document. */
+/* Sets every field to its default: the picture of an empty document. */
 void kd_scene_defaults(struct kd_scene *scene);
 
-/* A preset by name; KD_EINVAL naming the known ones otherwise. */
+/* Finds a preset by name; KD_EINVAL names the known ones otherwise. */
 enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error);
 size_t kd_scene_preset_count(void);
 const char *kd_scene_preset_name(size_t index);
@@ -60,8 +60,8 @@ const char *kd_scene_preset_title(size_t index);
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
                                   struct kd_error *error);
 
-/* The same for a merge patch (RFC 7396): null takes a field, or all fields of a section or element, back to the default; it empties a
- * list. */
+/* Merges a patch (RFC 7396) in the same way: null takes a field, or all fields of a section or element, back to the default; it
+ * empties a list. */
 enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
 /* Set one scalar field by its dotted path ("camera.inclination_deg", "spots.0.r") from text; one of the next free index of a list makes
@@ -69,35 +69,35 @@ enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t l
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value,
                             struct kd_error *error);
 
-/* Whether both name the same field, one of them by an old name perhaps. */
+/* Says whether both name the same field, one of them by an old name perhaps. */
 bool kd_scene_same_path(const char *a, const char *b);
 
 /* Rules that tie fields together: a static observer outside the ergosphere, a pinhole at a finite
  * radius, disk edges in order and outside the ISCO, bit depth 8 or 16, ... */
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
 
-/* What goes on by itself in a live session, azimuth and time, after so many seconds; whether time does. Whether any of it can be seen
- * is for the emitters to say (render/emit/emitter.h). */
+/* Move what goes on by itself in a live session, azimuth and time, by so many seconds; say whether time goes on. Whether any of it
+ * can be seen is for the emitters to say (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
 
-/* Where the observer is. */
+/* Says where the observer is. */
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 
-/* The spots that are on, in order. */
+/* Finds the spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 
-/* A struck hole at the scene's time: *wave = A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n = 0, t from
- * style.ringdown_time on. False: it was not struck, or not yet. Up to 1 ms. */
+/* Computes how a struck hole rings at the scene's time: *wave = A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n =
+ * 0, t from style.ringdown_time on. False: it was not struck, or not yet. Up to 1 ms. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave);
 
-/* The canonical document: every field, in table order, shortest numbers that read back exactly, no spaces. */
+/* Writes the canonical document: every field, in table order, shortest numbers that read back exactly, no spaces. */
 enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *out);
 
-/* SHA-256 of the canonical document as 64 hexadecimal digits and a NUL. */
+/* Writes the SHA-256 of the canonical document as 64 hexadecimal digits and a NUL. */
 enum kd_status kd_scene_hash(const struct kd_scene *scene, char hash[65]);
 
-/* From the same table: JSON Schema (draft 2020-12) of the document, and docs/scene.md. */
+/* Write the JSON Schema (draft 2020-12) of the document, and docs/scene.md, from the same table. */
 enum kd_status kd_scene_schema(struct kd_buffer *out);
 enum kd_status kd_scene_reference(struct kd_buffer *out);
 

@@ -40,7 +40,7 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     case KD_FIELD_BOOL: kd_write(w, "\"type\":\"boolean\""); return;
     case KD_FIELD_ENUM: write_words(w, field); return;
     case KD_FIELD_WORD:
-        /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a number. */
+        /* The word comes first: generators of clients take the first type that a default fits, and "infinity" reads as a number. */
         kd_write(w, "\"anyOf\":[{\"const\":");
         kd_write_string(w, field->words);
         kd_write(w, "},{");
@@ -86,7 +86,7 @@ static void write_fields(struct kd_writer *w, const struct kd_section *section)
     }
 }
 
-/* What follows a description and ends its schema. */
+/* Writes what follows a description, and ends its schema. */
 static void write_object(struct kd_writer *w, const struct kd_section *section)
 {
     kd_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
@@ -107,7 +107,7 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
         kd_write(w, "}");
 }
 
-/* x-now: the path that has taken its place. */
+/* Writes an old name; x-now is the path that has taken its place. */
 static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
 {
     kd_write(w, ",\"%s\":{\"description\":\"an old name of %s.%zu\",\"deprecated\":true,\"x-now\":\"%s.%zu\",", old->name, old->section,
@@ -115,7 +115,7 @@ static void write_old_name(struct kd_writer *w, const struct kd_old_name *old)
     write_object(w, kd_section_find(old->section));
 }
 
-/* What x-nature and x-group can be: natures with what they mean, groups in the order of the page. */
+/* Writes what x-nature and x-group can be: natures with what they mean, groups in the order of the page. */
 static void write_words_of_fields(struct kd_writer *w)
 {
     kd_write(w, "\"x-natures\":{");

@@ -73,7 +73,7 @@ static enum kd_status find_place(const char *path, struct place *place, struct k
     return place->section->most ? in_list(place, error) : KD_OK;
 }
 
-/* With what has taken the place of an old name. */
+/* Writes the path with the list and index that have taken the place of an old name. */
 static void renew(const char *path, char out[2 * KD_PATH_SIZE])
 {
     char token[KD_PATH_SIZE];

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* 64 hexadecimal digits and a NUL; data may be NULL where size is 0. Some 3 ms a MiB. */
+/* Writes 64 hexadecimal digits and a NUL. data may be NULL where size is 0. It takes some 3 ms a MiB. */
 void kd_sha256(const void *data, size_t size, char out[65]);
 
 #endif

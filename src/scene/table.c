@@ -6,7 +6,7 @@
 /* Members of "top" stand in the document itself. */
 #define SECTION_NAME(s) (offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* Where the rows of each section begin in the scene, what they are in, and how far the next element of it is. */
+/* These say where the rows of each section begin in the scene, in which struct they are, and how far the next element is. */
 #define PLACE(name, ROWS, group, help)                                                                       \
     struct rows_of_##name {                                                                                  \
         KD_M_ROWS(ROWS)                                                                                      \
@@ -49,7 +49,7 @@ const char *const kd_groups[KD_GROUP_COUNT] = {
 #define LIST_FIELDS(name, element, ROWS, group, most, help) FIELDS(name, ROWS, group, help)
 const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
 
-/* Each section's row before the first: an enumerator that counts on from the section above. */
+/* An enumerator counts the rows on from section to section: FIRST_ is each one's first row. */
 #define EXTENT(name, ROWS, group, help)                                                                      \
     FIRST_##name, LAST_##name = FIRST_##name - 1 + (KD_COUNT_ROWS(name, ROWS, group, help)),
 #define LIST_EXTENT(name, element, ROWS, group, most, help) EXTENT(name, ROWS, group, help)
@@ -163,7 +163,7 @@ const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *
     return (const char *)scene + field->offset + index * field->stride;
 }
 
-/* All of its bytes, so that equal scenes are equal bytes. */
+/* All bytes of the name are written, so that equal scenes are equal bytes. */
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text)
 {
     char *at = (char *)scene + field->offset + index * field->stride;
@@ -212,7 +212,7 @@ int kd_field_word_index(const struct kd_field *field, const char *text)
     return -1;
 }
 
-/* Its section, the index in a list and its name, each but the first behind a mark. */
+/* Spells a field: its section, the index in a list and its name, each but the first behind a mark. */
 static void spell(const struct kd_field *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
 {
     char element[24] = "";
@@ -235,7 +235,7 @@ void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PA
 
 void kd_scene_defaults(struct kd_scene *scene)
 {
-    /* Padding too, so that equal scenes are equal bytes. */
+    /* The padding is cleared too, so that equal scenes are equal bytes. */
     memset(scene, 0, sizeof *scene);
     for (size_t s = 0; s < KD_SECTION_COUNT; s++)
         for (size_t i = 0; i < (kd_sections[s].most ? kd_sections[s].most : 1); i++)

@@ -7,7 +7,7 @@
 
 enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM, KD_FIELD_ASSET };
 
-/* What a field means and where the page has it: the columns of scene/fields.h. */
+/* These words say what a field means and where the page has it: the columns of scene/fields.h. */
 enum kd_field_nature { KD_FIELD_PHYSICS, KD_FIELD_MODEL, KD_FIELD_LOOK };
 enum kd_field_place { KD_FIELD_FRONT, KD_FIELD_REST };
 enum kd_section_group { KD_GROUP_LOOK, KD_GROUP_GAS, KD_GROUP_HOLE, KD_GROUP_CAMERA, KD_GROUP_MORE };
@@ -40,7 +40,7 @@ struct kd_section {
     size_t size_at;      /* of a list: where struct kd_scene has the number of its elements, a size_t */
 };
 
-/* What an element of a list was called before. */
+/* An element of a list may have had a name of its own before. */
 struct kd_old_name {
     const char *name, *section;
     size_t index;
@@ -55,7 +55,7 @@ enum {
     KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
 };
 
-/* Elements of the longest list. */
+/* The longest list has so many elements. */
 #define KD_NO_ROOM(name, ROWS, group, help)
 #define KD_ROOM(name, element, ROWS, group, most, help) char name[most];
 union kd_list_room {
@@ -71,32 +71,34 @@ extern const struct kd_field kd_fields[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
-/* NULL when there is none; "" is the document itself. Names are case-sensitive. */
+/* Find by name: NULL when there is none; "" is the document itself. Names are case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
 const struct kd_field *kd_field_find(const char *section, const char *name);
 const struct kd_old_name *kd_old_name_find(const char *name);
 
-/* Elements: those of a list, 1 of a section that is none. To resize takes what a list loses, and what it gains, to the defaults. */
+/* Count the elements: those of a list, 1 of a section that is none. To resize takes what a list loses, and what it gains, to the
+ * defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
-/* All fields of one element at their defaults. */
+/* Sets all fields of one element to their defaults. */
 void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, size_t index);
 /* Takes elements whose fields are all at their defaults from the end of a list, down to `least`. An old name of an element says no more of
  * whether there is one. */
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
-/* Any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an ASSET whether there is one; 0 puts it away. */
+/* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an ASSET it says
+ * whether there is one; 0 puts it away. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
 
-/* The text of an ASSET, "" for none; to be put it is shorter than KD_ASSET_NAME. */
+/* Read and write the text of an ASSET, "" for none. A text to be written is shorter than KD_ASSET_NAME. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
 
 /* True if value may be stored in field: in range, whole where that is asked for, INFINITY for WORD alone. */
 bool kd_field_holds(const struct kd_field *field, double value);
 
-/* Words of an ENUM. The text of a word is not NUL-terminated: print it with %.*s. */
+/* An ENUM has words. The text of a word is not NUL-terminated: print it with %.*s. */
 struct kd_word {
     const char *text;
     int length;
@@ -105,7 +107,7 @@ int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
 int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: none of them */
 
-/* "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r". */
+/* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r". */
 enum { KD_PATH_SIZE = 80 };
 void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);

@@ -4,19 +4,18 @@
 
 #include <stddef.h>
 
-/* Bytes (1 to 4) of the well-formed UTF-8 sequence at text (RFC 3629: shortest form, no surrogates), 0 if
- * none. */
+/* Counts the bytes (1 to 4) of the well-formed UTF-8 sequence at text (RFC 3629: shortest form, no surrogates), 0 if none. */
 size_t kd_text_sequence(const char *text, size_t length);
 
-/* Copy for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...".
- * size is at least 8. */
+/* Copies text for a reader's eyes: control characters and broken UTF-8 become '?', what does not fit becomes "...". size is at
+ * least 8. */
 void kd_text_clip(char *out, size_t size, const char *text);
 
-/* Append "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so
- * that the pointer still names its parent. */
+/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / escaped). A token that does not fit is left out, so that the pointer still
+ * names its parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);
 
-/* Where a byte of a text is, both from 1; columns count characters. */
+/* Finds the line and column of a byte of a text, both from 1; columns count characters. */
 struct kd_text_place { size_t line, column; };
 struct kd_text_place kd_text_place_of(const char *text, size_t at);
 

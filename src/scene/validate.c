@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* A name that nobody has resolved is that of nothing. */
+/* An asset's name that nobody has resolved names nothing. */
 static enum kd_status asset(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
 {
     char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
@@ -19,7 +19,7 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_field 
     return kd_error_field(error, pointer, "%s is \"%.64s\", which is no SHA-256, and no name of an asset that is known here", path, name);
 }
 
-/* A scene that was filled in by hand has passed no parser. */
+/* Ranges are checked here too: a scene that was filled in by hand has passed no parser. */
 static enum kd_status range(const struct kd_scene *scene, const struct kd_field *field, size_t index, struct kd_error *error)
 {
     double value = kd_field_get(scene, field, index);

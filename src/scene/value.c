@@ -80,7 +80,7 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     }
 }
 
-/* The value as a double of that field, NAN if it is of another type or not one of the words. */
+/* Converts the value to the field's double, NAN if it is of another type or not one of the words. */
 static double convert(const struct kd_field *field, const struct kd_value *value)
 {
     bool string = value->kind == KD_VALUE_STRING, number = value->kind == KD_VALUE_NUMBER;
@@ -101,7 +101,7 @@ static double convert(const struct kd_field *field, const struct kd_value *value
     return NAN;
 }
 
-/* Beside a word, only a number in quotes was meant for one. */
+/* Says whether a number was wanted. Of a field that takes a word too, only a number in quotes was meant for one. */
 static bool wants_number(const struct kd_field *field, const struct kd_value *value)
 {
     if (field->kind == KD_FIELD_WORD)

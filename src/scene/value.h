@@ -19,22 +19,21 @@ struct kd_value {
     const char *text; /* STRING */
 };
 
-/* Store it, or KD_EINVAL with the pointer of the field, the value and what is allowed; *scene is then
- * unchanged. */
+/* Stores the value, or fails with KD_EINVAL, the field's pointer, the value and what is allowed; *scene is then unchanged. */
 enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
 
-/* The member "version": 1 and nothing else. */
+/* Checks the member "version": 1 and nothing else. */
 enum kd_status kd_value_version(const struct kd_value *value, struct kd_error *error);
 
-/* Typed text as the value that a document would hold in its place: what is not a number or a truth value is a word. */
+/* Takes typed text as the value that a document would hold in its place: what is not a number or a truth value is a word. */
 struct kd_value kd_value_typed(const char *text);
 
-/* What a message says after the value where only a number will do, and it is none: ", a string where a number is wanted" or "". */
+/* Says what a message adds after a value that is no number where only a number will do: ", a string where a number is wanted", or
+ * "". */
 const char *kd_value_unwanted(const struct kd_value *value);
 
-/* How a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false".
- */
+/* Write how a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false". */
 enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 160 };
 void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
 void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE]);

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as long. */
+/* These numbers were chosen by the simulations of tests/unit/governor.c, with noise of 25 % and one frame in twenty ten times as
+ * long. */
 static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8; /* of the room: noise does not carry from the last to first */
 static const double MORE = 1.1; /* a target so much larger or smaller is another: parts of a device that is shared waver a little */
 static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* of the target, of what is fixed */
@@ -18,7 +19,7 @@ enum {
     MISSES = 3, /* a lens map may be missed once, when the rung changes */
 };
 
-/* On whatever rung it is. */
+/* A pace forgets all that it has measured, and stays on its rung. */
 static void begin_anew(struct kd_pace *pace)
 {
     *pace = (struct kd_pace) { .rung = pace->rung, .changed_at = -INFINITY, .failed_at = -INFINITY, .retry_ms = RETRY_MS };
@@ -52,7 +53,8 @@ static void add(struct kd_frame_cost *sum, const struct kd_frame_cost *cost, dou
     sum->total_ms += weight * cost->total_ms;
 }
 
-/* Kernels that are made, and load, only ever make a frame dearer. */
+/* The cheapest of the latest frames tells the cost best while there are few: a kernel that is compiled, and load, only ever make
+ * one dearer. */
 static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint32_t n)
 {
     const struct kd_frame_cost *least = latest(pace, 0);
@@ -62,8 +64,8 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
     return *least;
 }
 
-/* Of the middle half of the window by total: neither a spike nor a frame that had nothing to do moves it, and of two kinds of
- * frames in turn it is the mean, where a median would be one or the other. */
+/* The mean is taken over the middle half of the window, by total: neither a spike nor a frame that had nothing to do moves it.
+ * Where two kinds of frames take turns it lies between them, and a median would be one or the other. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -80,13 +82,13 @@ static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
     return mean;
 }
 
-/* Of a frame's time what may go with its size, and how much that may be. */
+/* This part of a frame's time may change with its size. */
 static double varying(const struct kd_frame_cost *cost)
 {
     return cost->total_ms - cost->fixed_ms;
 }
 
-/* What a frame may take of the device: its share of the time from one to the next. */
+/* A frame may take its session's share of the time from one frame to the next. */
 static double target(const struct kd_governor *g)
 {
     return g->share * fmax(g->params.target_ms, fmin(g->params.target_ms / sqrt(g->share), g->params.sparse_ms));
@@ -98,15 +100,16 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* What varies, on another rung, if what is neither in the rays nor in the pixels goes with the pixels too; or if it stays. */
+/* Predicts the varying time of a frame on another rung. The rest, which is in neither the rays nor the pixels, either stays or
+ * grows with the pixels. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to, bool rest_stays)
 {
     double pixels = to->pixels / from->pixels, rest = varying(cost) - cost->rays_ms - cost->pixels_ms;
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
-/* The lowest rung that a pace may take. Where nothing moves, and light alone changes, a picture that keeps its size is worth more
- * than many of them. */
+/* Finds the lowest rung that a pace may take. Where nothing moves, and light alone changes, one picture at full size is worth more
+ * than many small ones. */
 static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
 {
     uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
@@ -126,7 +129,7 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 
 /* Up and down */
 
-/* The pace leaves its rung for a lower one: it is remembered if that is because others began. */
+/* The pace leaves its rung for a lower one, and remembers it if that is because other sessions began. */
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
@@ -164,7 +167,7 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
-/* Whether frames that reuse a lens map may have this one: it has to be traced first. */
+/* Says whether frames that reuse a lens map may take this rung: its lens map has to be traced first, in time. */
 static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
 {
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
@@ -178,7 +181,7 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
            traceable(g, pace, &rungs[to], CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* A rung that is known to be in time with so much of the device, or the present one. */
+/* Finds a rung that is known to be in time with so much of the device; the present one if none is. */
 static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
 {
     bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
@@ -187,14 +190,14 @@ static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pa
                : pace->rung;
 }
 
-/* What may not be climbed to, having been too slow with no less of the device. */
+/* Finds the rung that may not be climbed to, as it was too slow with no less of the device. */
 static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pace, double now)
 {
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* As far as is safe; else one rung on the better assumption, for if that is wrong the rung is left again, and not climbed to soon.
- * */
+/* Climbs as far as is safe, or else one rung on the better assumption: if that is wrong the rung is left again, and not climbed to
+ * soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
@@ -255,7 +258,7 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->orders == q->orders;
 }
 
-/* Whether frames cost about the same but for their size. */
+/* Says whether frames of both scenes cost about the same but for their size. */
 static bool same_work(const struct kd_scene *a, const struct kd_scene *b)
 {
     const struct kd_disk *d = &a->disk, *e = &b->disk;
@@ -279,7 +282,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
     g->ladders++;
 }
 
-/* A picture knows nothing of motion. */
+/* Says whether the scenes differ in their motion alone, of which a single picture knows nothing. */
 static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 {
     struct kd_scene still = *b;
@@ -289,7 +292,8 @@ static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 
 void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scene *asked, bool lens)
 {
-    /* What is shown is right already. It is only told once more, when nothing else has changed meanwhile. */
+    /* The picture that is shown is right already if only the motion of a scene that does not move was changed: it is then told once
+     * more. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) && !kd_emit_moves(asked);
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
@@ -317,7 +321,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     g->lens_at = now;
 }
 
-/* As long as no more frames than `known` are known. */
+/* Takes the rung that the expected cost fits, as long as no more frames than `known` have been measured. */
 static void expect(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *of, uint32_t known)
 {
     struct kd_pace *pace = &g->paces[!cost->lens_reused];
@@ -363,8 +367,8 @@ struct kd_turn kd_governor_turn(const struct kd_governor *g, double now)
     return turn;
 }
 
-/* A lens map that should have been there may be missing once after a change of rung. If none is kept, as where it does not fit, the
- * frames of a scene whose time alone goes on trace all the same. */
+/* Counts lens maps that should have been there. One may be missing after a change of rung. If none is kept, as where it does not
+ * fit, the frames of a scene whose time alone goes on trace all the same. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)

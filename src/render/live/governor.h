@@ -90,7 +90,7 @@ struct kd_turn {
 
 enum { KD_PACE_FRAMES = 32 };
 
-/* Frames of one kind. */
+/* A pace is what is known of frames of one kind: those that trace a lens map, or those that reuse one. */
 struct kd_pace {
     uint32_t rung, ceiling; /* indices: 0 is what was asked; never climb below `ceiling` */
     uint32_t count;         /* frames since the last change of rung */
@@ -102,7 +102,7 @@ struct kd_pace {
     double held_target;           /* at which it was in time; 0: none */
 };
 
-/* All of it private. */
+/* All members are private. */
 struct kd_governor {
     struct kd_governor_params params;
     double share;
@@ -133,12 +133,12 @@ void kd_governor_share(struct kd_governor *governor, double share);
  * suggest; one of what is drawn begins averages and waits anew. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *asked, bool lens);
 
-/* Before any frame of this kind was measured: what one as asked is believed to cost, by the plan for instance. Sets the rung to
- * begin with; without it that is the first, or the one in force. Ignored later, so that each change may be followed by it. A frame
- * that traced while few of its kind are known, as a step of refinement does, says the same better. */
+/* Says what a frame as asked is believed to cost, by its plan for instance, before any of this kind was measured. It sets the rung
+ * to begin with; without it that is the first, or the one in force. Later it is ignored, so that each change may be followed by it.
+ * A frame that traced while few of its kind are known, as a step of refinement does, says the same better. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
-/* After kd_governor_changed. */
+/* Says what to do now. To be called after kd_governor_changed. */
 struct kd_turn kd_governor_turn(const struct kd_governor *governor, double now);
 
 /* The frame of that turn was shown. */

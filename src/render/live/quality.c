@@ -17,13 +17,13 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     out->accuracy.steps = 0;
 }
 
-/* Whether the profile alone says how rays are followed. */
+/* Says whether the profile alone decides how rays are followed. */
 static bool by_profile(const struct kd_accuracy *a)
 {
     return !isfinite(a->tolerance) && !a->steps && a->precision == KD_PRECISION_WORD_AUTO;
 }
 
-/* What a ray costs, roughly: the steps that a profile means, and one turn of the transfer pass for each order. Only ratios matter,
+/* Estimates what a ray costs: the steps that a profile means, and one turn of the transfer pass for each order. Only ratios matter,
  * and where they are wrong the governor measures and moves on. reference is double precision. */
 static double ray_cost(const struct kd_quality *quality, const struct kd_scene *asked)
 {
@@ -44,7 +44,7 @@ static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int3
     return r;
 }
 
-/* Kept only if it is less work than the rung before. */
+/* A rung is kept only if it is less work than the one before. */
 static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
 {
     if (ladder->n_rungs == KD_LADDER_RUNGS || rung.rays >= ladder->rungs[ladder->n_rungs - 1].rays)

@@ -18,7 +18,8 @@ struct kd_quality {
     bool final;             /* everything is as asked */
 };
 
-/* The scene to render: *asked at this quality. Valid if *asked is. With quality.final it is *asked itself, byte for byte. */
+/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it is *asked itself, byte for
+ * byte. */
 void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out);
 
 struct kd_rung {
@@ -26,7 +27,7 @@ struct kd_rung {
     double rays, pixels; /* work: rays, weighted by what one costs; pixels */
 };
 
-/* How far down a ladder may go. */
+/* These bounds say how far down a ladder may go. */
 struct kd_ladder_bounds {
     double scale;                     /* 1/4 is the least there is */
     uint32_t width;                   /* no rung but the first is narrower than this, in pixels */
@@ -37,12 +38,12 @@ struct kd_ladder_bounds {
 enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
-    /* Downwards from what is asked: samples first, for what moves needs its pixels more than smooth edges, then resolution, then
-     * orders, then the steps along a ray. Each is less work than the one before. */
+    /* Makes the ladder downwards from what is asked. It gives up samples first, for what moves needs its pixels more than smooth
+     * edges, then resolution, then orders, then the steps along a ray. Each is less work than the one before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
-    /* Upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at most the profile "balanced";
-     * last, what is asked. Each is more work than the one before. */
+    /* Makes the ladder upwards, for a scene that rests: full resolution with one ray a pixel, then more, all by at most the profile
+     * "balanced"; last, what is asked. Each is more work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

@@ -75,7 +75,7 @@ static void look(struct kd_budget *budget, double now)
     }
 }
 
-/* What entry competes with at one of the two levels: the demand of another client, or of another session of its own. */
+/* An entry competes at one of two levels: with the demand of another client, or with that of another session of its own client. */
 static double rival(const struct kd_budget_entry *entry, const struct kd_budget_entry *other, bool clients)
 {
     if (clients)
@@ -83,8 +83,9 @@ static double rival(const struct kd_budget_entry *entry, const struct kd_budget_
     return other != entry && same_client(entry, other) ? other->demand : 0;
 }
 
-/* The level up to which all are served: it and what each rival has of it are the whole. Begun where all rivals are taken to want as
- * much, it only rises, as those that want less are left out; so it ends after as many rounds as there are rivals. */
+/* Finds the level up to which all are served: the level and what each rival has of it add up to the whole. The search begins as if
+ * all rivals wanted as much. From round to round the level only rises, as those that want less are left out, so that there are no
+ * more rounds than rivals. */
 static double fill(const struct kd_budget *budget, const struct kd_budget_entry *entry, bool clients, double whole)
 {
     for (double level = 0, next;; level = next) {

@@ -27,7 +27,7 @@
 
 enum { KD_BUDGET_FRAMES = 8 };
 
-/* One session; embedded in it, all 0 but the client to begin with. */
+/* An entry is one session's part of the budget, embedded in it. All of it but the client is 0 to begin with. */
 struct kd_budget_entry {
     char client[KD_CLIENT]; /* as in the claims of its frames */
     /* the budget's own */
@@ -46,12 +46,12 @@ void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry);
 void kd_budget_leave(struct kd_budget *budget, struct kd_budget_entry *entry);
 
 void kd_budget_ask(struct kd_budget_entry *entry, double now);
-/* ms: 0 or more; 0 says that the frame was given up, and is no measure. */
+/* The frame no longer has the device. ms: how long it had it, 0 or more; 0 says that it was given up, and is no measure. */
 void kd_budget_end(struct kd_budget_entry *entry, double now, double ms);
 
-/* What the session would use alone, 0 to 1. 0 until it asks for its second frame. */
+/* Estimates what the session would use alone, 0 to 1. It is 0 until it asks for its second frame. */
 double kd_budget_demand(const struct kd_budget_entry *entry, double now);
-/* Over 0, at most 1. */
+/* The session may count on this share of the device: over 0, at most 1. */
 double kd_budget_share(struct kd_budget *budget, const struct kd_budget_entry *entry, double now);
 
 #endif

@@ -1,4 +1,4 @@
-/* What sessions.c, run.c and watch.c share. */
+/* This is what sessions.c, run.c and watch.c share. */
 #ifndef KD_SERVER_SESSION_INTERNAL_H
 #define KD_SERVER_SESSION_INTERNAL_H
 
@@ -47,21 +47,21 @@ struct kd_sessions {
     double looked_ms;
 };
 
-/* All with all->lock held where nothing else is said. */
+/* Callers hold all->lock where nothing else is said. */
 
 void kd_session_let_go(struct kd_session *session); /* of a reference */
 void kd_session_unlist(struct kd_session *session);
 struct kd_scene kd_session_scene(const struct kd_session *session, double now); /* what goes on by itself included */
 
-/* Begin a frame if one is awaited, would differ, and there is room for it. run.c */
+/* Begins a frame if one is awaited, would differ, and there is room for it. run.c */
 void kd_session_pump(struct kd_session *session);
 /* Frames are believed to cost what the plan of the scene says, as long as none was measured. */
 void kd_session_expect(struct kd_session *session, const struct kd_plan *plan);
-/* What is being rendered is given up if it refines: it is long, and nobody waits for it any more. */
+/* The frame that is being rendered is given up if it refines: it is long, and nobody waits for it any more. */
 void kd_session_drop_refinement(struct kd_session *session);
 void kd_session_drop(struct kd_session *session); /* whatever it is */
 
-/* Whether somebody waits; the first frame is made before anybody asks. watch.c */
+/* Says whether somebody waits. The first frame is made before anybody asks. watch.c */
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* those for whom there is something */
 

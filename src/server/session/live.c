@@ -54,7 +54,7 @@ static enum MHD_Result send_frame(struct kd_request *request, struct kd_live_fra
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* The answer, or another wait. */
+/* Sends the answer, or waits again. */
 static enum MHD_Result look(struct kd_request *request)
 {
     struct kd_error error = { 0 };
@@ -112,7 +112,7 @@ void kd_live_abandon(struct kd_request *request)
     request->viewer = NULL;
 }
 
-/* What one frame is in a stream: some bytes before the picture, the picture, some after it. */
+/* In a stream a frame has three parts: some bytes before the picture, the picture, some after it. */
 struct stream {
     struct kd_viewer viewer; /* first */
     enum { MULTIPART, BINARY, EVENTS } form;
@@ -157,7 +157,7 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
     }
 }
 
-/* From what is left of the present frame; 0: nothing is. */
+/* Copies from what is left of the present frame. 0: nothing is. */
 static size_t take(struct stream *s, char *to, size_t size)
 {
     size_t n = 0;
@@ -219,12 +219,12 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     MHD_add_response_header(response, "Content-Type", type);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* for proxies that would rather collect */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* It may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
+    /* The stream may take as long as it likes; a reader that stalls meets libmicrohttpd's timeout. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }
 
-/* An EventSource that lost its connection says what it had. What names no frame that there has been, counts as none. */
+/* An EventSource that lost its connection says which frame it had last. A number that no frame has had counts as none. */
 static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -254,7 +254,8 @@ static enum MHD_Result open_stream(struct kd_request *request, int form, const c
                                      .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
-    /* A browser shows a part when the head of the next has come: so that follows each frame at once, and the first comes alone. */
+    /* A browser shows a part when the head of the next one has come. So that head follows each frame at once, and the first head
+     * comes alone. */
     snprintf(s->next, sizeof s->next, "\r\n--kerrd\r\nContent-Type: %s\r\n\r\n", kd_format_live()->media_type);
     if (form == MULTIPART)
         set_part(s, 0, s->next + 2, strlen(s->next + 2));

@@ -15,7 +15,7 @@
 #define TYPE "application/octet-stream"
 #define BYTES_MAX ((size_t)128 << 20) /* of one answer: 10 000 000 places are 114 MiB */
 
-/* Owned by its request. */
+/* A job belongs to its request. */
 struct kd_particles_job {
     struct kd_render_job device; /* first */
     struct kd_request *request;
@@ -41,7 +41,7 @@ static size_t slice_of(const struct kd_particles_job *job)
     return left < KD_PARTICLE_LIST_SLICE ? left : KD_PARTICLE_LIST_SLICE;
 }
 
-/* With the device. */
+/* Lists one slice, on the thread that has the device. */
 static enum kd_status list_slice(struct kd_render_job *device, struct kd_renderer *renderer, kd_progress_fn progress, void *user)
 {
     struct kd_particles_job *job = (struct kd_particles_job *)device;
@@ -151,7 +151,8 @@ static enum MHD_Result submit(struct kd_request *request)
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* First: it may be done before push returns. Suspended, the request and its socket outlive the job. */
+    /* The request is suspended first, as the job may be done before push returns. A suspended request and its socket outlive the
+     * job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
     return MHD_YES;

@@ -22,7 +22,7 @@ struct kd_session_frame {
     bool rendered;
 };
 
-/* Locked where nothing else is said. */
+/* These functions run with the lock where nothing else is said. */
 
 static void rendered(struct kd_render_job *job);
 static void done(struct kd_render_job *job);
@@ -34,15 +34,15 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Where nothing but time has gone on, the few brightest pixels, which "auto" goes by, are now these particles and now those: the
- * picture would flicker with them. */
+/* Auto exposure follows slowly where only time goes on. It goes by the few brightest pixels, which are now these particles and now
+ * those: the picture would flicker with them. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->exposure_from = s->exposure;
     plan->exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
 }
 
-/* What the queue is to render. NULL: *error says why not. */
+/* Makes the frame that the queue is to render. NULL: *error says why not. */
 static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene, const struct kd_turn *turn,
                                            double now, struct kd_error *error)
 {
@@ -125,7 +125,7 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
         cost->total_ms = ms;
 }
 
-/* Encoding is left out: it overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
+/* The cost leaves encoding out: that overlaps with the next frame, and takes a tenth of the time or less (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_render_job *job)
 {
     const struct kd_frame *frame = &job->frame;
@@ -156,7 +156,7 @@ void kd_session_expect(struct kd_session *s, const struct kd_plan *plan)
     kd_governor_expect(&s->governor, &reused);
 }
 
-/* On the render thread, unlocked: the next frame may be traced while this one is encoded. */
+/* The render thread calls this without the lock: the next frame may be traced while this one is encoded. */
 static void rendered(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -200,7 +200,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_session_wake(s);
 }
 
-/* On a thread of the queue, unlocked. */
+/* A thread of the queue calls this, without the lock. */
 static void done(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;

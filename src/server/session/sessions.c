@@ -20,7 +20,7 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
     return KD_OK;
 }
 
-/* Locked. */
+/* From here on functions run with the lock. */
 
 void kd_session_let_go(struct kd_session *s)
 {
@@ -53,7 +53,7 @@ struct kd_scene kd_session_scene(const struct kd_session *s, double now)
     return scene;
 }
 
-/* Not locked. */
+/* From here on functions take the lock themselves. */
 
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {

@@ -23,17 +23,17 @@ struct kd_sessions_params {
     unsigned longest_s; /* a frame as asked may take, by its plan */
 };
 enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error);
-/* Nothing may be under way: after kd_sessions_close, and when the render queue has finished. Accepts NULL. */
+/* To be called after kd_sessions_close, and when the render queue has finished: nothing may be under way. Accepts NULL. */
 void kd_sessions_destroy(struct kd_sessions *all);
 
-/* KD_ETOOBIG where a frame would take too long. */
+/* Fails with KD_ETOOBIG where a frame of the plan would take too long. */
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
-/* A valid scene with its plan, to a new session, of which the caller holds a reference; whose frames are from the
- * client's share. KD_EBUSY: as many as may, or with *quota as many of this client. */
+/* Opens a session of a valid scene with its plan; its frames are counted in the client's share. The caller holds a reference.
+ * KD_EBUSY: there are as many sessions as may be, or with *quota as many of this client. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
                                 bool *quota, struct kd_session **out, struct kd_error *error);
-/* A reference to the session of this id, or NULL. Counts as being asked. */
+/* Finds the session of this id: a reference, or NULL. The session counts as asked for. */
 struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
 void kd_session_release(struct kd_session *session);
 
@@ -41,20 +41,20 @@ const char *kd_session_id(const struct kd_session *session);
 const char *kd_session_token(const struct kd_session *session);
 bool kd_session_owned(const struct kd_session *session, const char *token); /* in constant time; token may be NULL */
 
-/* The scene as it is now, what goes on by itself included. */
+/* The state holds the scene as it is now, what goes on by itself included. */
 struct kd_session_state {
     struct kd_scene scene;
     unsigned revision, viewers;
     uint64_t frame; /* the newest one's number, 0: none yet */
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
-/* Merge a patch (RFC 7396). Without change on failure. */
+/* Merges a patch (RFC 7396) into the scene. On failure nothing changes. */
 enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, struct kd_session_state *out,
                                 struct kd_error *error);
-/* Those who watch are told that it is over. */
+/* Ends the session, and tells all who watch. */
 void kd_session_end(struct kd_session *session);
 
-/* Somebody who watches: a suspended request or a stream. */
+/* A viewer watches a session: a suspended request or a stream. */
 struct kd_viewer {
     struct kd_session *session; /* a reference */
     struct MHD_Connection *mhd;
@@ -78,17 +78,17 @@ enum kd_viewer_news {
 /* After KD_VIEWER_LATER the viewer is the session's until the connection is resumed. error may be NULL. */
 enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error);
 
-/* Deadlines, clients that have gone, idle sessions, refinement that is due. One thread, ten times a second. */
+/* Looks after deadlines, clients that have gone, idle sessions and refinement that is due. One thread calls it, ten times a second. */
 void kd_sessions_sweep(struct kd_sessions *all);
-/* No new sessions, all viewers told that it is over; what is being rendered finishes. */
+/* Takes no more sessions, and tells all viewers that it is over. What is being rendered finishes. */
 void kd_sessions_close(struct kd_sessions *all);
 struct kd_sessions_counts;
-/* False, and nothing is known, where that takes more than a moment. */
+/* Counts sessions and frames; false, with nothing known, where that takes more than a moment. */
 bool kd_sessions_counts(struct kd_sessions *all, struct kd_sessions_counts *out);
 
 struct kd_request;
 struct kd_particles_job;
-/* routes.c: a reference to the session that the path names, or NULL after a refusal. */
+/* Finds the session that the path names: a reference, or NULL after a refusal. routes.c */
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused);
 void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; accepts NULL */
 void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */

@@ -9,7 +9,7 @@
 
 #define LOOK_MS 1000.0 /* how late a client that has hung up may be noticed */
 
-/* Locked. */
+/* With the lock. */
 static void wake(struct kd_viewer *viewer)
 {
     if (!viewer->waiting)
@@ -62,7 +62,7 @@ void kd_viewer_detach(struct kd_viewer *viewer)
     viewer->session = NULL;
 }
 
-/* Locked. */
+/* With the lock. */
 static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
 {
     struct kd_session *s = viewer->session;
@@ -104,7 +104,7 @@ static void sweep_deadlines(struct kd_session *s, double now) /* locked */
         }
 }
 
-/* All waiting sockets in one call: hundreds of idle viewers cost nothing that can be measured. Locked. */
+/* Asks about all waiting sockets in one call: hundreds of idle viewers cost nothing that can be measured. With the lock. */
 static void sweep_gone(struct kd_sessions *all)
 {
     size_t n = 0, i = 0;
