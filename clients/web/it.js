@@ -160,7 +160,14 @@ export const fields = {
   'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati'],
   'image.bit_depth': ['Profondità', 'Bit per canale: 8 o 16'],
   'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1'],
-  'style.tone_map': ['Curva dei toni', 'Curva da pellicola, o sRGB con taglio'],
+  'style.tone_map': [
+    'Curva dei toni',
+    'aces: curva da pellicola; srgb: proporzionale alla luce, con taglio; neutral: mantiene i colori e comprime ciò che è vicino al bianco',
+  ],
+  'style.bloom': [
+    'Alone',
+    'Frazione della luce viva che un obiettivo sparge attorno al suo posto: tutta quella oltre 0,6 del bianco, con un ginocchio da 0,2 in su; 0: nessuna',
+  ],
   'style.dither': ['Dithering', 'Mezzo gradino di rumore ordinato prima dell’arrotondamento, contro le bande'],
   'style.ringdown': [
     'Oscillazione smorzata',

@@ -1,12 +1,16 @@
 /* Exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four pixels as whole words: RGB of 8 bits in
  * three, of 16 bits in six, packed without padding as a PNG encoder wants them. The invocations behind the last pixel write zeros.
  *
- * Two kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels. */
+ * Four kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels; KD_BLOOM
+ * takes away the light that a lens spreads, and adds what arrives. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
 #include "shared/spec.h"
+#ifdef KD_BLOOM
+#include "shared/bloom.glsl"
+#endif
 KD_SPEC_POST(KD_SPEC_U_, KD_SPEC_B_)
 
 layout(local_size_x = KD_GROUP_SIZE) in;
@@ -20,6 +24,15 @@ vec4 four_floats(uint i) { return texelFetch(radiance, int(i)); }
 #else
 layout(set = 0, binding = 0) readonly buffer Radiance { vec4 radiance[]; };
 vec4 four_floats(uint i) { return radiance[i]; }
+#endif
+#ifdef KD_BLOOM
+#ifdef KD_TEXELS
+layout(set = 0, binding = 2) uniform textureBuffer cells;
+vec3 cell(int i) { return texelFetch(cells, i).rgb; }
+#else
+layout(set = 0, binding = 2) readonly buffer Cells { vec4 cells[]; };
+vec3 cell(int i) { return cells[i].rgb; }
+#endif
 #endif
 layout(set = 0, binding = 1) writeonly buffer Pixels { uint words[]; };
 
@@ -36,6 +49,19 @@ vec3 aces(vec3 c)
     c = into * min(c, vec3(1e6)); /* the curve squares it */
     c = (c * (c + 0.0245786) - 0.000090537) / (c * (c + 0.4329510 / d) + 0.238081 / d);
     return outof * c;
+}
+
+/* Khronos PBR Neutral (E. Chin, 2024): light below 0.8 keeps its colour and, but for an offset of 0.04, its brightness; above, the largest
+ * channel tends to 1, and colour to white, the slower the brighter it is. */
+vec3 neutral(vec3 c)
+{
+    const float start = 0.8 - 0.04, desaturation = 0.15, d = 1 - start;
+    c = min(c, vec3(1e6));
+    float least = min(c.r, min(c.g, c.b));
+    c -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+    float peak = max(c.r, max(c.g, c.b)), shown = 1 - d * d / (peak + d - start);
+    vec3 bright = mix(c * (shown / peak), vec3(shown), 1 - 1 / (desaturation * (peak - shown) + 1));
+    return peak < start ? c : bright;
 }
 
 /* LEVELS times what IEC 61966-2-1 encodes c in [0, 1] as. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s = c^(1/4): of those
@@ -77,11 +103,30 @@ place next(place at)
 /* A threshold in [0, 1) that depends on the place alone: interleaved gradient noise (J. Jimenez 2014). */
 float threshold(place at) { return fract(52.9829189 * fract(0.06711056 * at.x + 0.00583715 * at.y)); }
 
+#ifdef KD_BLOOM
+/* The light that arrives at a pixel. */
+vec3 arriving(place at)
+{
+    float u = (at.x + 0.5) * push.scale_x, v = (at.y + 0.5) * push.scale_y;
+    int across = int(push.cells_x), x = int(u), y = int(v);
+    int x0 = bloom_mirror(x - 1, across), x2 = bloom_mirror(x + 1, across);
+    vec3 a = bloom_spline(u - float(x) - 0.5), b = bloom_spline(v - float(y) - 0.5), sum = vec3(0);
+    for (int k = 0; k < 3; k++) {
+        int row = across * bloom_mirror(y + k - 1, int(push.cells_y));
+        sum += b[k] * (a.x * cell(row + x0) + a.y * cell(row + x) + a.z * cell(row + x2));
+    }
+    return sum;
+}
+#endif
+
 /* Rounded to the next level, or dithered by less than half a level. */
 ivec3 pixel(vec3 c, place at)
 {
     c *= push.gain;
-    c = clamp(ACES ? aces(c) : c, 0.0, 1.0);
+#ifdef KD_BLOOM
+    c += arriving(at) - bloom_of(c, push.bloom);
+#endif
+    c = clamp(ACES ? aces(c) : NEUTRAL ? neutral(c) : c, 0.0, 1.0);
     float spread = 0.998 * push.dither;
     return min(ivec3(srgb(c) + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS); /* positive: towards 0 is down */
 }

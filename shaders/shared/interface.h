@@ -62,7 +62,22 @@
     F(dither)                /* 0 or 1 */                                                                      \
     U(pixels)                /* of the band */                                                                 \
     U(first)                 /* index of the band's first pixel in the picture */                              \
-    U(pixels_x)
+    U(pixels_x)                                                                                                \
+    F(bloom)                 /* share of light over white that is spread; this and what follows with bloom only */ \
+    F(scale_x) F(scale_y)    /* cells a pixel */                                                               \
+    U(cells_x) U(cells_y)
+
+/* The light that a lens spreads: exposed light over white, in a grid of so many rows of cells and KD_BLOOM_LEVELS - 1 grids of half as many
+ * each (render/plan/bloom.h). */
+#define KD_BLOOM_ROWS 128
+#define KD_BLOOM_LEVELS 5
+#define KD_BLOOM_GATHER_FIELDS_(F, U)                                                                          \
+    F(gain)                  /* 2^exposure */                                                                  \
+    F(strength)              /* of light over white, the share that is spread */                               \
+    U(pixels_x) U(pixels_y)  /* of the picture */                                                              \
+    U(row0) U(rows)          /* of the band */                                                                 \
+    U(cells_x) U(cells_y)    /* of the grid */                                                                 \
+    U(cell_row0) U(cell_rows) /* those that the band has pixels of */
 
 /* Of photometry.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */
 #define KD_LIGHT_FIELDS_(F, U)                                                                                 \

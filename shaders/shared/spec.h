@@ -32,8 +32,8 @@
 /* APART: the luminance of some emitter is kept apart as well; FINITE: solid angles from a near observer. */
 #define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false)
 
-/* ACES: the film-like curve; WIDE: 16 bits a channel. */
-#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false)
+/* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is clipped. */
+#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false)
 
 #ifdef VULKAN
 #define KD_SPEC_U_(id, name, value) layout(constant_id = id) const uint name = value;

@@ -133,7 +133,11 @@
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")               \
-    ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, "film-like curve, or sRGB with clipping", "aces|srgb")          \
+    ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
+         "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is near white", \
+         "aces|srgb|neutral")                                                                                        \
+    REAL(style, bloom, LOOK, FRONT, 0.0, 0.0, 1.0, "1",                                                              \
+         "share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee from 0.2 on; 0: none") \
     BOOL(style, dither, LOOK, REST, true, "half a step of ordered noise before rounding, against banding")           \
     REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1",                                                            \
          "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), the " \
@@ -186,7 +190,7 @@ enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYA
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };
-enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB };
+enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_NEUTRAL };
 enum kd_profile {
     KD_PROFILE_DRAFT,
     KD_PROFILE_INTERACTIVE,

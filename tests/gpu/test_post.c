@@ -11,16 +11,16 @@
 static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 
 /* Radiance through a kernel; words are `out`, room for whole groups. */
-static void post(bool texels, bool film, bool wide, const float *light, struct kd_post_push push, void *out)
+static void post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push, void *out)
 {
     struct kd_vk *vk = renderer->vk;
     const struct kd_vk_pipeline *pipeline;
     struct kd_vk_buffer *in, *words;
-    uint64_t bytes = kd_post_bytes(push.pixels, wide ? 16 : 8);
+    uint64_t bytes = kd_post_bytes(push.pixels, constants[1] ? 16 : 8);
     OK(kd_vk_buffer_create(vk, kd_post_radiance_bytes(push.pixels), KD_VK_UPLOAD, "light", &in, &error));
     OK(kd_vk_buffer_create(vk, bytes, KD_VK_READBACK, "words", &words, &error));
     memcpy(kd_vk_buffer_map(in), light, 12ull * push.pixels);
-    OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels), (uint32_t[]) { film, wide }, 2, &pipeline, &error));
+    OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels, false), constants, n, &pipeline, &error));
     const struct kd_vk_dispatch d = { .pass = "post", .pipeline = pipeline,
                                       .bindings = { { .buffer = in }, { .buffer = words, .write = true } },
                                       .push = &push, .groups = { kd_post_groups(push.pixels) } };
@@ -31,6 +31,11 @@ static void post(bool texels, bool film, bool wide, const float *light, struct k
     memcpy(out, kd_vk_buffer_map(words), bytes);
     kd_vk_buffer_destroy(vk, in);
     kd_vk_buffer_destroy(vk, words);
+}
+
+static void post(bool texels, bool film, bool wide, const float *light, struct kd_post_push push, void *out)
+{
+    post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
 /* Light a little less than half a step from each level still rounds to it. What is missing to the half step, 0.06, is 9e-7 of the
@@ -141,12 +146,48 @@ static void ends(void **state)
     }
 }
 
+/* Khronos PBR Neutral in double, as its specification has it (github.com/KhronosGroup/ToneMapping, 2024). */
+static void khronos(const double in[3], double out[3])
+{
+    const double compress = 0.8 - 0.04, desaturate = 0.15, d = 1 - compress;
+    double least = fmin(in[0], fmin(in[1], in[2])), offset = least < 0.08 ? least - 6.25 * least * least : 0.04, peak = 0;
+    for (int c = 0; c < 3; c++)
+        peak = fmax(peak, out[c] = in[c] - offset);
+    if (peak < compress)
+        return;
+    double shown = 1 - d * d / (peak + d - compress), g = 1 - 1 / (desaturate * (peak - shown) + 1);
+    for (int c = 0; c < 3; c++)
+        out[c] = (out[c] * shown / peak) * (1 - g) + shown * g;
+}
+
+/* To two steps of 16 bits in what is encoded, of light from black to far beyond white. */
+static void neutral(void **state)
+{
+    (void)state;
+    enum { N = 4096 };
+    static float light[3 * N];
+    static uint16_t found[3 * (N + KD_GROUP_SIZE * KD_POST_PIXELS)];
+    srand(7);
+    for (int i = 0; i < 3 * N; i++)
+        light[i] = i < 30 ? 0 : exp2f(-9 + 15 * (float)rand() / (float)RAND_MAX);
+    post_by(true, (uint32_t[]) { false, true, true }, 3, light, (struct kd_post_push) { .gain = 1, .pixels = N, .pixels_x = 64 }, found);
+    for (int i = 0; i < N; i++) {
+        double in[3] = { (double)light[3 * i], (double)light[3 * i + 1], (double)light[3 * i + 2] }, out[3];
+        khronos(in, out);
+        for (int c = 0; c < 3; c++) {
+            double want = decode(found[3 * i + c] / 65535.0), step = want - decode(fmax(found[3 * i + c] - 1, 0) / 65535.0);
+            if (fabs(want - fmin(fmax(out[c], 0), 1)) > 2 * fmax(step, 1e-6))
+                fail_msg("light %.6g %.6g %.6g, channel %d: %.6g instead of %.6g", in[0], in[1], in[2], c, want, out[c]);
+        }
+    }
+}
+
 int main(void)
 {
     int skip = open_renderer();
     if (skip)
         return skip;
     const struct CMUnitTest tests[] = { cmocka_unit_test(every_level), cmocka_unit_test(places), cmocka_unit_test(both_readers),
-                                        cmocka_unit_test(ends) };
+                                        cmocka_unit_test(ends), cmocka_unit_test(neutral) };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -115,6 +115,7 @@ static void test_bands(void **state)
         scene.image.samples = k & 1 ? 2 : 1;
         scene.image.bit_depth = k & 2 ? 16 : 8;
         scene.sky.model = k & 4 ? KD_SKY_GRID : KD_SKY_NONE;
+        scene.style.bloom = k & 1 ? 0.5 : 0;
         struct kd_capacity c = capacity();
         struct kd_plan plan;
         struct kd_frame whole = render_with(&scene, &c, &plan);
@@ -278,6 +279,7 @@ static void test_glances(void **state)
         scene.camera.inclination_deg = 60 + k; /* a lens map of its own */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
+        scene.style.bloom = k < 3 ? 0 : 0.5; /* of what is lit so far, or of all */
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
         if (k == 2 && !has_float64("glances of f64 rays, of the closed form instead"))

@@ -39,7 +39,7 @@ static const char *const scenes[] = {
     "{\"spots\": [{\"brightness\": 1}]}",
     "{\"accuracy\": {\"engine\": \"mino-rkn6\", \"precision\": \"f32\", \"steps\": 8}}",
     "{\"accuracy\": {\"engine\": \"closed\", \"precision\": \"f64\"}}",
-    "{\"style\": {\"exposure\": 0}}",
+    "{\"style\": {\"exposure\": 0, \"bloom\": 0.5}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

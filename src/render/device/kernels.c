@@ -2,6 +2,13 @@
 
 #include "render/view/layout.h"
 
+#include "bloom_down.spv.h"
+#include "bloom_down_texels.spv.h"
+#include "bloom_gather.spv.h"
+#include "bloom_join.spv.h"
+#include "bloom_join_texels.spv.h"
+#include "bloom_up.spv.h"
+#include "bloom_up_texels.spv.h"
 #include "density.spv.h"
 #include "expose.spv.h"
 #include "footprint.spv.h"
@@ -10,6 +17,8 @@
 #include "photometry.spv.h"
 #include "particles.spv.h"
 #include "post.spv.h"
+#include "post_bloom.spv.h"
+#include "post_bloom_texels.spv.h"
 #include "post_texels.spv.h"
 #include "rays.spv.h"
 #include "rays_f64.spv.h"
@@ -52,6 +61,19 @@ static const struct {
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
     [KD_KERNEL_POST_TEXELS] = { "post, texels", kd_spv_post_texels, sizeof kd_spv_post_texels, 2, sizeof(struct kd_post_push),
                                 { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_BLOOM] = { "post, bloom", kd_spv_post_bloom, sizeof kd_spv_post_bloom, 3, sizeof(struct kd_post_push) },
+    [KD_KERNEL_POST_BLOOM_TEXELS] = { "post, bloom, texels", kd_spv_post_bloom_texels, sizeof kd_spv_post_bloom_texels, 3,
+                                      sizeof(struct kd_post_push), { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_GATHER] = { "bloom, gather", kd_spv_bloom_gather, sizeof kd_spv_bloom_gather, 2, sizeof(struct kd_bloom_push) },
+    [KD_KERNEL_BLOOM_JOIN] = { "bloom, join", kd_spv_bloom_join, sizeof kd_spv_bloom_join, 2, 16 },
+    [KD_KERNEL_BLOOM_JOIN_TEXELS] = { "bloom, join, texels", kd_spv_bloom_join_texels, sizeof kd_spv_bloom_join_texels, 2, 16,
+                                      { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_DOWN] = { "bloom, down", kd_spv_bloom_down, sizeof kd_spv_bloom_down, 2, 16 },
+    [KD_KERNEL_BLOOM_DOWN_TEXELS] = { "bloom, down, texels", kd_spv_bloom_down_texels, sizeof kd_spv_bloom_down_texels, 2, 16,
+                                      { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_UP] = { "bloom, up", kd_spv_bloom_up, sizeof kd_spv_bloom_up, 3, 16 },
+    [KD_KERNEL_BLOOM_UP_TEXELS] = { "bloom, up, texels", kd_spv_bloom_up_texels, sizeof kd_spv_bloom_up_texels, 3, 16,
+                                    { KD_VK_TEXELS_RGBA, KD_VK_TEXELS_RGBA } },
 };
 
 static enum kd_status make(struct kd_vk *vk, enum kd_kernel kernel, const uint32_t *constants, size_t n,
@@ -107,6 +129,11 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels)
 {
     return kd_post_radiance_bytes(pixels) <= 16 * kd_vk_info(vk)->max_texels;
+}
+
+bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom)
+{
+    return !bloom->levels || 9ull * kd_bloom_cells(bloom, 0) <= kd_vk_info(vk)->max_texels;
 }
 
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk)

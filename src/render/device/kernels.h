@@ -2,6 +2,7 @@
 #ifndef KD_RENDER_DEVICE_KERNELS_H
 #define KD_RENDER_DEVICE_KERNELS_H
 
+#include "render/plan/bloom.h"
 #include "vk/vk.h"
 
 enum kd_kernel {
@@ -21,8 +22,17 @@ enum kd_kernel {
     KD_KERNEL_TRANSFER,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
+    KD_KERNEL_BLOOM_GATHER,
+    KD_KERNEL_BLOOM_JOIN,
+    KD_KERNEL_BLOOM_JOIN_TEXELS,
+    KD_KERNEL_BLOOM_DOWN,
+    KD_KERNEL_BLOOM_DOWN_TEXELS,
+    KD_KERNEL_BLOOM_UP,
+    KD_KERNEL_BLOOM_UP_TEXELS,
     KD_KERNEL_POST,
     KD_KERNEL_POST_TEXELS, /* the same, reading texels; kd_kernel_post tells which */
+    KD_KERNEL_POST_BLOOM,
+    KD_KERNEL_POST_BLOOM_TEXELS,
 };
 
 #define KD_KERNEL_MAX_CONSTANTS 32
@@ -46,7 +56,11 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 /* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the time, but how
  * many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
-static inline enum kd_kernel kd_kernel_post(bool texels) { return texels ? KD_KERNEL_POST_TEXELS : KD_KERNEL_POST; }
+bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
+static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom)
+{
+    return (bloom ? KD_KERNEL_POST_BLOOM : KD_KERNEL_POST) + (texels ? 1 : 0);
+}
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 
 #endif

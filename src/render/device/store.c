@@ -170,6 +170,8 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     if (!status && !store->counts)
         status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_READBACK, "histogram on the host",
                                      &store->counts, error);
+    if (!status && plan->bloom.levels)
+        status = kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error);
     if (!status && plan->light)
         status = kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error);
     if (!status && plan->light)
@@ -206,7 +208,7 @@ uint64_t kd_store_bytes(const struct kd_store *store)
     uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
-    return sum + bytes_of(store->light) + bytes_of(store->light_host);
+    return sum + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
 }
 
 void kd_store_empty(struct kd_store *store)
@@ -227,6 +229,7 @@ void kd_store_finish(struct kd_store *store)
     free(store->sent);
     kd_vk_buffer_destroy(store->vk, store->histogram);
     kd_vk_buffer_destroy(store->vk, store->counts);
+    kd_vk_buffer_destroy(store->vk, store->bloom);
     kd_vk_buffer_destroy(store->vk, store->light);
     kd_vk_buffer_destroy(store->vk, store->light_host);
     kd_vk_buffer_destroy(store->vk, store->undecided);

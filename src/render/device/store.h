@@ -40,6 +40,7 @@ struct kd_store {
     bool sent_whole;                         /* false: nothing of it, a frame was given up */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
+    struct kd_vk_buffer *bloom;            /* grids of light that a lens spreads; NULL: never was any */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
 };
 

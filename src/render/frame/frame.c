@@ -37,6 +37,8 @@ static enum kd_status run(struct kd_frame_job *j)
     if (!status)
         status = kd_frame_expose(j);
     if (!status)
+        status = kd_frame_bloom(j);
+    if (!status)
         status = kd_frame_post(j);
     if (!status && j->plan->light)
         kd_frame_read_light(j);

@@ -76,6 +76,8 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 void kd_frame_read_light(struct kd_frame_job *job);
 /* The exposure of what is lit; waits for the device where it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
+/* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no bloom. */
+enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Pixels of what is lit, on the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
 

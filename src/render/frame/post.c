@@ -14,9 +14,12 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
     const struct kd_vk_pipeline *post;
     bool wide = kd_frame_bit_depth(frame) == 16;
     size_t pixel_bytes = kd_layer_pixel_bytes(&frame->layers[0]);
-    const struct kd_spec_post spec = { .ACES = scene->style.tone_map == KD_TONE_ACES, .WIDE = wide };
+    const struct kd_bloom *bloom = &j->plan->bloom;
+    const struct kd_spec_post spec = {
+        .ACES = scene->style.tone_map == KD_TONE_ACES, .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL, .WIDE = wide,
+    };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
-    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels));
+    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels);
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
         status = kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, &post, j->error);
@@ -30,12 +33,18 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
             .pixels = pixels,
             .first = first,
             .pixels_x = frame->width,
+            .bloom = (float)bloom->strength,
+            .scale_x = (float)bloom->columns / (float)frame->width,
+            .scale_y = (float)bloom->rows / (float)frame->height,
+            .cells_x = bloom->columns,
+            .cells_y = bloom->rows,
         };
         status = kd_vk_dispatch(vk,
                                 &(struct kd_vk_dispatch){ kd_passes[KD_PASS_POST].name,
                                                           post,
                                                           { { s->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false },
-                                                            { s->words, 0, 0, true } },
+                                                            { s->words, 0, 0, true },
+                                                            { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false } },
                                                           &push,
                                                           { kd_post_groups(pixels) } },
                                 j->error);

@@ -14,6 +14,8 @@ static enum kd_status glance(struct kd_frame_job *j)
     j->looking = true;
     enum kd_status status = kd_frame_expose(j);
     if (!status)
+        status = kd_frame_bloom(j);
+    if (!status)
         status = kd_frame_post(j);
     if (!status)
         j->glance->seen(j->user, j->frame, j->lit);

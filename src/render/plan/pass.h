@@ -46,7 +46,8 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \
     P(EXPOSE, "expose", exposed, PART("expose.comp", PIXEL_POST, 0.25), PIXELS, FRAME)                                           \
-    P(POST, "post", pixels, WHOLE("post.comp", PIXEL_POST), PIXELS, FRAME)                                                       \
+    P(BLOOM, "bloom", spread, PART("bloom_gather.comp", PIXEL_POST, 2), PIXELS, FRAME)                                           \
+    P(POST, "post", pixels, BY(post), PIXELS, FRAME)                                                                             \
     P(READBACK, "readback", pixels, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
 
 #define KD_PASS_ID_(id, ...) KD_PASS_##id,

@@ -23,6 +23,8 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(film, scene->style.tone_map == KD_TONE_ACES)
+WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL)
+WHEN(bloom, plan->bloom.levels)
 WHEN(projected, plan->ring)
 WHEN(single, plan->setting.precision == KD_PRECISION_F32)
 WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
@@ -36,6 +38,9 @@ static const struct sentence {
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
     { "post: a film-like tone curve; pixel values are not proportional to radiance", film },
+    { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance", neutral },
+    { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave the picture stays "
+      "at its edge", bloom },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
     { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
     { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
@@ -164,7 +169,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->lens_bytes = row_lens * plan->height + at_curve;
     plan->host_bytes = row_out * plan->height;
     uint64_t fixed = kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
-                     (plan->light ? 2 * kd_light_bytes(plan) : 0);
+                     plan->bloom.bytes + (plan->light ? 2 * kd_light_bytes(plan) : 0);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
 }
@@ -299,6 +304,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.height = (uint32_t)scene->image.height;
     plan.side = (uint32_t)scene->image.samples;
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
+    plan.bloom = kd_bloom_of(plan.width, plan.height, scene->style.bloom);
     plan.light = needs->light;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     kd_emit_traits(scene, plan.traits);

@@ -6,6 +6,7 @@
 #include "base/buffer.h"
 #include "base/error.h"
 #include "render/accuracy/engine.h"
+#include "render/plan/bloom.h"
 #include "render/plan/pass.h"
 #include "scene/scene.h"
 #include "lens.h"
@@ -55,6 +56,7 @@ struct kd_plan {
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
     bool apart;                     /* the luminance of some is kept beside the radiance */
+    struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
     bool ring;                      /* rays are listed, round the critical curve */
     uint32_t quantities;            /* of the lens map, KD_LENS_... */

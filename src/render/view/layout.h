@@ -25,6 +25,7 @@ struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
 struct kd_light_push { KD_LIGHT_FIELDS_(F, U) };
 struct kd_post_push { KD_POST_FIELDS_(F, U) };
+struct kd_bloom_push { KD_BLOOM_GATHER_FIELDS_(F, U) };
 #undef F
 #undef U
 

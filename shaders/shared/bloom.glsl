@@ -1,0 +1,30 @@
+/* The light that a lens spreads, and how a point of the picture finds what has been spread to it: bloom_*.comp and post.comp.
+ *
+ * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the edge the grid is
+ * its own mirror image: what would leave the picture stays at its edge. */
+#ifndef KD_BLOOM_GLSL
+#define KD_BLOOM_GLSL
+
+/* In units of white, what the exposure takes as 1: light of which all that is over it may be spread; half the way from nothing to all; and the
+ * most that is spread of one place. Light near white is included, as the film-like curve shows the brightest of many pictures there. */
+#define KD_BLOOM_FROM 0.6
+#define KD_BLOOM_KNEE 0.4
+#define KD_BLOOM_MOST 64.0
+
+/* What a lens takes of exposed light c from its place, where it spreads the share `strength` of bright light: nothing below FROM - KNEE, of
+ * what is beyond FROM + KNEE all that is over FROM, by a parabola between. Where y is 10^30 or more, or no number, light stays. */
+vec3 bloom_of(vec3 c, float strength)
+{
+    float y = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+    float knee = clamp(y - (KD_BLOOM_FROM - KD_BLOOM_KNEE), 0.0, 2 * KD_BLOOM_KNEE);
+    float over = min(max(knee * knee / (4 * KD_BLOOM_KNEE), y - KD_BLOOM_FROM), KD_BLOOM_MOST);
+    return over > 0 && y < 1e30 ? c * (strength * over / y) : vec3(0);
+}
+
+/* Weights of a quadratic B-spline on three cells, t from the middle of the second in cells. */
+vec3 bloom_spline(float t) { return vec3(0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)); }
+
+/* Index of a cell in the mirror image of n cells, for i from -1 to n. */
+int bloom_mirror(int i, int n) { return clamp(i, 0, n - 1); }
+
+#endif

@@ -1,0 +1,287 @@
+/* The glare of a lens: pictures of light that the tests make up, through the passes bloom and post. The oracle adds up Gaussians of the
+ * stated widths, mirrored at the edges, in double. */
+#include "render_support.h"
+
+#include "render/frame/job.h"
+
+#include <math.h>
+
+enum { MOST = 640 * 360 };
+static float light[3 * MOST];
+static uint16_t pixels[3 * MOST], others[3 * MOST];
+
+static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
+static double shown(const uint16_t *picture, int i) { return decode(picture[i] / 65535.0); }
+
+/* Light to pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
+static void show(int width, int height, double bloom, int rows, uint16_t *out)
+{
+    struct kd_scene scene;
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_error why = { 0 };
+    kd_scene_defaults(&scene);
+    scene.image.width = width;
+    scene.image.height = height;
+    scene.image.bit_depth = 16;
+    scene.style.tone_map = KD_TONE_SRGB;
+    scene.style.exposure = 0;
+    scene.style.dither = false;
+    scene.style.bloom = bloom;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    if (rows) {
+        c.max_binding_bytes = 4ull * (plan.planes > 3 ? plan.planes : 3) * (uint64_t)(width * rows) + 64;
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        assert_true(plan.bands > 1);
+    }
+
+    struct kd_vk *vk = renderer->vk;
+    struct kd_vk_buffer *staging;
+    struct kd_frame frame = { .width = plan.width, .height = plan.height };
+    struct kd_frame_job job = { .r = renderer, .store = &renderer->store, .scene = &scene, .plan = &plan, .frame = &frame, .weight = 1,
+                                .lit = plan.height, .error = &why };
+    OK(kd_frame_add_layer(&frame, "rgb", 3, KD_LAYER_U16, &error));
+    OK(kd_store_frame(&renderer->store, &plan, 16, &error));
+    OK(kd_vk_buffer_create(vk, 12ull * plan.width * plan.height, KD_VK_UPLOAD, "light", &staging, &error));
+    memcpy(kd_vk_buffer_map(staging), light, 12ull * plan.width * plan.height);
+    for (uint32_t band = 0; band < plan.bands; band++)
+        OK(kd_vk_copy(vk, "upload", renderer->store.radiance.buffers[band], 0, staging, 12ull * plan.width * kd_frame_band_first(&job, band),
+                      12ull * plan.width * kd_frame_band_rows(&job, band), &error));
+    OK(kd_frame_expose(&job));
+    OK(kd_frame_bloom(&job));
+    OK(kd_frame_post(&job));
+    memcpy(out, kd_frame_pixels(&frame), 6ull * plan.width * plan.height);
+    kd_vk_buffer_destroy(vk, staging);
+    kd_frame_finish(&frame);
+}
+
+/* Dim light with bright places up to white, one of them in a corner. */
+static void make_light(int width, int height)
+{
+    static const double places[][4] = { { 0.3, 0.4, 0.05, 1 }, { 0.31, 0.6, 0.004, 0.98 }, { 0.98, 0.02, 0.03, 0.95 }, { 0.7, 0.9, 0.02, 0.9 } };
+    for (int i = 0; i < width * height; i++) {
+        double x = (i % width + 0.5) / height, y = (i / width + 0.5) / height, sum = 0;
+        for (int k = 0; k < 4; k++) {
+            double dx = x - places[k][0] * width / height, dy = y - places[k][1];
+            sum += places[k][3] * exp(-(dx * dx + dy * dy) / (2 * places[k][2] * places[k][2]));
+        }
+        sum = fmin(sum, 1) * 0.97;
+        light[3 * i] = (float)sum;
+        light[3 * i + 1] = (float)(0.9 * sum + 0.01);
+        light[3 * i + 2] = (float)(0.8 * sum + 0.001);
+    }
+}
+
+/* What a lens spreads leaves its place and arrives elsewhere: the sum stays, of each channel, also where the picture ends in the middle of
+ * it, in sizes that no grid divides. Pixels are rounded to 16 bits, 1e-5 in the mean. */
+static void energy(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 640, 360 }, { 401, 333 }, { 157, 90 }, { 97, 640 }, { 600, 17 }, { 3, 2 }, { 1, 1 } };
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        const int width = sizes[s][0], height = sizes[s][1], n = width * height;
+        make_light(width, height);
+        show(width, height, 0, 0, others);
+        show(width, height, 1, 0, pixels);
+        double moved = 0;
+        for (int c = 0; c < 3; c++) {
+            double before = 0, after = 0;
+            for (int i = c; i < 3 * n; i += 3) {
+                assert_true(others[i] < 65535 && pixels[i] < 65535); /* none is clipped */
+                before += shown(others, i);
+                after += shown(pixels, i);
+                moved += fabs(shown(pixels, i) - shown(others, i)) / n;
+            }
+            if (fabs(after / before - 1) > 2e-4)
+                fail_msg("%d x %d, channel %d: %.9g became %.9g", width, height, c, before, after);
+        }
+        assert_true(moved > 2e-4 || n < 10); /* or there were nothing to keep */
+    }
+}
+
+/* Which light is spread, as docs/physics says: of a luminance y of white over 0.6, with a knee from 0.2 to 1. */
+static double taken(double y)
+{
+    return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6;
+}
+
+/* One dimension of a Gaussian over n pixels, of what is at `from`, light beyond the edges mirrored. */
+static double gauss(double from, double at, int n, double sigma)
+{
+    double sum = 0;
+    for (int fold = -2; fold <= 2; fold++)
+        for (int side = -1; side <= 1; side += 2) {
+            double image = 2.0 * fold * n + side * from;
+            sum += exp(-(at - image) * (at - image) / (2 * sigma * sigma));
+        }
+    return sum / (sigma * sqrt(2 * acos(-1)));
+}
+
+/* Stretches of light in x and in y, convolved with a Gaussian each way: two passes. */
+static void convolve(const double *in, double *out, int width, int height, double sigma)
+{
+    static double kernel[512][512], between[MOST];
+    assert_true(width <= 512 && height <= 512);
+    for (int a = 0; a < width; a++)
+        for (int b = 0; b < width; b++)
+            kernel[a][b] = gauss(a + 0.5, b + 0.5, width, sigma);
+    for (int y = 0; y < height; y++)
+        for (int b = 0; b < width; b++) {
+            double sum = 0;
+            for (int a = 0; a < width; a++)
+                sum += kernel[a][b] * in[y * width + a];
+            between[y * width + b] = sum;
+        }
+    for (int a = 0; a < height; a++)
+        for (int b = 0; b < height; b++)
+            kernel[a][b] = gauss(a + 0.5, b + 0.5, height, sigma);
+    for (int x = 0; x < width; x++)
+        for (int b = 0; b < height; b++) {
+            double sum = 0;
+            for (int a = 0; a < height; a++)
+                sum += kernel[a][b] * between[a * width + x];
+            out[b * width + x] = sum;
+        }
+}
+
+/* Splines of one width each are near to Gaussians of their variance: to 4 % of the largest brightness that is spread, of which about a third
+ * is the narrowest of them, and nowhere of another sign. White light on black. */
+static void widths(void **state)
+{
+    (void)state;
+    enum { W = 420, H = 256, LEVELS = 5 };
+    static double off[W * H], spread[W * H], one[W * H], want[W * H];
+    make_light(W, H);
+    for (int i = 0; i < 3 * W * H; i++)
+        light[i] = light[i / 3 * 3] < 0.25f ? 0 : light[i / 3 * 3];
+    show(W, H, 0, 0, others);
+    show(W, H, 0.8, 0, pixels);
+    for (int i = 0; i < W * H; i++) {
+        off[i] = shown(others, 3 * i);
+        spread[i] = 0.8 * taken(off[i]);
+        want[i] = off[i] - spread[i];
+    }
+    for (int k = 0; k < LEVELS; k++) {
+        double d = H / 128.0;
+        convolve(spread, one, W, H, d * pow(2, k));
+        for (int i = 0; i < W * H; i++)
+            want[i] += one[i] / LEVELS;
+    }
+    double worst = 0, most = 0;
+    for (int i = 0; i < W * H; i++) {
+        worst = fmax(worst, fabs(shown(pixels, 3 * i) - want[i]));
+        most = fmax(most, want[i] - off[i] + spread[i]);
+    }
+    printf("bloom beside Gaussians: worst %.2g, of %.2g that arrive\n", worst, most);
+    assert_true(most > 0.1);
+    assert_true(worst < 0.04 * most);
+}
+
+/* One point of light is seen as a disk of light that falls off from its middle outwards, the same in all directions to a quarter, where brightness
+ * falls off steeply: its lines are circles to a few hundredths. The point is moved within its cell, and on to others. */
+static void a_point(void **state)
+{
+    (void)state;
+    enum { W = 384, H = 256 };
+    for (int at = 0; at < 5; at++) {
+        const int px = 180 + at, py = 128 + 3 * at;
+        memset(light, 0, sizeof light);
+        for (int c = 0; c < 3; c++)
+            light[3 * (py * W + px) + c] = 60;
+        show(W, H, 1, 0, pixels);
+        double before = 1;
+        for (int r = 4; r < 60; r += 2) {
+            double least = 1, most = 0;
+            for (int k = 0; k < 24; k++) {
+                double a = k * acos(-1) / 12, x = px + r * cos(a), y = py + r * sin(a);
+                int ix = (int)floor(x), iy = (int)floor(y);
+                double fx = x - ix, fy = y - iy, v = 0;
+                for (int q = 0; q < 4; q++)
+                    v += shown(pixels, 3 * ((iy + q / 2) * W + ix + q % 2)) * (q % 2 ? fx : 1 - fx) * (q / 2 ? fy : 1 - fy);
+                least = fmin(least, v);
+                most = fmax(most, v);
+            }
+            if (most > 1.27 * least || least > before)
+                fail_msg("at %d: between %.3g and %.3g at %d pixels, %.3g before", at, least, most, r, before);
+            before = least;
+        }
+    }
+}
+
+/* Where bands end, and whether cells are texels or storage, changes no byte. */
+static void bands_and_readers(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 401, 333 }, { 157, 90 }, { 320, 700 } };
+    struct kd_vk_info *info = (struct kd_vk_info *)kd_vk_info(renderer->vk);
+    const uint64_t texels = info->max_texels;
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        const int width = sizes[s][0], height = sizes[s][1];
+        const size_t bytes = 6ull * (size_t)width * (size_t)height;
+        make_light(width, height);
+        show(width, height, 0.5, 0, pixels);
+        for (int rows = 1; rows < 60; rows += 13) {
+            show(width, height, 0.5, rows, others);
+            assert_memory_equal(pixels, others, bytes);
+        }
+        info->max_texels = 4608; /* as few as the tables need */
+        show(width, height, 0.5, 0, others);
+        info->max_texels = texels;
+        assert_memory_equal(pixels, others, bytes);
+    }
+}
+
+/* Light that is not bright is not touched; NaN and infinity harm nobody. */
+static void others_unharmed(void **state)
+{
+    (void)state;
+    enum { W = 320, H = 180, AT = 90 * W + 100 };
+    make_light(W, H);
+    show(W, H, 1, 0, pixels);
+    light[3 * AT] = NAN;
+    light[3 * (AT + 900) + 1] = INFINITY;
+    show(W, H, 1, 0, others);
+    for (int i = 0; i < 3 * W * H; i++) /* what the two would have spread is missing */
+        assert_true(i / 3 == AT || i / 3 == AT + 900 || abs(pixels[i] - others[i]) <= 40);
+    make_light(W, H);
+    for (int i = 0; i < 3 * W * H; i++)
+        light[i] *= 0.19f;
+    show(W, H, 1, 0, pixels);
+    show(W, H, 0, 0, others);
+    assert_memory_equal(pixels, others, 6 * W * H);
+}
+
+/* A picture of half the size shows the same: its pixels are the means of four of the large one, to 1 % of white. */
+static void any_size(void **state)
+{
+    (void)state;
+    enum { W = 320, H = 180 };
+    make_light(2 * W, 2 * H);
+    show(2 * W, 2 * H, 1, 0, others);
+    for (int i = 0; i < 3 * W * H; i++) { /* each float is read before it is written: they move to the front */
+        int at = i / 3 / W * 12 * W + i / 3 % W * 6 + i % 3;
+        light[i] = (light[at] + light[at + 3] + light[at + 6 * W] + light[at + 6 * W + 3]) / 4;
+    }
+    show(W, H, 1, 0, pixels);
+    double worst = 0;
+    for (int i = 0; i < W * H; i++) {
+        int at = 3 * (i / W * 2 * 2 * W + i % W * 2);
+        double mean = (shown(others, at) + shown(others, at + 3) + shown(others, at + 6 * W) + shown(others, at + 6 * W + 3)) / 4;
+        worst = fmax(worst, fabs(mean - shown(pixels, 3 * i)));
+    }
+    printf("bloom at half the size: worst %.2g of white\n", worst);
+    assert_true(worst < 0.02);
+}
+
+int main(void)
+{
+    int skip = open_renderer();
+    if (skip)
+        return skip;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energy),            cmocka_unit_test(widths),          cmocka_unit_test(a_point),
+        cmocka_unit_test(bands_and_readers), cmocka_unit_test(others_unharmed), cmocka_unit_test(any_size),
+    };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
