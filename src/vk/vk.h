@@ -148,7 +148,7 @@ struct kd_vk_time {
     double ms;
     uint32_t dispatches;
 };
-#define KD_VK_MAX_PASSES 16
+#define KD_VK_MAX_PASSES 24
 size_t kd_vk_times(const struct kd_vk *vk, struct kd_vk_time out[KD_VK_MAX_PASSES]);
 void kd_vk_times_reset(struct kd_vk *vk);
 

@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 struct kd_timing { char name[24]; double ms; };
-#define KD_FRAME_MAX_TIMINGS 24
+#define KD_FRAME_MAX_TIMINGS 32
 
 struct kd_frame {
     uint32_t width, height;

@@ -199,18 +199,16 @@ static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool nee
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     uint32_t step = slice_rows(ns * p->width * p->side * p->side, rows);
     enum kd_status status = KD_OK;
-    for (uint32_t done = 0; done < rows && !status; done += step) {
-        struct slice s = { band, first + done, rows - done < step ? rows - done : step };
+    for (uint32_t row = 0; row < rows; row += step) {
+        const struct slice s = { band, first + row, rows - row < step ? rows - row : step };
         const struct slice whole = needed ? complete(j, &s) : s;
         if (needed)
-            status = map_slice(j, &s, &whole);
-        s = whole;
-        if (!status)
-            status = light_slice(j, &s);
-        j->lit = s.first + s.count;
-        if (!status)
-            status = kd_frame_report(j, needed ? 2 * s.count : s.count);
+            KD_TRY(map_slice(j, &s, &whole));
+        KD_TRY(light_slice(j, &whole));
+        j->lit = whole.first + whole.count;
+        KD_TRY(kd_frame_report(j, needed ? 2 * whole.count : whole.count));
     }
+done:
     return status;
 }
 
@@ -241,7 +239,7 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, 
     const struct kd_critical_lattice lattice = kd_critical_lattice(j->plan->critical);
     uint32_t step = slice_rows(ns_per_ray * j->plan->critical, (uint32_t)part->n);
     enum kd_status status = KD_OK;
-    for (; from < to && !status; from += step) {
+    for (; from < to; from += step) {
         struct kd_camera_push push = part->push;
         struct kd_vk_dispatch d = *base;
         push.row0 = (uint32_t)from;
@@ -249,14 +247,12 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, 
         d.push = &push;
         d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * j->plan->critical : push.rows);
         d.groups[1] = 1;
-        status = (rays ? trace_kernel : transfer_kernel)(j, &lattice, &d.pipeline);
-        if (!status)
-            status = kd_vk_dispatch(j->r->vk, &d, j->error);
-        if (!status)
-            status = kd_vk_submit(j->r->vk, NULL, j->error);
-        if (!status)
-            status = kd_frame_report(j, 0);
+        KD_TRY((rays ? trace_kernel : transfer_kernel)(j, &lattice, &d.pipeline));
+        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+        KD_TRY(kd_frame_report(j, 0));
     }
+done:
     return status;
 }
 
@@ -284,15 +280,15 @@ static enum kd_status list_part(struct kd_frame_job *j, const struct part *part)
     const struct kd_plan *p = j->plan;
     uint32_t step = slice_rows(p->trace_ns * p->critical, (uint32_t)part->n);
     enum kd_status status = KD_OK;
-    for (uint64_t done = 0; done < part->n && !status; done += step) {
+    for (uint64_t from = 0; from < part->n; from += step) {
         const struct kd_lens_rows rows = {
-            .first = (uint32_t)(part->first + done), .count = (uint32_t)(part->n - done < step ? part->n - done : step),
-            .pixels = j->lens->pixels.pixels, .to = part->lens, .offset = done * p->critical, .stride = part->push.stride,
+            .first = (uint32_t)(part->first + from), .count = (uint32_t)(part->n - from < step ? part->n - from : step),
+            .pixels = j->lens->pixels.pixels, .to = part->lens, .offset = from * p->critical, .stride = part->push.stride,
         };
-        status = list_rays(j, &rows);
-        if (!status)
-            status = kd_frame_report(j, 0);
+        KD_TRY(list_rays(j, &rows));
+        KD_TRY(kd_frame_report(j, 0));
     }
+done:
     return status;
 }
 
@@ -303,15 +299,14 @@ static enum kd_status footprint_part(struct kd_frame_job *j, const struct part *
     struct kd_footprint_area area = { .lens = part->lens, .lattice = &lattice, .push = { .rows = (uint32_t)part->n, .list = part->push.list, .stride = part->push.stride } };
     const uint32_t rays = (uint32_t)(part->n * j->plan->critical), step = slice_rows(j->plan->trace_ns, rays);
     enum kd_status status = KD_OK;
-    for (uint32_t from = 0; kd_plan_has_footprints(j->plan) && from < rays && !status; from += step) {
+    for (uint32_t from = 0; kd_plan_has_footprints(j->plan) && from < rays; from += step) {
         area.push.first = from;
         area.push.end = from + (rays - from < step ? rays - from : step);
-        status = kd_frame_footprint(j, &area);
-        if (!status)
-            status = kd_vk_submit(j->r->vk, NULL, j->error);
-        if (!status)
-            status = kd_frame_report(j, 0);
+        KD_TRY(kd_frame_footprint(j, &area));
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+        KD_TRY(kd_frame_report(j, 0));
     }
+done:
     return status;
 }
 
@@ -348,17 +343,17 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double
     enum kd_status status = KD_OK;
     if (needed) {
         kd_critical_pixels_finish(&j->lens->pixels);
-        status = kd_critical_kept(j->scene, &j->lens->pixels, j->error);
+        KD_TRY(kd_critical_kept(j->scene, &j->lens->pixels, j->error));
     }
-    for (uint32_t k = 0; k < kd_plan_critical_parts(p) && !status; k++) {
+    for (uint32_t k = 0; k < kd_plan_critical_parts(p); k++) {
         struct part part = part_of(j, k);
         if (needed)
-            status = trace_part(j, &part);
-        if (!status && needed)
-            status = footprint_part(j, &part);
-        if (!status)
-            status = transfer_part(j, &part, transfer_ns);
+            KD_TRY(trace_part(j, &part));
+        if (needed)
+            KD_TRY(footprint_part(j, &part));
+        KD_TRY(transfer_part(j, &part, transfer_ns));
     }
+done:
     return status;
 }
 
@@ -374,11 +369,14 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     const struct kd_plan *p = j->plan;
     bool needed = !reused && p->planes;
     double ns = c.ns[KD_NS_SAMPLE_TRANSFER] + (needed ? p->trace_ns : 0);
-    enum kd_status status = needed ? forget_undecided(j) : KD_OK;
-    for (uint32_t band = 0; band < p->bands && !status; band++)
-        status = light_band(j, band, needed, ns);
-    if (!status && p->critical)
-        status = light_at_curve(j, needed, c.ns[KD_NS_SAMPLE_TRANSFER]);
+    enum kd_status status = KD_OK;
+    if (needed)
+        KD_TRY(forget_undecided(j));
+    for (uint32_t band = 0; band < p->bands; band++)
+        KD_TRY(light_band(j, band, needed, ns));
+    if (p->critical)
+        KD_TRY(light_at_curve(j, needed, c.ns[KD_NS_SAMPLE_TRANSFER]));
+done:
     return status;
 }
 
@@ -390,13 +388,12 @@ enum kd_status kd_frame_undecided(struct kd_frame_job *j, uint64_t *out)
     *out = j->undecided;
     if (j->plan->path == KD_LENS_LISTED || !kd_plan_holds(j->plan, KD_LENS_SKY))
         return KD_OK;
-    enum kd_status status = kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error);
-    if (!status)
-        status = kd_vk_submit(vk, NULL, j->error);
-    if (!status)
-        status = kd_vk_wait(vk, 0, j->error);
-    if (!status)
-        *out = *(const uint32_t *)kd_vk_buffer_map(s->counts);
+    enum kd_status status;
+    KD_TRY(kd_vk_copy(vk, "readback", s->counts, 0, s->undecided, 0, 16, j->error));
+    KD_TRY(kd_vk_submit(vk, NULL, j->error));
+    KD_TRY(kd_vk_wait(vk, 0, j->error));
+    *out = *(const uint32_t *)kd_vk_buffer_map(s->counts);
+done:
     return status;
 }
 
@@ -407,17 +404,15 @@ static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd
     struct kd_vk *vk = j->r->vk;
     uint64_t row = (uint64_t)p->width * p->side * p->side, stride = row * p->band_rows;
     uint64_t first = row * kd_frame_band_first(j, band), rays = row * kd_frame_band_rows(j, band);
+    enum kd_status status = KD_OK;
     for (uint32_t plane = 0; plane < p->planes; plane++) {
-        enum kd_status status = kd_vk_copy(vk, "readback", host, 0, lens_buffer(j, band), 4 * plane * stride, 4 * rays, j->error);
-        if (!status)
-            status = kd_vk_submit(vk, NULL, j->error);
-        if (!status)
-            status = kd_vk_wait(vk, 0, j->error);
-        if (status)
-            return status;
+        KD_TRY(kd_vk_copy(vk, "readback", host, 0, lens_buffer(j, band), 4 * plane * stride, 4 * rays, j->error));
+        KD_TRY(kd_vk_submit(vk, NULL, j->error));
+        KD_TRY(kd_vk_wait(vk, 0, j->error));
         memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);
     }
-    return KD_OK;
+done:
+    return status;
 }
 
 enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
@@ -430,25 +425,23 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     struct kd_vk_buffer *host = NULL;
     bool reused;
     kd_vk_times_reset(renderer->vk);
-    enum kd_status status = kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error);
-    if (!status)
-        status = kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows,
-                                     KD_VK_READBACK, "lens map on the host", &host, error);
-    if (!status)
-        status = forget_undecided(&job);
-    for (uint32_t band = 0; band < plan->bands && !status; band++) {
+    enum kd_status status;
+    KD_TRY(kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error));
+    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows, KD_VK_READBACK,
+                               "lens map on the host", &host, error));
+    KD_TRY(forget_undecided(&job));
+    for (uint32_t band = 0; band < plan->bands; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
         uint32_t step = slice_rows(plan->trace_ns * plan->width * plan->side * plan->side, rows);
-        for (uint32_t done = 0; done < rows && !status; done += step) {
-            const struct slice s = { band, kd_frame_band_first(&job, band) + done, rows - done < step ? rows - done : step };
+        for (uint32_t row = 0; row < rows; row += step) {
+            const struct slice s = { band, kd_frame_band_first(&job, band) + row, rows - row < step ? rows - row : step };
             const struct slice whole = complete(&job, &s);
-            status = map_slice(&job, &s, &whole);
-            if (!status)
-                status = kd_vk_submit(renderer->vk, NULL, error);
+            KD_TRY(map_slice(&job, &s, &whole));
+            KD_TRY(kd_vk_submit(renderer->vk, NULL, error));
         }
-        if (!status)
-            status = read_band(&job, band, host, planes);
+        KD_TRY(read_band(&job, band, host, planes));
     }
+done:
     if (status)
         kd_vk_discard(renderer->vk);
     kd_vk_buffer_destroy(renderer->vk, host);

@@ -14,8 +14,9 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const uint64_t sums = kd_light_bytes(p) / p->bands; /* bound band by band: all together may be more than a binding holds */
     const struct kd_spec_photometry spec = { .APART = p->apart, .FINITE = finite };
     const uint32_t per_band = kd_light_groups(p->width * p->band_rows);
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error);
-    for (uint32_t band = 0; band < p->bands && !status; band++) {
+    enum kd_status status;
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_PHOTOMETRY, &spec.APART, sizeof spec / 4, &light, j->error));
+    for (uint32_t band = 0; band < p->bands; band++) {
         const struct kd_light_push push = {
             .pixels_x = p->width,
             .pixels = p->width * kd_frame_band_rows(j, band),
@@ -29,11 +30,12 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             kd_passes[KD_PASS_LIGHT].name, light, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } }, &push,
             { per_band }, /* of the last, smaller band too: they write zeros */
         };
-        status = kd_vk_dispatch(j->r->vk, &d, j->error);
+        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }
-    if (!status)
-        status = kd_vk_copy(j->r->vk, kd_passes[KD_PASS_LIGHT].name, j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error);
-    return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
+    KD_TRY(kd_vk_copy(j->r->vk, kd_passes[KD_PASS_LIGHT].name, j->store->light_host, 0, j->store->light, 0, kd_light_bytes(p), j->error));
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+done:
+    return status;
 }
 
 void kd_frame_read_light(struct kd_frame_job *j)

@@ -60,18 +60,19 @@ static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *pla
 {
     uint32_t band_rows = plan->band_rows * plan->side;
     uint64_t row = 4ull * s->width, stride = row * band_rows;
-    enum kd_status status = KD_OK;
-    for (uint32_t k = 0; k < s->rows && !status; k++) {
+    enum kd_status status;
+    for (uint32_t k = 0; k < s->rows; k++) {
         uint32_t y = spread(k, s->rows, s->height), band = y / band_rows;
-        for (uint32_t n = 0; n < s->planes && !status; n++) {
+        for (uint32_t n = 0; n < s->planes; n++) {
             uint32_t plane = n < plan->orders ? n : kd_lens_plane(plan->quantities, plan->orders, KD_LENS_FATE);
-            status = kd_vk_copy(r->vk, "readback", s->host, (k * s->planes + n) * row, map->bands.buffers[band],
-                                plane * stride + (y % band_rows) * row, row, error);
+            KD_TRY(kd_vk_copy(r->vk, "readback", s->host, (k * s->planes + n) * row, map->bands.buffers[band],
+                              plane * stride + (y % band_rows) * row, row, error));
         }
     }
-    if (!status)
-        status = kd_vk_submit(r->vk, NULL, error);
-    return status ? status : kd_vk_wait(r->vk, 0, error);
+    KD_TRY(kd_vk_submit(r->vk, NULL, error));
+    KD_TRY(kd_vk_wait(r->vk, 0, error));
+done:
+    return status;
 }
 
 static int by_value(const void *a, const void *b)
@@ -130,11 +131,11 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
             place[n] = j * s->planes * s->width + x;
         }
     const struct kd_ray_labels labels = { s->rays, s->outward, n };
-    enum kd_status status = read_rows(r, plan, map, s, error);
-    if (!status)
-        status = kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error);
-    if (!status)
-        compare(plan, s, place, n, kd_kerr_isco(scene->spacetime.spin), out);
+    enum kd_status status;
+    KD_TRY(read_rows(r, plan, map, s, error));
+    KD_TRY(kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error));
+    compare(plan, s, place, n, kd_kerr_isco(scene->spacetime.spin), out);
+done:
     return status;
 }
 
@@ -153,14 +154,12 @@ enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *sce
     s.crossings = malloc(n * plan->orders * sizeof *s.crossings);
     s.ends = malloc(n * sizeof *s.ends);
     s.errors = malloc(n * plan->orders * sizeof *s.errors);
-    enum kd_status status = KD_OK;
+    enum kd_status status;
     if (!s.rays || !s.crossings || !s.ends || !s.errors)
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for the audit");
-    if (!status)
-        status = kd_vk_buffer_create(renderer->vk, 4ull * s.rows * s.planes * s.width, KD_VK_READBACK, "audited rows",
-                                     &s.host, error);
-    if (!status)
-        status = run(renderer, scene, plan, map, &s, out, error);
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the audit"));
+    KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * s.rows * s.planes * s.width, KD_VK_READBACK, "audited rows", &s.host, error));
+    KD_TRY(run(renderer, scene, plan, map, &s, out, error));
+done:
     kd_vk_buffer_destroy(renderer->vk, s.host);
     free(s.rays);
     free(s.crossings);

@@ -145,12 +145,11 @@ static enum kd_status upload(struct kd_renderer *r, const struct kd_scene *scene
     if (status)
         return status;
     fill(w, scene, kd_vk_buffer_map(staging));
-    for (uint32_t k = 0; k < w->plan->planes && !status; k++)
-        status = kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes, error);
-    if (!status)
-        status = kd_vk_submit(r->vk, NULL, error);
-    if (!status)
-        status = kd_vk_wait(r->vk, 0, error);
+    for (uint32_t k = 0; k < w->plan->planes; k++)
+        KD_TRY(kd_vk_copy(r->vk, "upload", rows->to, 4 * (rows->offset + k * rows->stride), staging, k * bytes, bytes, error));
+    KD_TRY(kd_vk_submit(r->vk, NULL, error));
+    KD_TRY(kd_vk_wait(r->vk, 0, error));
+done:
     kd_vk_buffer_destroy(r->vk, staging);
     return status;
 }
@@ -213,11 +212,11 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
     else
         make_rays(scene, rows, width, &w);
     const struct kd_ray_labels labels = { w.alpha_beta, w.outward, w.n };
-    status = kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error);
-    if (!status)
-        status = upload(renderer, scene, &w, rows, error);
-    for (size_t i = 0; i < w.n && !status; i++)
+    KD_TRY(kd_lens_trace(renderer, scene, plan, &plan->setting, &labels, w.crossings, w.ends, error));
+    KD_TRY(upload(renderer, scene, &w, rows, error));
+    for (size_t i = 0; i < w.n; i++)
         *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
+done:
     finish(&w);
     return status;
 }

@@ -24,22 +24,25 @@ static enum kd_status add_table(struct kd_buffer *page, const char *of)
 
 static enum kd_status add_emitter(struct kd_buffer *page, const struct kd_emitter *emitter)
 {
-    enum kd_status status = add_table(page, emitter->name);
-    for (size_t i = 0; i < emitter->n_sentences && !status; i++)
-        status = kd_buffer_printf(page, "| %s | %s |\n", emitter->sentences[i].text, emitter->sentences[i].in_force ? sometimes : present);
-    if (emitter->kind && !status)
-        status = kd_buffer_printf(page, "\nThe sentences of the %s hold as well.\n", emitter->kind->name);
+    enum kd_status status;
+    KD_TRY(add_table(page, emitter->name));
+    for (size_t i = 0; i < emitter->n_sentences; i++)
+        KD_TRY(kd_buffer_printf(page, "| %s | %s |\n", emitter->sentences[i].text, emitter->sentences[i].in_force ? sometimes : present));
+    if (emitter->kind)
+        KD_TRY(kd_buffer_printf(page, "\nThe sentences of the %s hold as well.\n", emitter->kind->name));
+done:
     return status;
 }
 
 enum kd_status kd_plan_reference(struct kd_buffer *page)
 {
-    enum kd_status status = kd_buffer_append(page, introduction, strlen(introduction));
-    for (int i = 0; i < KD_EMITTER_COUNT && !status; i++)
-        status = add_emitter(page, kd_emitters[i]);
-    if (!status)
-        status = add_table(page, "any picture");
-    for (size_t i = 0; i < kd_plan_sentence_count() && !status; i++)
-        status = kd_buffer_printf(page, "| %s | %s |\n", kd_plan_sentence(i), sometimes);
+    enum kd_status status;
+    KD_TRY(kd_buffer_append(page, introduction, strlen(introduction)));
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        KD_TRY(add_emitter(page, kd_emitters[i]));
+    KD_TRY(add_table(page, "any picture"));
+    for (size_t i = 0; i < kd_plan_sentence_count(); i++)
+        KD_TRY(kd_buffer_printf(page, "| %s | %s |\n", kd_plan_sentence(i), sometimes));
+done:
     return status;
 }
