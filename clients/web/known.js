@@ -44,7 +44,7 @@ const with_choice = {
 };
 
 // The field that puts a section, or an element of a list, out of the picture: with its default the others mean nothing.
-const switched_by = { sky: 'model', gas: 'amplitude', spots: 'brightness' };
+const switched_by = { sky: 'model', 'disk.gas': 'amplitude', spots: 'brightness' };
 
 const conditions = {
   time: shows => shows.time,
@@ -56,7 +56,7 @@ const conditions = {
 export function meansSomething(scene, path, shows) {
   const home = path.slice(0, Math.max(0, path.lastIndexOf('.'))),
     name = path.slice(home && home.length + 1),
-    key = home && `${home}.${switched_by[home.split('.')[0]]}`;
+    key = home && `${home}.${switched_by[home.replace(/\.\d+$/, '')]}`;
   if (conditions[path]) return conditions[path](shows);
   if (scene.fields.has(key) && key !== path && scene.get(key) === scene.fields.get(key).default) return false;
   const { chosen, ...choices } = with_choice[home] ?? {};

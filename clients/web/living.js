@@ -11,7 +11,7 @@ export const spots = scene => scene.elements('spots').filter(path => scene.get(p
 export const hasSpots = scene => spots(scene).length > 0;
 const hasParticles = scene => scene.get('disk.model') === 'particles';
 // Gas that is not the same all round.
-const hasGas = scene => scene.get('gas.amplitude') > 0 && ['novikov-thorne', 'shakura-sunyaev'].includes(scene.get('disk.model'));
+const hasGas = scene => scene.get('disk.gas.amplitude') > 0 && ['novikov-thorne', 'shakura-sunyaev'].includes(scene.get('disk.model'));
 const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) || scene.get('disk.model') !== 'none');
 
 // Time is seen where the disk is not the same all round, or rings.

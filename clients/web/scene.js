@@ -15,10 +15,16 @@ function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.deprecated) continue;
     if (spec.items) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
-    else if (spec.properties) yield* flatten(spec, name + '.');
+    else if (spec.properties) yield* flatten(spec, `${prefix}${name}.`);
     else if (!('const' in spec))
       yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'] };
   }
+}
+
+// Those of a member of the document, each with its path; a section may stand in another one: disk.gas.
+function sections([path, spec]) {
+  if (spec.deprecated || !(spec.properties || spec.items)) return [];
+  return [[path, spec], ...Object.entries(spec.properties ?? {}).flatMap(([name, inner]) => sections([`${path}.${name}`, inner]))];
 }
 
 // What stands there in a document; undefined where nothing does.
@@ -53,7 +59,7 @@ export class Scene extends EventTarget {
       scene = new Scene();
     scene.natures = schema['x-natures'];
     scene.sections = Object.entries(schema.properties)
-      .filter(([, spec]) => (spec.properties || spec.items) && !spec.deprecated)
+      .flatMap(sections)
       .map(([name, spec]) => ({ name, help: spec.description, group: spec['x-group'], most: spec.items && spec.maxItems }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
     scene.#renew(schema);
@@ -62,9 +68,9 @@ export class Scene extends EventTarget {
       if (Number.isNaN(value)) scene.unknown.push(path);
       else if (value != null) scene.#put(path, value);
     }
-    const sections = scene.sections.map(({ name }) => name);
+    const names = scene.sections.map(({ name }) => name);
     for (const [key] of link.entries(''))
-      if (key.includes('.') ? sections.includes(key.split('.')[0]) && !scene.fields.has(key) : !known.includes(key) && key !== 'time') scene.unknown.push(key);
+      if (key.includes('.') ? names.includes(key.split('.')[0]) && !scene.fields.has(key) : !known.includes(key) && key !== 'time') scene.unknown.push(key);
     return scene;
   }
 

@@ -182,6 +182,9 @@
     SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "how closely the rays are followed")                                 \
     SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
+/* Sections that stand in another one, whose member they are in documents: PART(s, name, section); s is handed through. */
+#define KD_SCENE_PARTS(PART, s) PART(s, gas, disk)
+
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 

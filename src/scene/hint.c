@@ -14,8 +14,11 @@ static void known_names(const struct kd_section *section, char out[HINT_SIZE])
     size_t used = (size_t)snprintf(out, HINT_SIZE, "; known are ");
     const char *separator = "";
     bool whole = !*section->name;
-    for (size_t i = 0; whole && i + 1 < KD_SECTION_COUNT && used < HINT_SIZE; i++, separator = ", ")
+    for (size_t i = 0; whole && i + 1 < KD_SECTION_COUNT && used < HINT_SIZE; i++, separator = ", ") {
+        if (strchr(kd_sections[i].name, '.')) /* known in another one */
+            continue;
         used += (size_t)snprintf(out + used, HINT_SIZE - used, "%s%s", separator, kd_sections[i].name);
+    }
     for (size_t i = 0; i < section->count && used < HINT_SIZE; i++, separator = ", ")
         used += (size_t)snprintf(out + used, HINT_SIZE - used, "%s%s", separator,
                                  kd_fields[section->first + i].name);
@@ -37,7 +40,7 @@ static void hint(const char *section, size_t index, const char *name, char out[H
         }
     }
     for (size_t i = 0; !*section && i + 1 < KD_SECTION_COUNT; i++) {
-        int score = kd_slip(name, kd_sections[i].name);
+        int score = kd_slip(name, kd_section_member(&kd_sections[i])) + (strchr(kd_sections[i].name, '.') ? 1 : 0);
         if (score < best) {
             best = score;
             snprintf(meant, sizeof meant, "%s", kd_sections[i].name);
@@ -57,7 +60,9 @@ enum kd_status kd_hint_unknown(struct kd_error *error, const char *section, size
     kd_text_clip(shown_section, sizeof shown_section, section);
     kd_text_clip(shown_name, sizeof shown_name, name);
     hint(section, index, name, suggestion);
-    if (*section)
+    if (known)
+        kd_section_pointer(known, pointer);
+    else if (*section)
         kd_text_pointer(pointer, sizeof pointer, section);
     if (known && known->most) {
         snprintf(element, sizeof element, ".%zu", index);

@@ -51,9 +51,14 @@ static enum kd_status not_a(struct reader *reader, const cJSON *item, const char
     return kd_error_field(reader->error, pointer, "%s is %s, allowed is %s", path, given, allowed);
 }
 
+static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item);
+
 static enum kd_status read_field(struct reader *reader, struct object *object, const cJSON *item)
 {
     const struct kd_field *field = kd_field_find(object->section->name, item->string);
+    const struct kd_section *part = field ? NULL : kd_section_part(object->section, item->string);
+    if (part)
+        return read_section(reader, part, item);
     if (!field)
         return kd_hint_unknown(reader->error, object->section->name, object->index, item->string);
     char pointer[KD_PATH_SIZE];
@@ -74,6 +79,9 @@ static enum kd_status read_object(struct reader *reader, const struct kd_section
     struct object object = { .section = section, .index = index, .patch = patch };
     if (patch && cJSON_IsNull(item)) {
         kd_section_reset(&reader->scene, section, index);
+        for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+            if (kd_section_is_part(&kd_sections[i], section))
+                kd_section_reset(&reader->scene, &kd_sections[i], 0);
         return KD_OK;
     }
     if (!cJSON_IsObject(item))
@@ -164,7 +172,7 @@ static enum kd_status read_list(struct reader *reader, const struct kd_section *
 static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item)
 {
     char pointer[KD_PATH_SIZE];
-    snprintf(pointer, sizeof pointer, "/%s", section->name);
+    kd_section_pointer(section, pointer);
     enum kd_status status = once(reader, &reader->seen_section[section - kd_sections], pointer);
     if (status)
         return status;
@@ -194,7 +202,7 @@ static enum kd_status read_member(struct reader *reader, struct object *top, con
         enum kd_status status = once(reader, &reader->seen_version, "/version");
         return status ? status : kd_value_version(&value, reader->error);
     }
-    const struct kd_section *section = *item->string ? kd_section_find(item->string) : NULL;
+    const struct kd_section *section = *item->string && !strchr(item->string, '.') ? kd_section_find(item->string) : NULL;
     const struct kd_old_name *old = kd_old_name_find(item->string);
     return section ? read_section(reader, section, item) : old ? read_old(reader, old, item) : read_field(reader, top, item);
 }

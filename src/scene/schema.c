@@ -86,17 +86,24 @@ static void write_fields(struct kd_writer *w, const struct kd_section *section)
     }
 }
 
+static void write_section(struct kd_writer *w, const struct kd_section *section);
+
 /* Writes what follows a description, and ends its schema. */
 static void write_object(struct kd_writer *w, const struct kd_section *section)
 {
     kd_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
     write_fields(w, section);
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+        if (kd_section_is_part(&kd_sections[i], section)) {
+            kd_write(w, ",");
+            write_section(w, &kd_sections[i]);
+        }
     kd_write(w, "}}");
 }
 
 static void write_section(struct kd_writer *w, const struct kd_section *section)
 {
-    kd_write(w, "\"%s\":{\"description\":", section->name);
+    kd_write(w, "\"%s\":{\"description\":", kd_section_member(section));
     kd_write_string(w, section->help);
     write_group(w, section);
     kd_write(w, ",");
@@ -144,6 +151,8 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
         "\"version\":{\"const\":%d,\"description\":\"version of this document format\"}",
         KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
+        if (strchr(kd_sections[i].name, '.')) /* written with the section that it stands in */
+            continue;
         kd_write(w, ",");
         if (*kd_sections[i].name)
             write_section(w, &kd_sections[i]);

@@ -17,8 +17,8 @@ struct place {
 
 static enum kd_status whole_section(const struct kd_section *section, struct kd_error *error)
 {
-    char pointer[KD_PATH_SIZE] = "", path[KD_PATH_SIZE];
-    kd_text_pointer(pointer, sizeof pointer, section->name);
+    char pointer[KD_PATH_SIZE], path[KD_PATH_SIZE];
+    kd_section_pointer(section, pointer);
     kd_field_path(&kd_fields[section->first], 0, path);
     return section->most ? kd_error_field(error, pointer, "%s is a list; name a field of one of its elements, as in %s", section->name, path)
                          : kd_error_field(error, pointer, "%s is a section; name one of its fields, as in %s", section->name, path);
@@ -70,6 +70,12 @@ static enum kd_status find_place(const char *path, struct place *place, struct k
     *place = (struct place) { kd_section_find(token), 0, rest, false };
     if (!place->section)
         return kd_hint_unknown(error, token, 0, rest);
+    next_token(&rest, token);
+    const struct kd_section *part = kd_section_part(place->section, *token ? token : rest);
+    if (part && !*token)
+        return whole_section(part, error);
+    if (part)
+        *place = (struct place) { part, 0, rest, false };
     return place->section->most ? in_list(place, error) : KD_OK;
 }
 

@@ -4,7 +4,8 @@
 #include <string.h>
 
 /* Members of "top" stand in the document itself. */
-#define SECTION_NAME(s) (offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
+#define PART_NAME(s, part, whole) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, part) ? #whole "." #part :
+#define SECTION_NAME(s) (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
 /* These say where the rows of each section begin in the scene, in which struct they are, and how far the next element is. */
 #define PLACE(name, ROWS, group, help)                                                                       \
@@ -70,6 +71,32 @@ const struct kd_section *kd_section_find(const char *section)
         if (!strcmp(kd_sections[i].name, section))
             return &kd_sections[i];
     return NULL;
+}
+
+const struct kd_section *kd_section_part(const struct kd_section *section, const char *name)
+{
+    char path[KD_PATH_SIZE];
+    int length = snprintf(path, sizeof path, "%s.%s", section->name, name);
+    return !*section->name || length >= KD_PATH_SIZE ? NULL : kd_section_find(path);
+}
+
+bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole)
+{
+    size_t length = strlen(whole->name);
+    return length && !strncmp(section->name, whole->name, length) && section->name[length] == '.';
+}
+
+const char *kd_section_member(const struct kd_section *section)
+{
+    const char *dot = strrchr(section->name, '.');
+    return dot ? dot + 1 : section->name;
+}
+
+void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE])
+{
+    snprintf(out, KD_PATH_SIZE, "%s%.*s", *section->name ? "/" : "", KD_PATH_SIZE - 2, section->name);
+    for (char *c = out; *c; c++)
+        *c = *c == '.' ? '/' : *c;
 }
 
 const struct kd_field *kd_field_find(const char *section, const char *name)
@@ -231,6 +258,8 @@ void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PA
     char path[KD_PATH_SIZE];
     spell(field, index, "/", path);
     snprintf(out, KD_PATH_SIZE, "/%.*s", KD_PATH_SIZE - 2, path);
+    for (char *c = out; *c; c++)
+        *c = *c == '.' ? '/' : *c; /* a section in another one */
 }
 
 void kd_scene_defaults(struct kd_scene *scene)

@@ -32,7 +32,7 @@ struct kd_nature {
 };
 
 struct kd_section {
-    const char *name; /* "" for the document itself: always the last */
+    const char *name; /* "" for the document itself: always the last; "disk.gas" for one that stands in another */
     const char *help;
     enum kd_section_group group;
     size_t first, count; /* rows in kd_fields */
@@ -73,6 +73,12 @@ extern const struct kd_old_name kd_old_names[KD_OLD_NAME_COUNT];
 
 /* Find by name: NULL when there is none; "" is the document itself. Names are case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
+/* Find sections in sections: the one of this name in a section, NULL for none; whether one is in another; its name there; its pointer. */
+enum { KD_PATH_SIZE = 80 };
+const struct kd_section *kd_section_part(const struct kd_section *section, const char *name);
+bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
+const char *kd_section_member(const struct kd_section *section);
+void kd_section_pointer(const struct kd_section *section, char out[KD_PATH_SIZE]);
 const struct kd_field *kd_field_find(const char *section, const char *name);
 const struct kd_old_name *kd_old_name_find(const char *name);
 
@@ -107,8 +113,7 @@ int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
 int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: none of them */
 
-/* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r". */
-enum { KD_PATH_SIZE = 80 };
+/* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
 void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 

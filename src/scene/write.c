@@ -5,6 +5,7 @@
 #include "scene/writer.h"
 
 #include <stdio.h>
+#include <string.h>
 
 void kd_write_string(struct kd_writer *writer, const char *text)
 {
@@ -73,6 +74,17 @@ static void write_fields(struct kd_writer *writer, const struct kd_section *sect
     }
 }
 
+static void write_parts(struct kd_writer *writer, const struct kd_section *section, const struct kd_scene *scene)
+{
+    for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
+        if (!kd_section_is_part(&kd_sections[i], section))
+            continue;
+        kd_write(writer, ",\"%s\":{", kd_section_member(&kd_sections[i]));
+        write_fields(writer, &kd_sections[i], 0, scene);
+        kd_write(writer, "}");
+    }
+}
+
 static void write_section(struct kd_writer *writer, const struct kd_section *section, const struct kd_scene *scene)
 {
     size_t size = kd_section_size(scene, section);
@@ -82,6 +94,7 @@ static void write_section(struct kd_writer *writer, const struct kd_section *sec
     for (size_t i = 0; i < size && !writer->status; i++) {
         kd_write(writer, "%s{", i ? "," : "");
         write_fields(writer, section, i, scene);
+        write_parts(writer, section, scene);
         kd_write(writer, "}");
     }
     kd_write(writer, "%s", section->most ? "]" : "");
@@ -93,6 +106,8 @@ enum kd_status kd_scene_to_json(const struct kd_scene *scene, struct kd_buffer *
     kd_write(&writer, "{\"version\":%d", KD_SCENE_VERSION);
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         const struct kd_section *section = &kd_sections[i];
+        if (strchr(section->name, '.')) /* written with the section that it stands in */
+            continue;
         if (*section->name) {
             write_section(&writer, section, scene);
             continue;

@@ -225,6 +225,51 @@ static void elements_are_set(void **state)
 }
 
 /* A file from an earlier version must go on meaning the same. */
+/* A section in another one is a member of it: in documents, patches, by its path, and in what is written. */
+static void sections_stand_in_sections(void **state)
+{
+    (void)state;
+    struct kd_scene scene, defaults;
+    struct kd_error error;
+    kd_scene_defaults(&scene);
+    kd_scene_defaults(&defaults);
+    patched(&scene, "{\"disk\":{\"gas\":{\"amplitude\":0.5,\"seed\":7},\"outer\":30}}");
+    assert_true(scene.gas.amplitude == 0.5 && scene.gas.seed == 7 && scene.disk.outer == 30);
+    assert_int_equal(kd_scene_set(&scene, "disk.gas.octaves", "3", &error), KD_OK);
+    assert_int_equal(scene.gas.octaves, 3);
+    char *text = support_canonical(&scene);
+    const char *disk = strstr(text, "\"disk\":{"), *gas = strstr(text, ",\"gas\":{\"amplitude\":0.5,\"octaves\":3,"), *next = strstr(text, "\"spots\":");
+    assert_true(disk && gas && next && disk < gas && gas < next && next[-2] == '}' && next[-3] == '}');
+    free(text);
+    patched(&scene, "{\"disk\":{\"gas\":{\"seed\":null}}}");
+    assert_true(scene.gas.seed == defaults.gas.seed && scene.gas.octaves == 3);
+    patched(&scene, "{\"disk\":{\"gas\":null}}");
+    assert_true(!memcmp(&scene.gas, &defaults.gas, sizeof scene.gas) && scene.disk.outer == 30);
+    scene.gas.amplitude = 1;
+    patched(&scene, "{\"disk\":null}");
+    assert_memory_equal(&scene, &defaults, sizeof scene);
+
+    static const struct { const char *text, *pointer, *says; } bad[] = {
+        { "{\"gas\":{}}", "/gas", "did you mean disk.gas?" },
+        { "{\"disk.gas\":{}}", "/disk.gas", "unknown field disk.gas" },
+        { "{\"disk\":{\"gas\":3}}", "/disk/gas", "disk.gas is 3, allowed is an object" },
+        { "{\"disk\":{\"gas\":{\"sed\":3}}}", "/disk/gas/sed", "did you mean disk.gas.seed?" },
+        { "{\"disk\":{\"gas\":{\"seed\":0.5}}}", "/disk/gas/seed", "disk.gas.seed is 0.5" },
+        { "{\"disk\":{\"gas\":{},\"gas\":{}}}", "/disk/gas", "disk.gas is given twice" },
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(support_parse(&scene, bad[i].text, &error), KD_EINVAL);
+        assert_string_equal(error.pointer, bad[i].pointer);
+        assert_non_null(strstr(error.message, bad[i].says));
+        assert_memory_equal(&scene, &defaults, sizeof scene);
+    }
+    assert_int_equal(kd_scene_set(&scene, "disk.gas", "1", &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "disk.gas is a section; name one of its fields, as in disk.gas.amplitude"));
+    assert_string_equal(error.pointer, "/disk/gas");
+    assert_int_equal(kd_scene_set(&scene, "disk.gas.sed", "1", &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/disk/gas/sed");
+}
+
 static void canonical_form_is_stable(void **state)
 {
     (void)state;
@@ -388,7 +433,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_scenes_round_trip), cmocka_unit_test(empty_document_is_the_default),
         cmocka_unit_test(documents_merge), cmocka_unit_test(patches),
-        cmocka_unit_test(lists_merge), cmocka_unit_test(old_names_are_read), cmocka_unit_test(elements_are_set), cmocka_unit_test(canonical_form_is_stable),
+        cmocka_unit_test(lists_merge), cmocka_unit_test(old_names_are_read), cmocka_unit_test(sections_stand_in_sections), cmocka_unit_test(elements_are_set), cmocka_unit_test(canonical_form_is_stable),
         cmocka_unit_test(numbers_are_short),        cmocka_unit_test(invalid_scenes_have_no_text),
         cmocka_unit_test(hash_feels_each_field),    cmocka_unit_test(hash_is_sha256),
         cmocka_unit_test(locale_does_not_matter),

@@ -32,7 +32,10 @@ static inline double support_uniform(uint64_t *state)
 static inline void support_document(char out[256], const struct kd_field *field, const char *value)
 {
     bool list = field->stride;
-    if (*field->section)
+    const char *dot = strchr(field->section, '.'); /* a section in another one */
+    if (dot)
+        snprintf(out, 256, "{\"%.*s\":{\"%s\":{\"%s\":%s}}}", (int)(dot - field->section), field->section, dot + 1, field->name, value);
+    else if (*field->section)
         snprintf(out, 256, "{\"%s\":%s{\"%s\":%s}%s}", field->section, list ? "[" : "", field->name, value, list ? "]" : "");
     else
         snprintf(out, 256, "{\"%s\":%s}", field->name, value);
