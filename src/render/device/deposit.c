@@ -34,19 +34,20 @@ static enum kd_status share_out(struct kd_renderer *r, struct kd_particles *p, c
 {
     const struct kd_vk_pipeline *kernel;
     const struct kd_spec_particles spec = { .SWING = scene->disk.epicycles > 0, .PLUNGE = plunge };
-    enum kd_status status = kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error);
+    enum kd_status status;
     double slice = fmax(KD_GROUP_SIZE, fmin(SLICE_MS * 1e6 / fmax(ns_per_particle, 1e-3), (double)kd_vk_info(r->vk)->max_groups_x * KD_GROUP_SIZE));
-    for (; push->first < end && !status; push->first += push->count) {
+    KD_TRY(kd_kernels_get(&r->kernels, r->vk, KD_KERNEL_PARTICLES, &spec.SWING, sizeof spec / 4, &kernel, error));
+    for (; push->first < end; push->first += push->count) {
         uint32_t left = end - push->first;
         push->count = left < slice ? left : (uint32_t)slice;
         const struct kd_vk_dispatch d = {
             kd_passes[KD_PASS_PARTICLES].name, kernel, { { p->guides, 0, 0, false }, { p->grid, 0, 0, true } }, push,
             { groups(push->count) },
         };
-        status = kd_vk_dispatch(r->vk, &d, error);
-        if (!status)
-            status = kd_vk_submit(r->vk, NULL, error);
+        KD_TRY(kd_vk_dispatch(r->vk, &d, error));
+        KD_TRY(kd_vk_submit(r->vk, NULL, error));
     }
+done:
     return status;
 }
 
@@ -81,7 +82,7 @@ static enum kd_status prepare(struct kd_renderer *r, struct kd_prepared *own, co
     KD_TRY(guides(r, p, scene, &grid, time, error));
     KD_TRY(kd_store_at_least(r->vk, &p->grid, bytes, KD_VK_DEVICE, "particles", error));
     KD_TRY(kd_store_at_least(r->vk, &p->density, bytes, KD_VK_DEVICE, "density of particles", error));
-    KD_TRY(kd_vk_fill(r->vk, "particles", p->grid, 0, bytes, 0, error));
+    KD_TRY(kd_vk_fill(r->vk, kd_passes[KD_PASS_PARTICLES].name, p->grid, 0, bytes, 0, error));
     if (grid.plunging)
         KD_TRY(share_out(r, p, scene, true, &push, grid.plunging, ns, error));
     KD_TRY(share_out(r, p, scene, false, &push, grid.count, ns, error));

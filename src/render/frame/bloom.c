@@ -10,10 +10,11 @@ static enum kd_status gather(struct kd_frame_job *j)
     const struct kd_bloom *b = &p->bloom;
     const struct kd_vk_pipeline *gather;
     const uint64_t bytes = kd_bloom_parts_bytes(b);
-    enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BLOOM_GATHER, NULL, 0, &gather, j->error);
-    if (!status && j->lit < p->height) /* cells that nothing is written to */
-        status = kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, b->parts, bytes, 0, j->error);
-    for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band) && !status; band++) {
+    enum kd_status status;
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BLOOM_GATHER, NULL, 0, &gather, j->error));
+    if (j->lit < p->height) /* cells that nothing is written to */
+        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, b->parts, bytes, 0, j->error));
+    for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band); band++) {
         const uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_lit(j, band);
         const uint32_t top = (uint32_t)((uint64_t)first * b->rows / p->height);
         const uint32_t end = (uint32_t)(((uint64_t)(first + rows) * b->rows + p->height - 1) / p->height);
@@ -26,12 +27,13 @@ static enum kd_status gather(struct kd_frame_job *j)
             kd_passes[KD_PASS_BLOOM].name, gather, { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->bloom, b->parts, bytes, true } }, &push,
             { kd_frame_groups((uint64_t)b->columns * push.cell_rows) },
         };
-        status = kd_vk_dispatch(j->r->vk, &d, j->error);
-        if (!status && p->bands > 1) /* short submissions */
-            status = kd_vk_submit(j->r->vk, NULL, j->error);
-        if (!status && p->bands > 1)
-            status = kd_frame_report(j, 0);
+        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+        if (p->bands == 1)
+            continue;
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* short submissions */
+        KD_TRY(kd_frame_report(j, 0));
     }
+done:
     return status;
 }
 
@@ -83,12 +85,15 @@ static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 enum kd_status kd_frame_bloom(struct kd_frame_job *j)
 {
     const uint32_t levels = j->plan->bloom.levels;
-    enum kd_status status = levels ? gather(j) : KD_OK;
-    if (levels && !status)
-        status = join(j);
-    for (uint32_t i = 1; i < levels && !status; i++)
-        status = down(j, i);
-    for (uint32_t i = levels; i > 0 && !status; i--)
-        status = up(j, i - 1);
+    enum kd_status status;
+    if (!levels)
+        return KD_OK;
+    KD_TRY(gather(j));
+    KD_TRY(join(j));
+    for (uint32_t i = 1; i < levels; i++)
+        KD_TRY(down(j, i));
+    for (uint32_t i = levels; i > 0; i--)
+        KD_TRY(up(j, i - 1));
+done:
     return status;
 }

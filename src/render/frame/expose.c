@@ -9,27 +9,23 @@ static enum kd_status measure(struct kd_frame_job *j)
     struct kd_vk *vk = j->r->vk;
     struct kd_store *s = j->store;
     const struct kd_vk_pipeline *expose;
-    enum kd_status status = kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error);
-    if (!status)
-        status = kd_vk_fill(vk, "expose", s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error);
-    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
+    enum kd_status status;
+    KD_TRY(kd_kernels_get(&j->r->kernels, vk, KD_KERNEL_EXPOSE, NULL, 0, &expose, j->error));
+    KD_TRY(kd_vk_fill(vk, kd_passes[KD_PASS_EXPOSE].name, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error));
+    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
         uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
         const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
-        status = kd_vk_dispatch(vk,
-                                &(struct kd_vk_dispatch){ kd_passes[KD_PASS_EXPOSE].name,
-                                                          expose,
-                                                          { { s->radiance.buffers[band], 0, 0, false },
-                                                            { s->histogram, 0, 0, true } },
-                                                          push,
-                                                          { n } },
-                                j->error);
+        const struct kd_vk_dispatch d = {
+            kd_passes[KD_PASS_EXPOSE].name, expose, { { s->radiance.buffers[band], 0, 0, false }, { s->histogram, 0, 0, true } }, push, { n },
+        };
+        KD_TRY(kd_vk_dispatch(vk, &d, j->error));
     }
-    if (!status)
-        status = kd_vk_copy(vk, kd_passes[KD_PASS_EXPOSE].name, s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error);
-    if (!status)
-        status = kd_vk_submit(vk, NULL, j->error);
-    return status ? status : kd_vk_wait(vk, 0, j->error);
+    KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_EXPOSE].name, s->counts, 0, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, j->error));
+    KD_TRY(kd_vk_submit(vk, NULL, j->error));
+    KD_TRY(kd_vk_wait(vk, 0, j->error));
+done:
+    return status;
 }
 
 /* log2 luminance below which lie all but `share` of the lit pixels. */

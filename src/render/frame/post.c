@@ -21,10 +21,8 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
     const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels);
     enum kd_status status = KD_OK;
-    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band) && !status; band++) {
-        status = kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, &post, j->error);
-        if (status)
-            break;
+    for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
+        KD_TRY(kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, &post, j->error));
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
         uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
@@ -39,25 +37,20 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
             .cells_x = bloom->columns,
             .cells_y = bloom->rows,
         };
-        status = kd_vk_dispatch(vk,
-                                &(struct kd_vk_dispatch){ kd_passes[KD_PASS_POST].name,
-                                                          post,
-                                                          { { s->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false },
-                                                            { s->words, 0, 0, true },
-                                                            { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false } },
-                                                          &push,
-                                                          { kd_post_groups(pixels) } },
-                                j->error);
-        if (!status)
-            status = kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error);
-        if (!status)
-            status = kd_vk_submit(vk, NULL, j->error);
-        if (!status)
-            status = kd_vk_wait(vk, 0, j->error);
-        if (!status)
-            memcpy((char *)kd_frame_pixels(frame) + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
-        if (!status)
-            status = kd_frame_report(j, kd_frame_band_rows(j, band));
+        const struct kd_vk_dispatch d = {
+            kd_passes[KD_PASS_POST].name, post,
+            { { s->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false },
+              { s->words, 0, 0, true },
+              { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false } },
+            &push, { kd_post_groups(pixels) },
+        };
+        KD_TRY(kd_vk_dispatch(vk, &d, j->error));
+        KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error));
+        KD_TRY(kd_vk_submit(vk, NULL, j->error));
+        KD_TRY(kd_vk_wait(vk, 0, j->error));
+        memcpy((char *)kd_frame_pixels(frame) + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
+        KD_TRY(kd_frame_report(j, kd_frame_band_rows(j, band)));
     }
+done:
     return status;
 }
