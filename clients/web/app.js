@@ -10,7 +10,7 @@ import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { buildLiving, hasSpots } from './living.js';
 import { buildOverlays } from './overlay.js';
-import { buildPresets, openPreset } from './presets.js';
+import { buildPresets, openPreset, startAgain } from './presets.js';
 import { Scene } from './scene.js';
 import { physics } from './server.js';
 import { share } from './share.js';
@@ -185,7 +185,7 @@ async function watch(scene) {
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));
   byId('farther').addEventListener('click', () => zoom(1.25));
-  byId('reset').addEventListener('click', () => scene.replace({}));
+  byId('reset').addEventListener('click', () => startAgain(scene).catch(error => sayWrong(error.message)));
   let asked = '';
   new ResizeObserver(() => {
     const { width, height } = size(),

@@ -19,6 +19,7 @@ export const useful = {
   'style.exposure': [-10, 10],
   'accuracy.tolerance': [1e-12, 1e-2],
   'disk.seed': [0, 1000],
+  'disk.gas.seed': [0, 1000],
   time: [-1000, 1000],
   'style.ringdown_time': [-1000, 1000],
   'motion.time_rate': [-100, 100],

@@ -10,22 +10,22 @@ const toggled = 'spots.0.brightness'; // by the button
 export const spots = scene => scene.elements('spots').filter(path => scene.get(path + '.brightness') > 0);
 export const hasSpots = scene => spots(scene).length > 0;
 const hasParticles = scene => scene.get('disk.model') === 'particles';
-// Gas that is not the same all round.
-const hasGas = scene => scene.get('disk.gas.amplitude') > 0 && ['novikov-thorne', 'shakura-sunyaev'].includes(scene.get('disk.model'));
 const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) || scene.get('disk.model') !== 'none');
 
-// Time is seen where the disk is not the same all round, or rings.
-export const showsTime = scene => hasParticles(scene) || hasGas(scene) || hasSpots(scene) || (canRing(scene) && scene.get('style.ringdown') > 0);
-
-// What of it a moment later would be seen elsewhere or otherwise.
-export const shows = scene => ({ time: showsTime(scene), bodies: hasParticles(scene) || hasGas(scene) || hasSpots(scene) });
+// Whether another time would be seen, another azimuth, and things at another time's place: the server says so.
+export const shows = ({ varies }) => ({
+  time: varies.some(word => word.endsWith('_time')),
+  azimuth: varies.includes('moves_with_azimuth'),
+  bodies: varies.includes('moves_with_time'),
+});
+const showsTime = scene => shows(scene).time;
 
 export function buildLiving(stage, scene, source) {
   const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId),
     fault = byId('strike-fault');
   let second = 0; // M as a time, of the hole's mass
 
-  const moves = () => showsTime(scene) || (scene.get('sky.model') !== 'none' && scene.get('motion.azimuth_rate_deg') !== 0);
+  const moves = () => showsTime(scene) || (shows(scene).azimuth && scene.get('motion.azimuth_rate_deg') !== 0);
   const rate = () => ({ 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
 
   function toggle() {

@@ -5,13 +5,22 @@ import * as link from './link.js';
 import { valueAt } from './scene.js';
 import { getJson } from './server.js';
 
+// The preset that is shown where a link says nothing of the scene; '' is the default scene.
+export const first_view = '';
+const plain = 'default'; // what a link then calls the default scene
+
 const document_of = name => getJson('v1/presets/' + encodeURIComponent(name));
 
-// A link may name a preset and nothing else.
+// All as it was at first.
+export async function startAgain(scene) {
+  scene.replace(first_view ? await document_of(first_view) : {});
+}
+
+// A link may name a preset and nothing else, or nothing at all.
 export async function openPreset(scene) {
-  const name = link.get('preset'),
+  const name = link.get('preset') ?? first_view,
     held = scene.held;
-  if (!name || essence(scene, scene.document()) !== '{}') return;
+  if (!name || name === plain || essence(scene, scene.document()) !== '{}') return;
   const document = await document_of(name).catch(error => {
     if (error.status !== 404) throw error;
     scene.unknown.push('preset');
@@ -54,14 +63,14 @@ export async function buildPresets(scene) {
       name = [...known].find(([, text]) => text === now)?.[0];
     own.hidden = name != null;
     select.value = name ?? 'own';
-    link.set('preset', name || null);
+    link.set('preset', name || (name === '' && first_view && plain));
     const chosen = presets.find(p => p.name === name);
     help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
   }
 
   select.addEventListener('change', async () => scene.replace(select.value ? await learn(select.value) : {}));
   scene.addEventListener('change', follow);
-  const linked = presets.find(({ name }) => name === link.get('preset'));
+  const linked = presets.find(({ name }) => name === (link.get('preset') ?? first_view));
   if (linked) await learn(linked.name);
   follow();
 }

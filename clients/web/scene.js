@@ -51,6 +51,7 @@ export class Scene extends EventTarget {
   #clock = null; // that goes without pictures
   #linked = 0; // when the address last kept up
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
+  varies = []; // what another time or azimuth would show, as the server says of the scene (docs/live.md)
   unknown = []; // what of the link means nothing here
   jumps = 0; // how often somebody set the time
 
@@ -145,6 +146,12 @@ export class Scene extends EventTarget {
     if ('time' in values) this.#now = null;
     for (const [path, value] of Object.entries(values)) this.#put(path, value);
     this.dispatchEvent(new Event('settle'));
+  }
+
+  tellVaries(varies) {
+    const changed = String(varies) !== String(this.varies);
+    this.varies = varies;
+    if (changed) this.dispatchEvent(new Event('settle'));
   }
 
   // After a picture of full quality the next one comes soon, or nothing that is seen moves.

@@ -74,6 +74,17 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)['revision'], 3)
         self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
 
+    def test_what_varies(self):
+        """Of each emitter that is there, whether time goes on or not."""
+        session = self.open({})
+        self.assertEqual(self.status(session)['varies'], [])
+        for patch, varies in (({'sky': {'model': 'grid'}}, ['moves_with_azimuth']),
+                              ({'style': {'ringdown': 1}}, ['dims_with_time', 'moves_with_azimuth']),
+                              ({'spots': [{'brightness': 1}]}, ['moves_with_time', 'dims_with_time', 'moves_with_azimuth']),
+                              ({'style': None, 'sky': None, 'spots': None, 'disk': {'model': 'particles'}}, ['moves_with_time', 'moves_with_azimuth']),
+                              ({'disk': None}, [])):
+            self.assertEqual(self.patch(session, patch).json()['varies'], varies)
+
     def test_patch_of_a_list(self):
         """RFC 7396 puts an array in the place of the whole one; an object changes elements by their index."""
         session = self.open({**SCENE, 'spots': [{'r': 10}, {'r': 11, 'size': 2}]})

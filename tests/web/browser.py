@@ -34,6 +34,17 @@ def value(cell):
     return float(cell.replace(',', '').replace('−', '-').replace(' × 10', 'e').translate(superscripts))
 
 
+def rows(schema, before='', group=None):
+    """(path, row, group) of each field of a schema; of a list the rows of its first element."""
+    for name, spec in schema['properties'].items():
+        if 'x-nature' in spec:
+            yield before + name, spec, spec.get('x-group', group)
+        elif 'properties' in spec and 'deprecated' not in spec:
+            yield from rows(spec, f'{before}{name}.', spec['x-group'])
+        elif 'items' in spec:
+            yield from rows(spec['items'], f'{before}{name}.0.', spec['x-group'])
+
+
 class Browser(unittest.TestCase):
     """Tests that share a server and a browser; each page has a context of its own."""
     @classmethod
@@ -68,7 +79,7 @@ class Browser(unittest.TestCase):
 
     def open(self, fragment='lang=en', wait=AT_REST, **options):
         page = self.page(self.context(**options))
-        page.goto(self.base + '#' + fragment)
+        page.goto(self.base + '#' + (fragment if 'preset=' in fragment else 'preset=default&' + fragment))  # whatever the first view is
         page.wait_for_selector(wait, timeout=60000, state='attached')
         return page
 
@@ -130,6 +141,10 @@ class Browser(unittest.TestCase):
 
     def clock(self, page):
         return float(page.inner_text('#clock').split()[2].replace(',', ''))
+
+    def schema(self):
+        with urllib.request.urlopen(self.base + 'v1/schema') as answer:
+            return json.load(answer)
 
     def physics(self, name, **parameters):
         query = '&'.join(f'{k}={v}' for k, v in parameters.items())

@@ -69,6 +69,21 @@ class Living(Browser):
         page.wait_for_selector(FINE)
         self.assertEqual((page.get_attribute('#as-particles', 'aria-pressed'), page.is_visible('#new-seed')), ('false', False))
 
+    def test_whatever_varies_can_be_set_going(self):
+        """As the server says of the scene, which knows what shines; the page knows none of it."""
+        page = self.open('lang=en')
+        there = lambda: (page.is_visible('#play'), page.is_visible('[data-path="time"]'))
+        self.assertEqual(there(), (False, False))
+        self.open_groups(page)
+        for value, seen in (('1', (True, True)), ('0', (False, False))):
+            page.fill('[data-path="disk.gas.amplitude"] input[type=number]', value)
+            page.keyboard.press('Enter')
+            self.assertTrue(daemon.eventually(lambda: there() == seen), value)
+        page.select_option('[data-path="sky.model"] select', 'grid')
+        page.fill('[data-path="motion.azimuth_rate_deg"] input[type=number]', '5')
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: there() == (True, False)), 'the camera goes round, and no other time would be seen')
+
     def test_a_list_grows(self):
         """A group of controls for each spot and for the next one; what is saved and sent knows their order, whichever is lit first."""
         page = self.open('lang=en&spots.2.brightness=4&spots.2.r=14', FINE)
@@ -100,7 +115,7 @@ class Living(Browser):
         page.keyboard.press('Enter')
         page.wait_for_selector(FINE)
         self.assertNotEqual(self.pixels(page), two)
-        page.click('#reset')
+        page.select_option('#preset', '')
         page.wait_for_selector(FINE)
         self.assertEqual(visible(), ['Spot 1'])
 

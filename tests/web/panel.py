@@ -1,32 +1,12 @@
 """The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
-import json
-import urllib.request
-
-from browser import AT_REST, Browser, main
+from browser import AT_REST, Browser, main, rows
 import daemon
 
 GROUPS = ('look', 'gas', 'hole', 'camera', 'more')
 SIZES = ((390, 844), (1024, 700), (1440, 900))
 
 
-def rows(schema):
-    """(path, row, group, list or None) of each field of a schema; of a list the rows of its first element."""
-    for name, spec in schema['properties'].items():
-        if 'deprecated' in spec or 'const' in spec:
-            continue
-        if 'x-nature' in spec:
-            yield name, spec, spec['x-group']
-        for field, row in spec.get('properties', {}).items():
-            yield f'{name}.{field}', row, spec['x-group']
-        for field, row in spec.get('items', {}).get('properties', {}).items():
-            yield f'{name}.0.{field}', row, spec['x-group']
-
-
 class Panel(Browser):
-    def schema(self):
-        with urllib.request.urlopen(self.base + 'v1/schema') as answer:
-            return json.load(answer)
-
     def test_each_field_stands_in_its_group(self):
         """In front where the field table says so, else behind a summary; what starts and stops time has its fields beside it."""
         page, schema = self.open(), self.schema()

@@ -79,7 +79,7 @@ class Physics(Browser):
             context = self.context()
             context.add_init_script('Object.defineProperty(Navigator.prototype, "language", { get: () => "c" })')
             page = self.page(context)
-            page.goto(f'{self.base}#view={view}')
+            page.goto(f'{self.base}#preset=default&view={view}')
             page.wait_for_selector(READY[view])
             self.assertRaises(Exception, page.evaluate, 'new Intl.NumberFormat("c")')
 

@@ -14,7 +14,7 @@ class Sessions(Browser):
             self.contexts.append(context)
             page = context.new_page()
             page.route('**/v1/sessions', answer)
-            page.goto(self.base + '#lang=' + lang)
+            page.goto(self.base + '#preset=default&lang=' + lang)
             page.wait_for_selector('#status[data-wrong]')
             self.assertEqual(page.inner_text('#status'), told)
             page.unroute('**/v1/sessions')
@@ -71,7 +71,7 @@ class Sessions(Browser):
                 context = self.context()
                 page = context.new_page()
                 page.route(fails, lambda route: route.abort())
-                page.goto(f'{self.base}#lang=en&view={view}')
+                page.goto(f'{self.base}#preset=default&lang=en&view={view}')
                 page.wait_for_selector(f'{told} >> text=The server does not answer – trying again')
                 page.unroute(fails)
                 if view != 'physics':  # that one goes by itself

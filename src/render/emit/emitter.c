@@ -1,7 +1,6 @@
 #include "render/emit/emitter.h"
 
 #include "physics/kerr.h"
-#include "render/emit/motion.h"
 #include "render/emit/particles.h"
 
 #include <math.h>
@@ -88,18 +87,23 @@ size_t kd_emit_sentence_count(void)
     return n;
 }
 
-static unsigned varies(const struct kd_scene *scene)
+unsigned kd_emit_varies(const struct kd_scene *scene)
 {
     unsigned sum = 0;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kd_emitters[i]->varies && kd_emit_has(scene, kd_emitters[i]))
             sum |= kd_emitters[i]->varies(scene);
-    return sum & ((kd_scene_time_goes_on(scene) ? KD_MOVES_WITH_TIME | KD_DIMS_WITH_TIME : 0) |
-                  (scene->motion.azimuth_rate_deg != 0 ? KD_MOVES_WITH_AZIMUTH : 0));
+    return sum;
 }
 
-bool kd_emit_moves(const struct kd_scene *scene) { return varies(scene); }
-bool kd_emit_only_dims(const struct kd_scene *scene) { return varies(scene) == KD_DIMS_WITH_TIME; }
+static unsigned going_on(const struct kd_scene *scene)
+{
+    return kd_emit_varies(scene) & ((kd_scene_time_goes_on(scene) ? KD_MOVES_WITH_TIME | KD_DIMS_WITH_TIME : 0) |
+                                    (scene->motion.azimuth_rate_deg != 0 ? KD_MOVES_WITH_AZIMUTH : 0));
+}
+
+bool kd_emit_moves(const struct kd_scene *scene) { return going_on(scene); }
+bool kd_emit_only_dims(const struct kd_scene *scene) { return going_on(scene) == KD_DIMS_WITH_TIME; }
 
 static bool is_read(const struct kd_emitter *e, const struct kd_scene *scene)
 {

@@ -9,17 +9,12 @@
 #include "lens.h"
 #include "render/accuracy/engine.h"
 #include "render/emit/emission.h"
+#include "render/emit/motion.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-enum kd_varies {
-    KD_MOVES_WITH_TIME = 1,  /* something is elsewhere a moment later */
-    KD_DIMS_WITH_TIME = 2,   /* light alone changes: each pixel keeps what it shows */
-    KD_MOVES_WITH_AZIMUTH = 4,
-};
 
 /* An approximation, and whether it is in force in a scene that has the emitter, followed by these rays; NULL: always. */
 struct kd_sentence {

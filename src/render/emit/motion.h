@@ -6,6 +6,14 @@
 
 #include <stdbool.h>
 
+enum kd_varies {
+    KD_MOVES_WITH_TIME = 1,  /* something is elsewhere a moment later */
+    KD_DIMS_WITH_TIME = 2,   /* light alone changes: each pixel keeps what it shows */
+    KD_MOVES_WITH_AZIMUTH = 4,
+};
+
+/* What a picture of the scene would show of another time or azimuth, whether they go on or not: enum kd_varies. */
+unsigned kd_emit_varies(const struct kd_scene *scene);
 /* Whether anything that can be seen changes, by the scene's rates. */
 bool kd_emit_moves(const struct kd_scene *scene);
 /* Whether all that changes is light that grows or fades: nothing moves. */

@@ -1,4 +1,5 @@
 /* POST /v1/sessions; GET, PATCH and DELETE of one. */
+#include "render/emit/motion.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
@@ -24,7 +25,25 @@ struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *re
     return session;
 }
 
-/* {"id", "revision", "frame", "viewers", "scene"}, and for who has just made it the token. */
+/* ["moves_with_time", ...]: what the scene would show of another time or azimuth. */
+static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
+{
+    static const struct { unsigned bit; const char *word; } words[] = {
+        { KD_MOVES_WITH_TIME, "moves_with_time" }, { KD_DIMS_WITH_TIME, "dims_with_time" }, { KD_MOVES_WITH_AZIMUTH, "moves_with_azimuth" },
+    };
+    const unsigned varies = kd_emit_varies(scene);
+    unsigned n = 0;
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, ",\"varies\":["));
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (varies & words[i].bit)
+            KD_TRY(kd_buffer_printf(out, "%s\"%s\"", n++ ? "," : "", words[i].word));
+    KD_TRY(kd_buffer_printf(out, "]"));
+done:
+    return status;
+}
+
+/* {"id", "revision", "frame", "viewers", "scene", "varies"}, and for who has just made it the token. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -34,6 +53,7 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
     KD_TRY(kd_buffer_printf(out, "\"revision\":%u,\"frame\":%llu,\"viewers\":%u,\"scene\":", state->revision,
                             (unsigned long long)state->frame, state->viewers));
     KD_TRY(kd_scene_to_json(&state->scene, out));
+    KD_TRY(add_varies(&state->scene, out));
     KD_TRY(kd_buffer_printf(out, "}\n"));
 done:
     return status;

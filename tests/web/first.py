@@ -1,0 +1,64 @@
+"""The first view: a preset, where a link says nothing of the scene: first.py KERRD FOLDER (browser.py)."""
+import re
+
+from browser import AT_REST, Browser, main
+import daemon
+
+
+class First(Browser):
+    def opened(self, first, fragment, wait='#stage[data-final]'):
+        """A page whose first view is that preset."""
+        page = self.page(self.context())
+
+        def answer(route):
+            text = route.fetch().text()
+            changed = re.sub(r"first_view = '[^']*'", f"first_view = '{first}'", text)
+            self.assertIn(f"first_view = '{first}'", changed)
+            route.fulfill(body=changed, content_type='text/javascript')
+
+        page.route('**/web/presets.js', answer)
+        page.goto(self.base + '#' + fragment)
+        page.wait_for_selector(wait, timeout=60000, state='attached')
+        page.wait_for_selector('#preset option:nth-child(3)', state='attached')
+        return page
+
+    def test_it_is_a_preset_that_moves(self):
+        page = self.opened('living-disk', 'lang=en')
+        self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and self.clock(page) > 1, 20))
+        self.assertEqual((page.input_value('#preset'), page.inner_text('#play'), page.locator('#link-fault').inner_text()), ('living-disk', 'Pause', ''))
+        page.keyboard.press('f')
+        page.keyboard.press('Space')
+        self.assertTrue(daemon.eventually(lambda: page.text_content('#play') == 'Play'))
+
+    def test_a_link_goes_before_it(self):
+        for fragment, name, tilt in (('lang=en&camera.inclination_deg=60', 'own', '60'), ('lang=en&preset=edge-on', 'edge-on', '90'), ('lang=en&preset=default', '', '82')):
+            page = self.opened('living-disk', fragment, AT_REST)
+            self.assertEqual((page.input_value('#preset'), self.field(page, 'camera.inclination_deg'), page.locator('#link-fault').inner_text()), (name, tilt, ''))
+
+    def test_the_default_scene_stays_it_over_a_reload(self):
+        page = self.opened('living-disk', 'lang=en')
+        page.select_option('#preset', '')
+        page.wait_for_selector(AT_REST)
+        self.assertTrue(daemon.eventually(lambda: 'preset=default' in page.evaluate('location.hash')))
+        page.reload()
+        page.wait_for_selector(AT_REST)
+        self.assertTrue(daemon.eventually(lambda: page.locator('#preset option').count() > 3))
+        self.assertEqual((page.input_value('#preset'), self.field(page, 'camera.inclination_deg')), ('', '82'))
+
+    def test_start_again_goes_back_to_it(self):
+        for first, tilt in (('living-disk', '76'), ('', '82')):
+            page = self.opened(first, 'lang=en&camera.inclination_deg=60', AT_REST)
+            page.click('#reset')
+            self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.inclination_deg') == tilt))
+            self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == first), first)
+
+    def test_who_wants_no_motion_has_none(self):
+        context = self.context(reduced_motion='reduce')
+        page = self.page(context)
+        page.goto(self.base + '#lang=en&preset=living-disk')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(page.inner_text('#play'), 'Play')
+
+
+if __name__ == '__main__':
+    main()
