@@ -1,6 +1,6 @@
 """The panel: controls in groups, what each of them changes: panel.py KERRD FOLDER (browser.py)."""
 from browser import AT_REST, Browser, main, rows
-import daemon
+
 
 GROUPS = ('look', 'gas', 'hole', 'camera', 'more')
 SIZES = ((390, 844), (1024, 700), (1440, 900))
