@@ -472,12 +472,53 @@ static void test_plans(void **state)
     assert_true(kd_plan_holds(&plan, KD_LENS_DELAY));
 }
 
+static bool took(const struct kd_frame *frame, const char *pass)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, pass))
+            return true;
+    return false;
+}
+
+/* Light that is measured alone is the same to the bit, in one band and in many, and takes no pass that only a picture needs. */
+static void test_unseen(void **state)
+{
+    (void)state;
+    struct kd_scene scene = spot_scene(0.9, 60);
+    scene.disk.model = KD_DISK_NOVIKOV_THORNE;
+    scene.style.exposure = INFINITY; /* "auto" */
+    scene.style.bloom = 0.1;
+    for (int bands = 0; bands < 2; bands++) {
+        struct kd_capacity c;
+        struct kd_frame frames[2];
+        kd_renderer_capacity(renderer, &c);
+        c.max_binding_bytes = bands ? 1 << 16 : c.max_binding_bytes;
+        for (int unseen = 0; unseen < 2; unseen++) {
+            struct kd_plan plan;
+            struct kd_needs needs = kd_needs_of(&scene);
+            needs.unseen = unseen;
+            OK(kd_plan_make_for(&scene, &needs, &c, &plan, &error));
+            assert_true(plan.light && (plan.bands > 1) == bands && (plan.host_bytes == 0) == unseen && (plan.bloom.levels == 0) == unseen);
+            OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[unseen], &error));
+            assert_int_equal(frames[unseen].n_layers, !unseen);
+            assert_true(took(&frames[unseen], "light"));
+            for (int i = 0; i < 4; i++)
+                assert_true(took(&frames[unseen], (const char *[]) { "expose", "bloom", "post", "readback" }[i]) != unseen);
+        }
+        assert_true(frames[0].light.measured && frames[1].light.measured && frames[0].light.spots.flux > 0);
+        assert_memory_equal(&frames[0].light.all, &frames[1].light.all, sizeof frames[0].light.all);
+        assert_memory_equal(&frames[0].light.spots, &frames[1].light.spots, sizeof frames[0].light.spots);
+        for (int k = 0; k < 2; k++)
+            kd_frame_finish(&frames[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_oracle),     cmocka_unit_test(test_far_out), cmocka_unit_test(test_period),
         cmocka_unit_test(test_slow_light), cmocka_unit_test(test_parts),   cmocka_unit_test(test_many),    cmocka_unit_test(test_seams),
-        cmocka_unit_test(test_resolution), cmocka_unit_test(test_plans),
+        cmocka_unit_test(test_resolution), cmocka_unit_test(test_plans),  cmocka_unit_test(test_unseen),
     };
     int code = open_renderer();
     return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -28,20 +28,20 @@ static enum kd_status run(struct kd_frame_job *j)
         return status;
 
     frame->lens_reused = reused;
-    j->weight = (double)j->plan->height * (reused ? 2 : 3);
+    j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);
     status = kd_prepare(r, j->prepared, j->scene, j->plan, &c, j->error);
     if (!status)
         status = kd_frame_light(j, reused);
     if (!status && j->plan->light)
         status = kd_frame_add_light(j);
-    if (!status)
+    if (!status && !j->plan->unseen)
         status = kd_frame_expose(j);
-    if (!status)
+    if (!status && !j->plan->unseen)
         status = kd_frame_bloom(j);
-    if (!status)
+    if (!status && !j->plan->unseen)
         status = kd_frame_post(j);
     if (!status && j->plan->light)
-        kd_frame_read_light(j);
+        status = kd_frame_read_light(j);
     double audited = kd_clock_ms();
     if (!status && !reused)
         status = kd_audit(r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error);
@@ -60,7 +60,7 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
     const struct kd_plan *plan = job->plan;
     struct kd_frame frame = { .width = plan->width, .height = plan->height };
     const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
-    enum kd_status status = kd_frame_add_layer(&frame, "rgb", 3, type, job->error);
+    enum kd_status status = plan->unseen ? KD_OK : kd_frame_add_layer(&frame, "rgb", 3, type, job->error);
     if (status)
         return status;
     job->frame = &frame;

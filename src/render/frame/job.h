@@ -71,9 +71,9 @@ enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_foot
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 
-/* Sums of the light of all bands, on their way to the host; and the frame's flux and centroid from them, when they are there. */
+/* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and centroid of them. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
-void kd_frame_read_light(struct kd_frame_job *job);
+enum kd_status kd_frame_read_light(struct kd_frame_job *job);
 /* The exposure of what is lit; waits for the device where it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
 /* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no bloom. */

@@ -38,7 +38,11 @@ done:
     return status;
 }
 
-void kd_frame_read_light(struct kd_frame_job *j)
+enum kd_status kd_frame_read_light(struct kd_frame_job *j)
 {
+    enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
+    if (status)
+        return status;
     j->frame->light = kd_light_of(j->scene, kd_vk_buffer_map(j->store->light_host), kd_light_bytes(j->plan) / (4 * KD_LIGHT_SUMS));
+    return KD_OK;
 }

@@ -57,7 +57,7 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     }
     if (!go_on)
         return kd_error_set(j->error, KD_ECANCELLED, "the render was cancelled");
-    bool part = j->glance && !j->looking && j->lit && j->lit < j->plan->height;
+    bool part = j->glance && !j->plan->unseen && !j->looking && j->lit && j->lit < j->plan->height;
     return part && j->glance->wanted(j->user) ? glance(j) : KD_OK;
 }
 

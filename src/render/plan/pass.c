@@ -59,8 +59,9 @@ INVOCATIONS(particles, kd_emit_invocations(scene, KD_EMITTER_particles))
 INVOCATIONS(lit, kd_plan_rays(plan))
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
-INVOCATIONS(spread, plan->bloom.levels ? pixels(plan, scene) : 0)
-INVOCATIONS(exposed, isinf(scene->style.exposure) ? pixels(plan, scene) : 0)
+INVOCATIONS(shown, plan->unseen ? 0 : pixels(plan, scene))
+INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
+INVOCATIONS(exposed, isinf(scene->style.exposure) ? shown(plan, scene) : 0)
 
 #define FIGURE(id, word, guess) [KD_NS_##id] = { word, guess },
 const struct kd_figure kd_figures[KD_FIGURE_COUNT] = { KD_FIGURES(FIGURE) };

@@ -47,8 +47,8 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \
     P(EXPOSE, "expose", exposed, PART("expose.comp", PIXEL_POST, 0.25), PIXELS, FRAME)                                           \
     P(BLOOM, "bloom", spread, PART("bloom_gather.comp", PIXEL_POST, 2), PIXELS, FRAME)                                           \
-    P(POST, "post", pixels, BY(post), PIXELS, FRAME)                                                                             \
-    P(READBACK, "readback", pixels, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
+    P(POST, "post", shown, BY(post), PIXELS, FRAME)                                                                              \
+    P(READBACK, "readback", shown, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
 
 #define KD_PASS_ID_(id, ...) KD_PASS_##id,
 enum kd_pass_id { KD_PASSES(KD_PASS_ID_) KD_PASS_COUNT };

@@ -153,7 +153,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
                             struct kd_error *error)
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     uint64_t rows = (buffer_bytes(c) - 64) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
@@ -304,8 +304,10 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.height = (uint32_t)scene->image.height;
     plan.side = (uint32_t)scene->image.samples;
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
-    plan.bloom = kd_bloom_of(plan.width, plan.height, scene->style.bloom);
+    if (!needs->unseen)
+        plan.bloom = kd_bloom_of(plan.width, plan.height, scene->style.bloom);
     plan.light = needs->light;
+    plan.unseen = needs->unseen;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);

@@ -58,6 +58,7 @@ struct kd_plan {
     bool apart;                     /* the luminance of some is kept beside the radiance */
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
+    bool unseen;                    /* no pixels are made of the radiance */
     bool ring;                      /* rays are listed, round the critical curve */
     uint32_t quantities;            /* of the lens map, KD_LENS_... */
     uint32_t orders;                /* crossings a ray */
@@ -123,6 +124,7 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops);
 struct kd_needs {
     uint32_t quantities; /* KD_LENS_... */
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
+    bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layer "rgb" */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
