@@ -22,13 +22,9 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 
-#define F(name) float name;
-#define U(name) uint name;
-struct kd_camera { KD_CAMERA_FIELDS_(F, U) };
-layout(push_constant) uniform Camera { kd_camera camera_; };
-kd_camera cam; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
+#define KD_CAMERA_BINDING 2
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
 
@@ -69,12 +65,12 @@ bool goes_on(kd_leg leg, bool falls, float limit)
 void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
 {
     float w = any ? leg.next.w * drag.unit : 0.0;
-    at += n * cam.stride;
+    at += n * slice.stride;
     lens[at] = w;
     if (PHI)
-        lens[at + kd_plane(KD_LENS_PHI) * cam.stride] = any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
+        lens[at + kd_plane(KD_LENS_PHI) * slice.stride] = any ? -(leg.psi + leg.chi + leg.drag + kd_drag_fallen(drag, w)) : 0.0;
     if (SLOPE)
-        lens[at + kd_plane(KD_LENS_SLOPE) * cam.stride] = any ? leg.next.dw : 0.0;
+        lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
 /* Keep where the ray ends. nodes, z: of the leg that it does not finish; before: time from the last crossing to the start, if it
@@ -102,16 +98,16 @@ void keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth,
     if (!decided || (!drag.falls && (leg.alive || !kd_is_finite(phi))))
         fate = KD_FATE_UNDECIDED;
     bool escapes = fate == KD_FATE_ESCAPED;
-    lens[at + kd_plane(KD_LENS_SKY_U) * cam.stride] = escapes ? end.u : 0.0;
-    lens[at + kd_plane(KD_LENS_SKY_PHI) * cam.stride] = escapes ? -phi : 0.0;
-    lens[at + kd_plane(KD_LENS_FATE) * cam.stride] = fate;
+    lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = escapes ? end.u : 0.0;
+    lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = escapes ? -phi : 0.0;
+    lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = fate;
     if (fate == KD_FATE_UNDECIDED)
         atomicAdd(undecided, 1);
 }
 
 void main()
 {
-    cam = camera_;
+    kd_camera_read();
     uvec2 step_;
     uint at;
     if (!kd_this_ray(step_, at))

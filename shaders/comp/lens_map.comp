@@ -22,13 +22,9 @@ const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SKY = (QUANTITIES & KD_LENS_F
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 
-#define F(name) float name;
-#define U(name) uint name;
-struct kd_camera { KD_CAMERA_FIELDS_(F, U) };
-layout(push_constant) uniform Camera { kd_camera camera_; };
-kd_camera cam; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up on their way to the sky */
+#define KD_CAMERA_BINDING 2
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
 #include "ray/escape.glsl"
@@ -37,7 +33,7 @@ const float EPSILON = 6e-8; /* unit roundoff */
 
 void main()
 {
-    cam = camera_;
+    kd_camera_read();
     uvec2 step_;
     uint at;
     if (!kd_this_ray(step_, at))
@@ -65,7 +61,7 @@ void main()
     bool alive = polar.crosses;
     float h = polar.first * (1.0 / float(STEPS));
     for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* those of crossings come first, without gaps */
-        lens[at + n * cam.stride] = 0.0;
+        lens[at + n * slice.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = y.w, sum = 0.0;
@@ -92,11 +88,11 @@ void main()
         if (alive) {
             chi += sum * h * (2.0 / 45.0);
             float fall = way * kd_drag_fall(y.w, cam.spin, cam.root) + fallen;
-            lens[at + n * cam.stride] = y.w;
+            lens[at + n * slice.stride] = y.w;
             if (PHI)
-                lens[at + (kd_plane(KD_LENS_PHI) + n) * cam.stride] = -(psi + chi + fall);
+                lens[at + (kd_plane(KD_LENS_PHI) + n) * slice.stride] = -(psi + chi + fall);
             if (SLOPE)
-                lens[at + (kd_plane(KD_LENS_SLOPE) + n) * cam.stride] = y.dw;
+                lens[at + (kd_plane(KD_LENS_SLOPE) + n) * slice.stride] = y.dw;
             if (SKY) {
                 above = -above;
                 last = kd_path_crossing(m, y, psi, chi + fall, above);
@@ -110,9 +106,9 @@ void main()
         kd_escape end = kd_path_escape(m, ray, last);
         if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
             end.fate = KD_FATE_UNDECIDED;
-        lens[at + kd_plane(KD_LENS_SKY_U) * cam.stride] = end.u;
-        lens[at + kd_plane(KD_LENS_SKY_PHI) * cam.stride] = -end.phi;
-        lens[at + kd_plane(KD_LENS_FATE) * cam.stride] = end.fate;
+        lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = end.u;
+        lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = -end.phi;
+        lens[at + kd_plane(KD_LENS_FATE) * slice.stride] = end.fate;
         if (end.fate == KD_FATE_UNDECIDED)
             atomicAdd(undecided, 1);
     }

@@ -15,14 +15,11 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define A(type, name, count) type name[count];
 #define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
 #define MEMBER(number, name) kd_##name##_block name;
-struct kd_camera { KD_CAMERA_FIELDS_(F, U) };
-layout(push_constant) uniform Camera { kd_camera camera_; };
 layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
 /* What is the same for all invocations, read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
-kd_camera cam;
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 layout(set = 0, binding = 2) uniform textureBuffer tables;
@@ -31,13 +28,14 @@ KD_EMIT_TABLES(TABLE)
 vec4 kd_table_row(uint table, uint row) { return texelFetch(tables, int(table + row)); }
 layout(set = 0, binding = 3) writeonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 4) readonly buffer Density { float density[]; };
+#define KD_CAMERA_BINDING 5
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
 #include "light/compose.glsl"
 
 const bool SLOW = (QUANTITIES & KD_LENS_DELAY) != 0u;
 
-float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? lens[at + kd_plane(which) * cam.stride] : 0.0; }
+float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? lens[at + kd_plane(which) * slice.stride] : 0.0; }
 
 /* Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)
@@ -53,7 +51,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
     float momentum = ((QUANTITIES & KD_LENS_ALPHA) != 0u ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
-    uint plane = at + n * cam.stride;
+    uint plane = at + n * slice.stride;
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0, slope = quantity(KD_LENS_SLOPE, plane);
     float carter = (QUANTITIES & KD_LENS_ALPHA) != 0u ? kd_carter_of_slope(ray.e, momentum, w, slope)
                                                       : ray.p * ray.p + cam.u * cam.u * (ray.l * ray.l - cam.spin * cam.spin * ray.e * ray.e);
@@ -83,7 +81,7 @@ kd_beam follow(uvec2 place, uint at)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
-        float w = lens[at + n * cam.stride];
+        float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;
         meet(beam, w, n, place, at);
@@ -96,7 +94,7 @@ kd_beam follow(uvec2 place, uint at)
 }
 
 /* Where a pixel's light lies. */
-uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? cam.band0 : cam.band0 / SIDE)) * emission.frame.pixels_x + x; }
+uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x; }
 
 void store(uint at, vec3 light, float apart)
 {
@@ -122,10 +120,10 @@ void light_column(uint x, uint y, uint end)
         float w;
         uint at;
         for (;;) {
-            at = (y - cam.band0) * cam.width + x;
+            at = (y - slice.band0) * cam.width + x;
             w = 0.0;
             if (y < end)
-                w = lens[at + n * cam.stride];
+                w = lens[at + n * slice.stride];
             if (y >= end || w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most))
                 break;
             bool more = w > 0.0 && n + 1 < ORDERS;
@@ -147,19 +145,19 @@ void light_column(uint x, uint y, uint end)
 
 void main()
 {
-    cam = camera_;
+    kd_camera_read();
     KD_EMIT_BLOCKS(READ)
-    uint px = gl_GlobalInvocationID.x, py = cam.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
-    if (px >= (CRITICAL > 0 ? cam.rows : emission.frame.pixels_x))
+    uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
+    if (px >= (CRITICAL > 0 ? slice.rows : emission.frame.pixels_x))
         return;
     if (COLUMNS) {
-        uint y = cam.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS;
+        uint y = slice.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS;
         if (KD_GLOWS)
-            light_column(px, y, min(y + KD_TRANSFER_ROWS, cam.row0 + cam.rows));
+            light_column(px, y, min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows));
         return;
     }
     if (CRITICAL > 0) {
-        listed = cam.row0 + px;
+        listed = slice.row0 + px;
         uvec2 pixel = kd_listed_pixel(listed);
         px = pixel.x;
         py = pixel.y;
@@ -169,7 +167,7 @@ void main()
     const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
     for (uint i = 0; i < rays; i++) {
         uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
-        kd_beam beam = follow(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - cam.band0) * cam.width + place.x);
+        kd_beam beam = follow(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x);
         sum += beam.light;
         apart += beam.apart;
     }

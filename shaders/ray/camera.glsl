@@ -1,7 +1,23 @@
-/* From a ray's place in the picture to its constants of motion. Needs the camera's push constants as `cam` and the
+/* The camera, the rows at hand, and from a ray's place in the picture to its constants of motion. Needs KD_CAMERA_BINDING and the
  * specialisation constant FINITE (observer at a finite radius). */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
+
+#define F(name) float name;
+#define U(name) uint name;
+struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
+struct kd_slice { KD_SLICE_FIELDS_(F, U) };
+layout(set = 0, binding = KD_CAMERA_BINDING, std140) uniform Camera { kd_camera_block camera_; };
+layout(push_constant) uniform Slice { kd_slice slice_; };
+
+/* A kernel reads both before its first branch: behind one lavapipe reads them anew for each lane and each use. */
+kd_camera_block cam;
+kd_slice slice;
+void kd_camera_read()
+{
+    cam = camera_;
+    slice = slice_;
+}
 
 kd_ray kd_camera_ray(uint px, uint py)
 {
@@ -17,13 +33,12 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.dw = 1.0;
     } else { /* (k_r, k_theta, k_phi); the photon flies along -k */
         float kz = cam.c0z + x * cam.cxz + y * cam.cyz;
-        float n = inversesqrt(kx * kx + ky * ky + kz * kz);
-        float m_phi = -kz * n;
-        ray.e = cam.e0 + cam.e1 * m_phi;
-        ray.l = cam.l0 + cam.l1 * m_phi;
-        ray.p = -cam.cp * ky * n;
+        float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
+        ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
+        ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
+        ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) * n; /* not by m: what is one product is rounded twice */
         ray.w = cam.w0;
-        ray.dw = cam.cw * kx * n;
+        ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }
     return ray;
 }

@@ -1,4 +1,4 @@
-/* Which ray an invocation is for. Needs the camera's push constants as `cam`, the lens map as `lens`, and the specialisation
+/* Which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
  * constants CRITICAL, GENERATOR and SHIFT.
  *
  * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
@@ -9,7 +9,7 @@
 /* The pixel of this number in the list. */
 uvec2 kd_listed_pixel(uint pixel)
 {
-    uint at = cam.list + 2 * pixel;
+    uint at = slice.list + 2 * pixel;
     return uvec2(lens[at], lens[at + 1]);
 }
 
@@ -24,15 +24,15 @@ bool kd_this_ray(out uvec2 ray, out uint at)
 {
     uint x = gl_GlobalInvocationID.x;
     if (CRITICAL > 0) {
-        at = cam.row0 * CRITICAL + x;
-        if (x >= cam.rows * CRITICAL)
+        at = slice.row0 * CRITICAL + x;
+        if (x >= slice.rows * CRITICAL)
             return false;
         ray = kd_critical_place(kd_listed_pixel(at / CRITICAL), at % CRITICAL);
         return true;
     }
-    uint row = cam.row0 + gl_WorkGroupID.y;
+    uint row = slice.row0 + gl_WorkGroupID.y;
     ray = uvec2(x, row);
-    at = (row - cam.band0) * cam.width + x;
+    at = (row - slice.band0) * cam.width + x;
     return x < cam.width;
 }
 

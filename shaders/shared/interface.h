@@ -6,10 +6,12 @@
 /* Invocations of a workgroup in every kernel: eight lavapipe vectors, two NVIDIA warps, one AMD wave. */
 #define KD_GROUP_SIZE 64
 
-/* Camera, constants of the hole, and the rows of rays at hand: the push constants of the tracing and transfer kernels.
+/* Camera and constants of the hole: a uniform block of the tracing and transfer kernels.
  * A ray at (x, y), in steps from the middle of the picture, y upwards, has the direction c0 + x cx + y cy; at infinity its
- * first two components are alpha and beta, at a finite radius it is normalised to the look direction (k_r, k_theta, k_phi)
- * in the observer's local frame. */
+ * first two components are alpha and beta, at a finite radius it is normalised to the look direction k = (k_r, k_theta, k_phi)
+ * in the observer's local frame. A photon that comes from there flies along m = -k, and has E = e_t + m_r e_r + m_theta e_theta +
+ * m_phi e_phi; likewise L/sin(theta) by l_, p_theta by p_ and dw/dtau of the traced ray by dw_: they are the legs of the observer's
+ * tetrad (src/physics/tetrad.h). */
 #define KD_CAMERA_FIELDS_(F, U)                                                                                \
     F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz)                                             \
     F(middle_x) F(middle_y) /* ray coordinates of the middle of the picture */                                 \
@@ -17,9 +19,12 @@
     F(horizon)              /* 1/r+ */                                                                         \
     F(root)                 /* sqrt(1 - a^2): the horizons are at r = 1 +- root; a float of a has lost it near 1 */ \
     F(w0)                   /* 1/r of the observer, 0 at infinity */                                           \
-    F(e0) F(e1) F(l0) F(l1) /* E = e0 + e1 m_phi; L/sin(theta) = l0 + l1 m_phi, m = -k the photon's direction */ \
-    F(cp) F(cw)             /* p_theta = cp m_theta; dw/dtau = cw k_r */                                       \
-    U(width)                /* rays a row */                                                                   \
+    F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi)                                        \
+    F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi)                                    \
+    U(width)                /* rays a row */
+
+/* The rows of rays at hand: the push constants of these kernels. */
+#define KD_SLICE_FIELDS_(F, U)                                                                                 \
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */                    \
     U(band0)                /* first row of the band that the buffers hold */                                  \
     U(stride)               /* rays of the band: distance between planes of the lens map */                    \

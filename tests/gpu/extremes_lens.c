@@ -1,7 +1,7 @@
 /* The lens maps of pictures at the extremes: every plane finite, radii, azimuths and fates against the closed form, for cameras at
  * infinity and at rest in a locally non-rotating frame next to the horizon.
  *
- * A picture's ray knows its labels as well as a float does: those of a finite camera are differences, E = e0 + e1 m_phi and L
+ * A picture's ray knows its labels as well as a float does: those of a finite camera are differences, E = e_t + e_phi m_phi and L
  * likewise, and cost the digits that cancel there. Rays that are others when all inputs move by a few roundings are unsure. */
 #include "extremes.h"
 
@@ -53,7 +53,7 @@ static struct kd_scene scene_of(const struct camera *v, int steps)
 
 /* The ray of a pixel with the kernel's own arithmetic, and how much more its labels are off than one rounding; false for E <= 0,
  * which the closed form does not know. */
-static bool ray_of(const struct camera *v, const struct kd_camera_push *c, int pixel, struct kd_null_ray *ray, double *weight)
+static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray, double *weight)
 {
     float x = (float)(pixel % GRID) - c->middle_x, y = c->middle_y - (float)(pixel / GRID);
     float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
@@ -65,12 +65,12 @@ static bool ray_of(const struct camera *v, const struct kd_camera_push *c, int p
     if (isinf(v->r))
         return true;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
-    double m_phi = -kz * n, energy = c->e0 + c->e1 * m_phi, l = c->l0 + c->l1 * m_phi;
+    double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi, l = c->l_t + c->l_phi * m_phi; /* of one who does not fall */
     ray->alpha = -l / energy;
-    ray->beta = -c->cp * ky * n / energy;
+    ray->beta = -c->p_theta * ky * n / energy;
     ray->outward = kx > 0;
-    double cancels = (fabs(c->e0) + fabs(c->e1 * m_phi)) / fabs(energy);
-    weight[0] = cancels + (fabs(c->l0) + fabs(c->l1 * m_phi)) / fmax(fabs(l), 1e-30);
+    double cancels = (fabs(c->e_t) + fabs(c->e_phi * m_phi)) / fabs(energy);
+    weight[0] = cancels + (fabs(c->l_t) + fabs(c->l_phi * m_phi)) / fmax(fabs(l), 1e-30);
     weight[1] = cancels + 1;
     return energy > 1e-6;
 }
@@ -130,7 +130,7 @@ static void look(struct kd_renderer *renderer, const struct camera *v, const str
     struct extreme_row row = { .engine = kernel->name, .rays = RAYS, .bound = kernel->bound, .phi_bound = kernel->phi_bound,
                                .unsure_most = unsure_most(v) };
     struct kd_scene scene = scene_of(v, kernel->steps);
-    struct kd_camera_push camera = kd_camera_push(&scene);
+    struct kd_camera_block camera = kd_camera_block(&scene);
     struct kd_capacity capacity;
     struct kd_plan plan;
     struct kd_error error = { 0 };

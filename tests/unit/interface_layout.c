@@ -129,9 +129,14 @@ static void same(const struct spirv *s, const char *block, const struct field *f
 
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
-#define F(name) { #name, offsetof(struct kd_camera_push, name), OP_TYPE_FLOAT },
-#define U(name) { #name, offsetof(struct kd_camera_push, name), OP_TYPE_INT },
+#define F(name) { #name, offsetof(struct kd_camera_block, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_camera_block, name), OP_TYPE_INT },
 static const struct field camera_fields[] = { KD_CAMERA_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_slice, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_slice, name), OP_TYPE_INT },
+static const struct field slice_fields[] = { KD_SLICE_FIELDS_(F, U) };
 #undef F
 #undef U
 #define F(name) { #name, offsetof(struct kd_post_push, name), OP_TYPE_FLOAT },
@@ -171,9 +176,12 @@ static void camera(void **state)
     (void)state;
     const struct spirv kernels[] = { SPIRV(lens_closed), SPIRV(lens_map), transfer };
     for (size_t i = 0; i < COUNT(kernels); i++)
-        same(&kernels[i], "kd_camera", camera_fields, COUNT(camera_fields), 0);
-    assert_int_equal(sizeof(struct kd_camera_push),
-                     4 * COUNT(camera_fields)); /* no padding: all of it is pushed */
+        {
+        same(&kernels[i], "kd_camera_block", camera_fields, COUNT(camera_fields), 0);
+        same(&kernels[i], "kd_slice", slice_fields, COUNT(slice_fields), 0);
+    }
+    assert_int_equal(sizeof(struct kd_camera_block), 4 * COUNT(camera_fields)); /* no padding */
+    assert_int_equal(sizeof(struct kd_slice), 4 * COUNT(slice_fields));
 }
 
 static void post_push(void **state)

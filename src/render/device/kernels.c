@@ -39,8 +39,8 @@ static const struct {
     uint32_t n_buffers, push_bytes;
     enum kd_vk_kind kinds[KD_VK_MAX_BINDINGS];
 } sources[] = {
-    [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 2, sizeof(struct kd_camera_push) },
-    [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 2, sizeof(struct kd_camera_push) },
+    [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1, sizeof(struct kd_footprint_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
@@ -52,8 +52,8 @@ static const struct {
                                       3, 8 },
     [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
-    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 5, sizeof(struct kd_camera_push),
-                             { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 6, sizeof(struct kd_slice),
+                             { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
     [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },

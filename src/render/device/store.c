@@ -200,6 +200,37 @@ enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *
     return status;
 }
 
+static enum kd_status make_cameras(struct kd_store *store, struct kd_error *error)
+{
+    const uint64_t bytes = KD_CAMERAS * KD_CAMERA_BYTES;
+    enum kd_status status = KD_OK;
+    if (!store->cameras)
+        status = kd_vk_buffer_create(store->vk, bytes, KD_VK_DEVICE, "cameras", &store->cameras, error);
+    if (!status && !store->cameras_host)
+        status = kd_vk_buffer_create(store->vk, bytes, KD_VK_UPLOAD, "cameras on the host", &store->cameras_host, error);
+    return status;
+}
+
+enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS], struct kd_error *error)
+{
+    enum kd_status status = make_cameras(store, error);
+    const size_t bytes = sizeof store->sent_cameras;
+    if (status || (store->cameras_sent && !memcmp(store->sent_cameras, cameras, bytes)))
+        return status;
+    memcpy(store->sent_cameras, cameras, bytes);
+    for (int i = 0; i < KD_CAMERAS; i++)
+        memcpy((char *)kd_vk_buffer_map(store->cameras_host) + i * KD_CAMERA_BYTES, &cameras[i], sizeof cameras[i]);
+    status = kd_vk_copy(store->vk, "upload", store->cameras, 0, store->cameras_host, 0, KD_CAMERAS * KD_CAMERA_BYTES, error);
+    store->cameras_sent = !status;
+    return status;
+}
+
+void kd_store_give_up(struct kd_store *store)
+{
+    store->sent_whole = false;
+    store->cameras_sent = false;
+}
+
 static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->count * bands->band_bytes; }
 static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
 
@@ -226,6 +257,8 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->readback);
     kd_vk_buffer_destroy(store->vk, store->transfer);
     kd_vk_buffer_destroy(store->vk, store->staging);
+    kd_vk_buffer_destroy(store->vk, store->cameras);
+    kd_vk_buffer_destroy(store->vk, store->cameras_host);
     free(store->sent);
     kd_vk_buffer_destroy(store->vk, store->histogram);
     kd_vk_buffer_destroy(store->vk, store->counts);

@@ -8,6 +8,7 @@
 #include "render/device/renderer.h"
 #include "vk/vk.h"
 #include "render/emit/emitter.h"
+#include "render/view/layout.h"
 
 struct kd_emit_data;
 
@@ -38,6 +39,9 @@ struct kd_store {
     struct kd_vk_buffer *transfer, *staging; /* parameters and tables: read at each crossing, so on the device, by way of the other */
     struct kd_emit_data *sent;           /* what is there; NULL: nothing yet */
     bool sent_whole;                         /* false: nothing of it, a frame was given up */
+    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES each, by way of the other; NULL: none yet */
+    struct kd_camera_block sent_cameras[KD_CAMERAS];
+    bool cameras_sent; /* that is what is there */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
     struct kd_vk_buffer *bloom;            /* grids of light that a lens spreads; NULL: never was any */
@@ -56,9 +60,12 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
 /* *buffer (NULL: none yet) becomes one of at least this size; a larger one is kept unless it is much too large. */
 enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
                                  const char *name, struct kd_error *error);
-/* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. A frame
- * that is given up afterwards says so by sent_whole = false. */
+/* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. */
 enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error);
+/* The same of the cameras, in a buffer that is made when first there are any. */
+enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS], struct kd_error *error);
+/* A frame is given up: what it was to bring may be lost. */
+void kd_store_give_up(struct kd_store *store);
 /* Bytes that it holds of the device's memory, about. */
 uint64_t kd_store_bytes(const struct kd_store *store);
 /* Whether kd_store_lens_map would find the plan's lens map. */

@@ -2,7 +2,6 @@
 #include "render/frame/job.h"
 
 #include "render/lens/audit.h"
-#include "render/view/camera.h"
 #include "base/clock.h"
 #include "render/device/prepare.h"
 
@@ -24,6 +23,8 @@ static enum kd_status run(struct kd_frame_job *j)
 
     kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
     status = kd_store_send(j->store, &r->emit->data, j->error);
+    if (!status)
+        status = kd_frame_send_cameras(j);
     if (status)
         return status;
 
@@ -70,7 +71,7 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
         return KD_OK;
     }
     kd_vk_discard(job->r->vk);
-    job->store->sent_whole = false; /* what was to bring it may be lost */
+    kd_store_give_up(job->store);
     kd_prepared_forget(job->prepared);
     if (status != KD_EDEVICE)
         kd_vk_wait(job->r->vk, 0, NULL);
@@ -82,7 +83,6 @@ enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out)
 {
     double start = kd_clock_ms();
     kd_vk_times_reset(job->r->vk);
-    job->camera = kd_camera_push(job->scene);
     enum kd_status status = render(job, out);
     if (status)
         return status;

@@ -17,7 +17,6 @@ struct kd_frame_job {
     double away_ms; /* and what its progress took */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    struct kd_camera_push camera;
     struct kd_lens_map *lens;
     uint64_t undecided;  /* listed rays that an engine gave up */
     double listed_ms, audit_ms; /* the host's time for them, and for the audit */
@@ -58,6 +57,8 @@ void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, 
 
 /* The passes, a file each. */
 
+/* The cameras of the grid and of the pixels at the critical curve, on their way to the device. */
+enum kd_status kd_frame_send_cameras(struct kd_frame_job *job);
 /* The lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
 /* Footprints of rows of rays of a buffer, or of a range of rays on listed pixels, all of which are traced with those next to them.

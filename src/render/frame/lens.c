@@ -67,15 +67,28 @@ struct slice { uint32_t band, first, count; };
 /* Whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
 static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !kd_plan_holds(p, KD_LENS_FATE); }
 
+enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
+{
+    const struct kd_scene critical = kd_critical_camera(j->scene, j->plan->critical ? j->plan->critical : 1);
+    const struct kd_camera_block cameras[] = {
+        [KD_CAMERA_GRID] = kd_camera_block(j->scene), [KD_CAMERA_CRITICAL] = kd_camera_block(&critical),
+    };
+    return kd_store_send_cameras(j->store, cameras, j->error);
+}
+
+static struct kd_vk_binding camera_binding(const struct kd_frame_job *j, int camera)
+{
+    return (struct kd_vk_binding) { j->store->cameras, (uint64_t)camera * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
+}
+
 /* Record a kernel over a slice. rays: the grid is that of the rays, not of the pixels. */
 static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, bool rays)
 {
     const struct kd_plan *p = j->plan;
-    struct kd_camera_push push = j->camera;
-    push.row0 = s->first * p->side;
-    push.rows = s->count * p->side;
-    push.band0 = kd_frame_band_first(j, s->band) * p->side;
-    push.stride = p->width * p->side * p->band_rows * p->side;
+    const struct kd_slice push = {
+        .row0 = s->first * p->side, .rows = s->count * p->side, .band0 = kd_frame_band_first(j, s->band) * p->side,
+        .stride = p->width * p->side * p->band_rows * p->side,
+    };
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
     d->groups[1] = rays ? push.rows : in_columns(p) ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
@@ -101,19 +114,29 @@ static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
     return list_rays(j, &rows);
 }
 
+static struct kd_vk_dispatch trace_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *lens,
+                                            int camera)
+{
+    return (struct kd_vk_dispatch) {
+        kd_passes[KD_PASS_TRACE].name,
+        pipeline,
+        { { lens, 0, 0, true }, { j->store->undecided, 0, 0, true }, camera_binding(j, camera) },
+        NULL,
+        { 0 },
+    };
+}
+
 /* pipeline: of trace_kernel. */
 static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s, const struct kd_vk_pipeline *pipeline)
 {
     if (j->plan->path == KD_LENS_LISTED)
         return list_slice(j, s);
-    struct kd_vk_dispatch d = {
-        kd_passes[KD_PASS_TRACE].name, pipeline, { { lens_buffer(j, s->band), 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 },
-    };
+    struct kd_vk_dispatch d = trace_dispatch(j, pipeline, lens_buffer(j, s->band), KD_CAMERA_GRID);
     return record(j, s, &d, true);
 }
 
 static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
-                                               struct kd_vk_buffer *lens, uint32_t band)
+                                               struct kd_vk_buffer *lens, uint32_t band, int camera)
 {
     struct kd_vk_buffer *prepared = kd_prepared_buffer(j->prepared, j->plan);
     return (struct kd_vk_dispatch) {
@@ -123,7 +146,8 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
           { j->store->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { j->store->radiance.buffers[band], 0, 0, true },
-          { prepared ? prepared : j->store->transfer, 0, 0, false } },
+          { prepared ? prepared : j->store->transfer, 0, 0, false },
+          camera_binding(j, camera) },
         NULL,
         { 0 },
     };
@@ -185,7 +209,7 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
     enum kd_status status = transfer_kernel(j, &on_grid, &transfer);
     if (status)
         return status;
-    struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band);
+    struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band, KD_CAMERA_GRID);
     status = darken(j, s);
     if (!status && s->count)
         status = record(j, s, &d, false);
@@ -216,14 +240,13 @@ done:
 struct part {
     uint64_t first, n; /* among those pixels */
     struct kd_vk_buffer *lens;
-    struct kd_camera_push push;
+    struct kd_slice push;
 };
 
 static struct part part_of(const struct kd_frame_job *j, uint32_t number)
 {
     const struct kd_plan *p = j->plan;
-    const struct kd_scene camera = kd_critical_camera(j->scene, p->critical);
-    struct part part = { number * p->critical_part, p->critical_part, j->lens->critical.buffers[number], kd_camera_push(&camera) };
+    struct part part = { number * p->critical_part, p->critical_part, j->lens->critical.buffers[number], { 0 } };
     if (part.n > p->critical_pixels - part.first)
         part.n = p->critical_pixels - part.first;
     part.push.stride = (uint32_t)p->critical_part * p->critical;
@@ -240,7 +263,7 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, 
     uint32_t step = slice_rows(ns_per_ray * j->plan->critical, (uint32_t)part->n);
     enum kd_status status = KD_OK;
     for (; from < to; from += step) {
-        struct kd_camera_push push = part->push;
+        struct kd_slice push = part->push;
         struct kd_vk_dispatch d = *base;
         push.row0 = (uint32_t)from;
         push.rows = (uint32_t)(to - from < step ? to - from : step);
@@ -315,7 +338,7 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part
     enum kd_status status = upload_pixels(j, part);
     if (status || j->plan->path == KD_LENS_LISTED)
         return status ? status : list_part(j, part);
-    const struct kd_vk_dispatch d = { kd_passes[KD_PASS_TRACE].name, NULL, { { part->lens, 0, 0, true }, { j->store->undecided, 0, 0, true } }, NULL, { 0 } };
+    const struct kd_vk_dispatch d = trace_dispatch(j, NULL, part->lens, KD_CAMERA_CRITICAL);
     return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
 }
 
@@ -329,7 +352,7 @@ static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, d
         uint64_t to = kd_critical_pixels_above(&j->lens->pixels, row + kd_frame_band_rows(j, band));
         from = from > first ? from - first : 0;
         to = to < first ? 0 : to - first < part->n ? to - first : part->n;
-        const struct kd_vk_dispatch d = transfer_dispatch(j, NULL, part->lens, band);
+        const struct kd_vk_dispatch d = transfer_dispatch(j, NULL, part->lens, band, KD_CAMERA_CRITICAL);
         part->push.band0 = row;
         status = run_part(j, part, from, to, &d, false, ns);
     }
@@ -419,8 +442,7 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
                               float *planes, double *trace_ms, struct kd_error *error)
 {
     struct kd_frame_job job = {
-        .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .camera = kd_camera_push(scene), .weight = 1,
-        .error = error,
+        .r = renderer, .store = &renderer->store, .scene = scene, .plan = plan, .weight = 1, .error = error,
     };
     struct kd_vk_buffer *host = NULL;
     bool reused;
@@ -429,6 +451,7 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
     KD_TRY(kd_store_lens_map(&renderer->store, plan, &job.lens, &reused, error));
     KD_TRY(kd_vk_buffer_create(renderer->vk, 4ull * plan->width * plan->side * plan->side * plan->band_rows, KD_VK_READBACK,
                                "lens map on the host", &host, error));
+    KD_TRY(kd_frame_send_cameras(&job));
     KD_TRY(forget_undecided(&job));
     for (uint32_t band = 0; band < plan->bands; band++) {
         uint32_t rows = kd_frame_band_rows(&job, band);
@@ -442,8 +465,10 @@ enum kd_status kd_render_lens(struct kd_renderer *renderer, const struct kd_scen
         KD_TRY(read_band(&job, band, host, planes));
     }
 done:
-    if (status)
+    if (status) {
         kd_vk_discard(renderer->vk);
+        kd_store_give_up(&renderer->store);
+    }
     kd_vk_buffer_destroy(renderer->vk, host);
     struct kd_vk_time times[KD_VK_MAX_PASSES];
     size_t n = kd_vk_times(renderer->vk, times);

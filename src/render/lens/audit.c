@@ -27,7 +27,7 @@ static uint32_t spread(uint32_t k, uint32_t n, uint32_t size) { return (uint32_t
 
 /* The labels of a pixel's ray as the kernel makes them, in its own arithmetic: what it loses there is a shift of some 1e-7 of the
  * picture and no error of the map. */
-static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
+static void label_in_single(const struct kd_camera_block *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
 {
     float x = (float)px - c->middle_x, y = c->middle_y - (float)py;
     float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
@@ -35,8 +35,11 @@ static void label_in_single(const struct kd_camera_push *c, bool finite, uint32_
     if (!finite)
         return;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
-    double m_phi = -kz * n;
-    kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
+    double m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
+    kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
+                       c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,
+                       c->p_t - (c->p_r * kx + c->p_theta * ky + c->p_phi * kz) * n,
+                       c->dw_t - (c->dw_r * kx + c->dw_theta * ky + c->dw_phi * kz) * n < 0, out);
 }
 
 /* Makes the labels of a pixel's ray as those of the map were made. */
@@ -50,7 +53,7 @@ static void label_of(const struct kd_scene *scene, const struct kd_plan *plan, u
         const struct kd_camera_exact exact = kd_camera_exact(scene);
         kd_camera_label(&exact, x, y, out);
     } else {
-        const struct kd_camera_push rounded = kd_camera_push(scene);
+        const struct kd_camera_block rounded = kd_camera_block(scene);
         label_in_single(&rounded, !isinf(scene->camera.r), x, y, out);
     }
 }

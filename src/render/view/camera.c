@@ -42,16 +42,15 @@ static void pinhole(struct kd_camera_exact *o, const struct kd_camera *c, double
     set_directions(o, forward, mix(step * cr, side, -step * sr, upward), mix(step * sr, side, step * cr, upward));
 }
 
-/* E and L/sin(theta) of a photon of unit local energy and direction m. A valid scene has no observer where there is none such. */
+/* The legs of the observer's frame. A valid scene has no observer where there is none such. */
 static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const struct kd_vantage *at)
 {
-    const struct kd_tetrad t = kd_observer_tetrad((enum kd_observer)scene->camera.observer, at);
-    o->e0 = t.t.energy;
-    o->e1 = t.phi.energy;
-    o->l0 = t.t.momentum;
-    o->l1 = t.phi.momentum;
-    o->cp = t.theta.polar;
-    o->cw = -t.r.radial / (at->r * at->r);
+    const struct kd_tetrad f = kd_observer_tetrad((enum kd_observer)scene->camera.observer, at);
+    const double r2 = at->r * at->r; /* w = 1/r: traced back dw = dr/r^2 */
+    o->e_t = f.t.energy, o->e_r = f.r.energy, o->e_theta = f.theta.energy, o->e_phi = f.phi.energy;
+    o->l_t = f.t.momentum, o->l_r = f.r.momentum, o->l_theta = f.theta.momentum, o->l_phi = f.phi.momentum;
+    o->p_t = f.t.polar, o->p_r = f.r.polar, o->p_theta = f.theta.polar, o->p_phi = f.phi.polar;
+    o->dw_t = f.t.radial / r2, o->dw_r = f.r.radial / r2, o->dw_theta = f.theta.radial / r2, o->dw_phi = f.phi.radial / r2;
     o->w0 = 1 / at->r;
 }
 
@@ -86,10 +85,10 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     return o;
 }
 
-struct kd_camera_push kd_camera_push(const struct kd_scene *scene)
+struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
 {
     const struct kd_camera_exact exact = kd_camera_exact(scene);
-    struct kd_camera_push o = { 0 };
+    struct kd_camera_block o = { 0 };
 #define F(name) o.name = (float)kd_lifted(exact.name);
 #define U(name) o.name = exact.name;
     KD_CAMERA_FIELDS_(F, U)
@@ -107,8 +106,11 @@ void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, 
         return;
     }
     double kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
-    double m_phi = -kz * n;
-    kd_camera_label_of(c->e0 + c->e1 * m_phi, c->l0 + c->l1 * m_phi, -c->cp * ky * n, kx > 0, out);
+    double m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
+    kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
+                       c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,
+                       c->p_t - (c->p_r * kx + c->p_theta * ky + c->p_phi * kz) * n,
+                       c->dw_t - (c->dw_r * kx + c->dw_theta * ky + c->dw_phi * kz) * n < 0, out);
 }
 
 /* Labels have no place for E = 0; a ray next to it is the same to 1e-12 of what the observer measures. */

@@ -5,16 +5,16 @@
 #include "render/view/layout.h"
 #include "scene/scene.h"
 
-/* The push constants of the kernels before they are rounded. */
+/* The camera of the kernels before it is rounded. */
 #define F(name) double name;
 #define U(name) uint32_t name;
 struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* Everything but the rows of a slice (row0, rows, band0, stride). The scene must be valid. */
+/* The scene must be valid. */
 struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene);
-struct kd_camera_push kd_camera_push(const struct kd_scene *scene);
+struct kd_camera_block kd_camera_block(const struct kd_scene *scene);
 
 /* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. */
 double kd_camera_pixel(const struct kd_scene *scene);

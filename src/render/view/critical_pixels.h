@@ -30,7 +30,7 @@ void kd_critical_pixels_finish(struct kd_critical_pixels *pixels);
 /* How many pixels of the list are above row y. */
 size_t kd_critical_pixels_above(const struct kd_critical_pixels *pixels, uint32_t y);
 
-/* The camera of these rays, which are `rays` a pixel: kd_camera_exact and kd_camera_push of it count its pixels in `rays` steps each
+/* The camera of these rays, which are `rays` a pixel: kd_camera_exact and kd_camera_block of it count its pixels in `rays` steps each
  * way, from one of which to the next it is as far as from ray to ray. */
 struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays);
 

@@ -19,7 +19,8 @@ static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_F
 
 #define F(name) float name;
 #define U(name) uint32_t name;
-struct kd_camera_push { KD_CAMERA_FIELDS_(F, U) };
+struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
+struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 struct kd_footprint_push { KD_FOOTPRINT_FIELDS_(F, U) };
 struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
@@ -42,7 +43,12 @@ static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
     return (uint64_t)kd_post_groups(pixels) * KD_GROUP_SIZE * KD_POST_PIXELS * (bit_depth == 16 ? 6 : 3);
 }
 
-_Static_assert(sizeof(struct kd_camera_push) <= 128, "the push constants that every device has");
+_Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 && sizeof(struct kd_particles_push) <= 128 && sizeof(struct kd_light_push) <= 128 &&
+               sizeof(struct kd_post_push) <= 128, "the push constants that every device has");
+
+/* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, and of those at the critical curve. */
+enum { KD_CAMERA_GRID, KD_CAMERA_CRITICAL, KD_CAMERAS, KD_CAMERA_BYTES = 256 };
+_Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next camera begins behind this one");
 
 /* Specialisation constants: a member each, at four times its id. */
 #define SPEC_U(id, name, value) uint32_t name;
