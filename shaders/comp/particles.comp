@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { KD_PARTICLES_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
 layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
 
-/* Cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
+/* These are the cosine and sine of a phase, times an amplitude in [0, 1] that is uniform in the plane of the two. */
 kd_phasor swing(uint random, uint phase)
 {
     kd_phasor t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
@@ -30,7 +30,7 @@ kd_phasor swing(uint random, uint phase)
     return t;
 }
 
-/* On the grid from word `first`. */
+/* Adds to the grid from word `first` on. */
 void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
 {
     if (row < 0.0 || row > float(rows)) /* beyond the edge for now */
@@ -44,8 +44,8 @@ void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
     atomicAdd(grid[at + (1 << columns_log2)], (upper - upper_right) | upper_right << 16);
 }
 
-/* One that falls is back at its start when it is at its end, on another lap and so at another azimuth. Beyond the ends of the
- * curve its grid, as far as it reaches, holds those of the laps before and after. */
+/* A particle that falls is back at its start when it is at its end, on another lap and so at another azimuth. Beyond the ends of
+ * the curve its grid, as far as it reaches, holds those of the laps before and after. */
 uint launch(uint random, uint lap) { return kd_hash(random + kd_hash(lap)) + push.turn; }
 
 void plunge(uint random, uint n)
@@ -73,7 +73,7 @@ void main()
         plunge(random, n);
         return;
     }
-    /* Equal shares, in order of radius: neighbours meet on the grid. */
+    /* Invocations have equal shares of the particles, in order of radius: neighbours meet on the grid. */
     umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low);
     uint phi = random + guides[k].phi;
     float row = guides[k].row;

@@ -17,7 +17,7 @@ layout(push_constant) uniform Push { KD_LIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) writeonly buffer Sums { vec4 sums[]; };
 
-/* The sum so far, and what its rounding has added too much. */
+/* A compensated sum holds the sum so far, and what its rounding has added too much. */
 struct sum4 { precise vec4 value, lost; };
 
 sum4 add(sum4 s, vec4 term)
@@ -30,7 +30,7 @@ sum4 add(sum4 s, vec4 term)
 
 void main()
 {
-    /* Neighbours read neighbouring pixels. */
+    /* Neighbouring invocations read neighbouring pixels. */
     uint o = gl_WorkGroupID.x * (KD_GROUP_SIZE * KD_LIGHT_PIXELS) + gl_LocalInvocationID.x;
     uint px = o % push.pixels_x, row = o / push.pixels_x;
     sum4 all = sum4(vec4(0.0), vec4(0.0)), spots = all;

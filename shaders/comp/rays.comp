@@ -50,7 +50,7 @@ kd_state radial(kd_full p)
     return y;
 }
 
-/* E + w' for E = 1, without cancellation on the way out. */
+/* This is E + w' for E = 1, without cancellation on the way out. */
 float energy_and_fall(kd_geodesic m, float w, float dw)
 {
     return dw > 0.0 ? 1.0 + dw : max(-w * w * (m.a2 + w * (2.0 * m.k - m.d * w)), 1e-30) / (1.0 - dw);
@@ -73,7 +73,7 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     return o;
 }
 
-/* What the regularisations leave at a point, to be taken between the ends; nothing at infinity. */
+/* This is what the regularisations leave at a point, to be taken between the ends; nothing at infinity. */
 float delay_edge(kd_geodesic m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
@@ -83,7 +83,7 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* How far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the time of a half
+/* Estimates how far w may be off where the first integral w'^2 = W^2 - D K w^2 is: a velocity that is wrong for the time of a half
  * period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
@@ -110,7 +110,7 @@ void main()
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_fall_squared(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
-    /* psi without its smooth part; see polar_azimuth.glsl. */
+    /* This is psi without its smooth part; see polar_azimuth.glsl. */
     float dp = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
     float root = sqrt(polar.b + m.energy2 * cam.u * cam.u), side = ray.l < 0.0 ? -1.0 : 1.0;
     float peak = side * kd_angle_upper(-dp / root, abs(cam.u) * abs(ray.l) / sqrt(polar.b + m.energy2));
@@ -123,7 +123,7 @@ void main()
     half_.dw = start.dw = ray.dw;
     kd_barrier barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, cam.epsilon);
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
-    /* Of the start: w is rounded, and so is R, of which w' is the root. */
+    /* The start is rounded: w is, and so is R, of which w' is the root. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
@@ -168,14 +168,14 @@ void main()
         alive = j > STEPS && w > 0.0;
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
-        /* What the steps lose and what rounding does, as an error of w. Steps: what separates the two integrations, where that is
-         * small; no less than what the last crossing was off by, as far as the variation has grown since, for two wrong paths
-         * may meet. Rounding: some ten operations of a unit each, which the variation amplifies, as much in the time of the crossing,
-         * and the drift of the first integral. */
+        /* The error of w is what the steps lose and what rounding does. The steps lose what separates the two integrations, where
+         * that is small; but no less than what the last crossing was off by, times what the variation has grown by since, for two
+         * wrong paths may meet. Rounding adds some ten operations of a unit each, which the variation amplifies, as much in the
+         * time of the crossing, and the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) + cam.epsilon * ((4.0 + 0.01 * float(STEPS)) * w + kick * abs(p.y.z) + 8.0 * tau * abs(y.dw));
-        /* So close to the horizon or to infinity that the crossing may exist or not? Only what certainly does is told. */
+        /* So close to the horizon or to infinity a crossing may exist or not: only what certainly does is told. */
         if (min(abs(w), abs(cam.horizon - w)) + ahead < off) {
             error = max(error, 1.0);
             alive = false;

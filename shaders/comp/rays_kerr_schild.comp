@@ -27,8 +27,8 @@ layout(set = 0, binding = 0) readonly buffer Rays {
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
 #include "ray/trace.glsl"
 
-/* Tao's omega, in units of 1/s. Too small lets the copies part on long orbits, too large costs accuracy as it costs phase:
- * of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half turns of a ray. */
+/* This is Tao's omega, in units of 1/s. A small one lets the copies part on long orbits, a large one costs accuracy as it costs
+ * phase: of 0.1, 0.5, 2 and 10 the first was the most accurate by factors of 15 to 10^4 over the half turns of a ray. */
 #define KD_BIND 0.1
 
 struct kd_point { vec3 x, p; };
@@ -40,7 +40,7 @@ float radius(vec3 x)
     return sqrt(rho2 > 0.0 ? 0.5 * (rho2 + root) : 2.0 * az * az / max(root - rho2, 1e-30));
 }
 
-/* d/ds of (x, p) under r H, with E = 1. */
+/* This is d/ds of (x, p) under r H, with E = 1. */
 kd_point flow(vec3 x, vec3 p)
 {
     float a = rays.spin, r = radius(x), r2 = r * r, q = 1.0 / (r2 + a * a), den = 1.0 / (r2 * r2 + a * a * x.z * x.z);
@@ -80,7 +80,7 @@ kd_point runge_kutta(kd_point y, float h)
     return o;
 }
 
-/* The two copies of the phase space. */
+/* Tao's method holds two copies of the phase space. */
 struct kd_pair { kd_point a, b; };
 
 kd_pair drift_a(kd_pair y, float h)
@@ -97,7 +97,7 @@ kd_pair drift_b(kd_pair y, float h)
     y.a.x += h * k.x;
     return y;
 }
-/* Rotation that binds the copies: (x - x', p - p') turns by 2 omega h, whose cosine and sine are t. */
+/* A rotation binds the copies: (x - x', p - p') turns by 2 omega h, whose cosine and sine are t. */
 kd_pair bind(kd_pair y, kd_phasor t)
 {
     vec3 sx = 0.5 * (y.a.x + y.b.x), sp = 0.5 * (y.a.p + y.b.p), dx = 0.5 * (y.a.x - y.b.x), dp = 0.5 * (y.a.p - y.b.p);
@@ -127,7 +127,7 @@ kd_pair tao_6(kd_pair y, float h, kd_phasor turns[4])
     return y;
 }
 
-/* Along the step: position and slope of the cubic through both ends. */
+/* Gives position and slope along the step, by the cubic through both ends. */
 float hermite(float y0, float d0, float y1, float d1, float s)
 {
     float c2 = 3.0 * (y1 - y0) - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * (y1 - y0);
@@ -139,8 +139,8 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* What a step from x to y adds to the turns about the axis that atan2 forgets: whether the chord between crosses the half plane
- * x < 0. Within a step's bend of the axis the ray may pass on the other side of it. */
+/* Counts what a step from x to y adds to the turns about the axis that atan2 forgets: whether the chord between them crosses the
+ * half plane x < 0. Within a step's bend of the axis the ray may pass on the other side of it. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -148,7 +148,7 @@ float turned(vec3 x, vec3 y)
     return y.y < 0.0 ? 1.0 : -1.0;
 }
 
-/* Boyer-Lindquist azimuth, source minus observer. */
+/* This is the Boyer-Lindquist azimuth, source minus observer. */
 float azimuth(vec3 x, float turns)
 {
     float a = rays.spin, r = radius(x), root = rays.horizon_r - 1.0;
@@ -181,7 +181,7 @@ void main()
         n = 1;
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
-    /* Once, not in each step: the series has ten rounds. */
+    /* This is done once, and not in each step: the series has ten rounds. */
     kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
@@ -232,7 +232,7 @@ void main()
         ends[o + 3 * ORDERS] = p.z / sqrt(dot(p, p));
         ends[o + 3 * ORDERS + 1] = -kd_atan2(p.y, p.x);
     }
-    /* How far the null condition has drifted, of E^2 = 1. */
+    /* Says how far the null condition has drifted, of E^2 = 1. */
     vec3 x = y.a.x, p = y.a.p;
     float a = rays.spin, r = radius(x), q = r * r + a * a;
     float s = 1.0 + ((r * x.x + a * x.y) * p.x + (r * x.y - a * x.x) * p.y) / q + x.z * p.z / r;

@@ -29,7 +29,7 @@ kd_colour_place kd_colour_at(float kelvin)
     return o;
 }
 
-/* Linear sRGB of luminance 1. */
+/* The colour is linear sRGB of luminance 1. */
 vec3 kd_colour_of(kd_colour_place at)
 {
     vec4 row = kd_table_row(KD_TABLE_colour, at.node);

@@ -9,7 +9,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* g r^(-3/4) at r = 1/w: what the temperature of a disk is multiplied by where its table holds T r^(3/4). */
+/* This is g r^(-3/4) at r = 1/w: what the temperature of a disk is multiplied by where its table holds T r^(3/4). */
 float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
 {
     /* With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3: near the ISCO of a fast hole the left-hand
@@ -21,7 +21,7 @@ float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
     return redshift ? sqrt(max(rest, 0.0)) / under : inversesqrt(x3) * all / under;
 }
 
-/* g itself. */
+/* This is g itself. */
 float kd_orbit_shift(float w, float energy, float momentum, uint traits)
 {
     float r = 1.0 / w;

@@ -7,11 +7,11 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place on one of the grids, which begins at node `first`: its row, and its azimuth in turns on the row before and the one
- * after. */
+/* A place lies on one of the grids, which begins at node `first`. It has a row, and an azimuth in turns on the row before and on
+ * the one after. */
 struct kd_place { uint first, rows, columns; float row, before, after; };
 
-/* How far ahead, in turns, is now what went round with a row's Omega and was seen a time `ago`. */
+/* Says how many turns ahead that is now which went round with a row's Omega and was seen a time `ago`. */
 float kd_particles_ahead(uint row, float ago)
 {
     float r = emission.disk.r_in * exp2(float(row) / emission.particles.rows_octave);
@@ -38,14 +38,14 @@ float kd_density_of_row(kd_place at, uint row, float turn)
     return mix(density[first + (j & (at.columns - 1))], density[first + ((j + 1) & (at.columns - 1))], column - float(j));
 }
 
-/* Particles over the number expected: bilinear between the nodes. */
+/* This is the number of particles over the one expected, bilinear between the nodes. */
 float kd_density_at(kd_place at)
 {
     uint i = min(uint(at.row), at.rows - 1);
     return mix(kd_density_of_row(at, i, at.before), kd_density_of_row(at, i + 1, at.after), at.row - float(i));
 }
 
-/* The azimuth of a crossing in turns, in the frame that the grids are kept in. */
+/* This is the azimuth of a crossing in turns, in the frame that the grids are kept in. */
 float kd_sample_turn(kd_sample s) { return (s.phi + emission.frame.azimuth) * (0.5 / KD_PI); }
 
 /* These are in plunge.glsl. */
@@ -53,7 +53,7 @@ bool kd_plunge_falls(kd_sample s);
 kd_place kd_plunge_place(kd_sample s, float turn);
 kd_gas kd_plunge_gas(kd_sample s, float number);
 
-/* Those on their orbits, or those that plunge (plunge.glsl): one look at the grids and one black body for both. */
+/* Particles on their orbits and those that plunge (plunge.glsl) share one look at the grids and one black body. */
 kd_glow kd_particles_glow(kd_sample s)
 {
     float turn = kd_sample_turn(s);

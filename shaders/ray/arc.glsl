@@ -20,7 +20,7 @@ struct kd_lattice {
     float c2, c3, c4, c5, c6, c7, c8; /* of the series: z^2/g = 1 - A z^2/12 + c2 z^4 + c3 z^6 + ... */
 };
 
-/* The scaled f: time z = scale tau, v = scale w. */
+/* f is scaled: time z = scale tau, v = scale w. */
 struct kd_arcs {
     float scale, unit; /* and 1/scale */
     float k, d;        /* K, D        */
@@ -59,7 +59,7 @@ kd_arcs kd_arcs_of(kd_geodesic m, float e)
 
 struct kd_arc { float g, dg; };
 
-/* For |z| up to pi/2. */
+/* This series holds for |z| up to pi/2. */
 kd_arc kd_arc_short(kd_lattice l, float z)
 {
     kd_arc o;
@@ -67,17 +67,17 @@ kd_arc kd_arc_short(kd_lattice l, float z)
     float sum = (l.a * (-1.0 / 12.0)) * y + y2 * (l.c2 + y * (l.c3 + y * (l.c4 + y * (l.c5 + y * (l.c6 + y * (l.c7 + y * l.c8))))));
     float slope = y2 * (l.c2 + y * (2.0 * l.c3 + y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
     float inv = 1.0 / (1.0 + sum), part = sum * inv;
-    /* Small differences from what they are where f is 1. */
+    /* These are small differences from what g and g' are where f is 1. */
     precise float g = y - y * part, turn = z - z * part, dg = turn - turn * (part + slope * inv);
     o.g = g;
     o.dg = 2.0 * dg;
     return o;
 }
 
-/* g''. */
+/* This is g''. */
 float kd_arc_bend(kd_lattice l, float g) { return 2.0 + g * (l.a + g * (1.5 * l.d + g * (2.0 * l.g))); }
 
-/* At twice the time: wp's duplication formula, written for g. */
+/* This is g at twice the time: wp's duplication formula, written for g. */
 kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
 {
     kd_arc o;
@@ -91,7 +91,7 @@ kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
     return o;
 }
 
-/* A point of the path with what the formula needs of it. */
+/* A point of the path holds what the formula needs of it. */
 struct kd_centre {
     float v, dv;
     float f, s, c, d; /* F/2, s, c, v'^2 D/4 */
@@ -110,7 +110,7 @@ kd_centre kd_centre_of(kd_arcs a, kd_state y)
     return o;
 }
 
-/* v after that time, and before. */
+/* These are v after that time, and v as long before. */
 vec2 kd_around(kd_centre o, kd_arc z)
 {
     float p = 1.0 - z.g * o.s, inv = 1.0 / (p * p + o.d * z.g * z.g);
@@ -118,7 +118,7 @@ vec2 kd_around(kd_centre o, kd_arc z)
     return o.v + vec2(even + odd, even - odd) * inv;
 }
 
-/* v and v' after that time. */
+/* These are v and v' after that time. */
 kd_state kd_ahead(kd_arcs a, kd_centre o, kd_arc z)
 {
     kd_state y;

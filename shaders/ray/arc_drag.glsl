@@ -5,7 +5,7 @@
 
 #include "ray/arc.glsl"
 
-/* g and g' for the times from an end to the places. */
+/* These are g and g' for the times from an end to the places. */
 struct kd_nodes { kd_arc outer, between, inner, middle; };
 
 kd_nodes kd_nodes_of(kd_lattice l, float z)
@@ -40,8 +40,8 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
     return o;
 }
 
-/* Without the factor a; of a ray that falls in, in ingoing coordinates and without -E. Both kinds side by side, for a driver that runs
- * both branches of an if. */
+/* The integrand leaves out the factor a. Of a ray that falls in it is that of ingoing coordinates, without -E. Both kinds are
+ * computed side by side, for a driver that runs both branches of an if. */
 float kd_drag_at(kd_drag_terms t, float v)
 {
     float w = v * t.unit, w2 = w * w, d = kd_delta(w, t.root), kw = t.k * w2;
@@ -51,7 +51,7 @@ float kd_drag_at(kd_drag_terms t, float v)
     return num / max(den, 1e-12);
 }
 
-/* Between two points of a path, z apart in scaled time, by the nodes of z. */
+/* Integrates between two points of a path, z apart in scaled time, by the nodes of z. */
 float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n, float z)
 {
     float sum = 0.208979591836735 * kd_drag_at(t, kd_around(from, n.middle).x) +
@@ -61,7 +61,7 @@ float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n,
     return t.a * z * t.unit * (t.falls ? sum - t.e : sum);
 }
 
-/* What the ingoing coordinates leave out, at w. */
+/* This is what the ingoing coordinates leave out, at w. */
 float kd_drag_fallen(kd_drag_terms t, float w) { return t.falls ? t.a * kd_fall(w, t.root) : 0.0; }
 
 #endif

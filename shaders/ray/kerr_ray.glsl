@@ -14,7 +14,7 @@ struct kd_ray {
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
 
-/* Constants of motion and the coefficients of R(w) and U(u). */
+/* A ray is its constants of motion and the coefficients of R(w) and U(u). */
 struct kd_geodesic {
     float momentum, q, energy2; /* L, Q, a^2 E^2 */
     float a2, k, d;             /* A, K, D       */
@@ -35,8 +35,8 @@ kd_geodesic kd_geodesic_of(kd_ray ray, float a, float u, float s)
     return m;
 }
 
-/* Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the two factors keep
- * their digits where the horizons all but meet. Precise: multiplied out, as a driver may, they would have lost them. */
+/* This is Delta/r^2 = 1 - 2w + a^2 w^2 from root = sqrt(1 - a^2): 1 - w is exact near the horizon of a fast hole, and the two
+ * factors keep their digits where the horizons all but meet. Precise: multiplied out, as a driver may, they would have lost them. */
 float kd_delta(float w, float root)
 {
     precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);

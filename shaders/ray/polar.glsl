@@ -25,7 +25,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     kd_polar o;
     float root = sqrt(max(m.a2 * m.a2 + 4.0 * m.energy2 * m.q, 0.0));
     o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may be too small for a float */
-    /* (s - A)/2 without cancellation for either sign of A. */
+    /* This is (s - A)/2, without cancellation for either sign of A. */
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * m.q / (root + m.a2);
     o.b = max(b, 1e-30);
 
@@ -56,7 +56,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float mean = p;
 #else
     float n = 1.0 / (cx * cx + sx * sx);
-    /* Landen, on the direction (cx, sx) alone. */
+    /* Landen's transformation acts on the direction (cx, sx) alone. */
     float y = (k0 - 1.0) * sx * cx * n, x = (cx * cx + k0 * sx * sx) * n;
     float d = abs(y) > 0.4 * x ? kd_angle_upper(x, abs(y)) * sign(y) : kd_atan_small(y / x);
     float correction = 0.5 * d;

@@ -19,7 +19,7 @@ struct kd_azimuth {
     bool uneven;              /* the series does not do */
 };
 
-/* 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
+/* This is 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
 float kd_azimuth_rate(float y, float root_c)
 {
     float root = sqrt(y);
@@ -28,7 +28,7 @@ float kd_azimuth_rate(float y, float root_c)
 
 float kd_azimuth_pull(kd_geodesic m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
 
-/* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's rule. */
+/* This is the smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's rule. */
 float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
 {
     const uint steps = 32;
@@ -63,7 +63,7 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     float cx = abs(u), sx = -(s * dp) / root;
     float c = polar.b + m.energy2, sc = sqrt(c);
     float eu = m.energy2 * (cx * cx + sx * sx); /* e U+ */
-    /* At x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends count half. */
+    /* The places are x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends count half. */
     float j0 = 0.5 * kd_azimuth_rate(polar.b + eu, sc), j4 = 0.5 * kd_azimuth_rate(polar.b, sc);
     float j1 = kd_azimuth_rate(polar.b + 0.853553391 * eu, sc);
     float j2 = kd_azimuth_rate(polar.b + 0.5 * eu, sc);
@@ -78,7 +78,7 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     o.root_c = sc;
     o.side = ray.l < 0.0 ? -1.0 : 1.0;
     o.uneven = polar.b < 0.85 * (polar.b + eu); /* (p - q)/(p + q) above 0.04: the fifth term above 1e-7 */
-    /* tan x / sqrt(1 - U+) at the observer, free of the sine of the polar angle that both sides share: exact on the axis. */
+    /* This is tan x / sqrt(1 - U+) at the observer, free of the sine of the polar angle that both sides share: exact on the axis. */
     float tx = -dp / root, ty = cx * abs(ray.l) / sc;
     o.first = kd_azimuth_part(o, cx, sx, tx, ty);
     o.half_ = KD_PI * (o.side + o.f0);

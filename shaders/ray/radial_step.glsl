@@ -16,16 +16,17 @@ kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
     return o;
 }
 
-/* As a divisor. */
+/* This is Delta/r^2, with a floor so that it can be divided by. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
-/* W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the horizon. */
+/* This is W + |w'| of a ray that goes one way, W = E (1 + a^2 w^2) - a L w^2; the floors are for what has no meaning behind the
+ * horizon. */
 float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 {
     return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
 }
 
-/* w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
+/* This is w'^2 = W^2 - D K w^2, which holds its digits next to the horizon. */
 float kd_fall_squared(kd_geodesic m, float w, float e, float a, float root)
 {
     precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2, square = all * all - kd_delta(w, root) * m.k * w2;
@@ -46,8 +47,8 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
 }
 
-/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small, as for
- * a hole that is nearly extremal. */
+/* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small, as
+ * for a hole that is nearly extremal. */
 float kd_fall(float w, float root)
 {
     precise float gap = 1.0 - w - root * w;
@@ -88,25 +89,25 @@ kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float hori
     return o;
 }
 
-/* Whether a ray goes into the horizon from where it is now, without turning. */
+/* Says whether a ray goes into the horizon from where it is now, without turning. */
 bool kd_falls_in(kd_barrier b, kd_state y)
 {
     return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0);
 }
 
-/* The way of kd_drag from here on. */
+/* Says which way kd_drag takes from here on. */
 float kd_way(kd_barrier b, kd_state y)
 {
     return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
 }
 
-/* Whether it ends at infinity. */
+/* Says whether the ray ends at infinity. */
 bool kd_flies_out(kd_barrier b, kd_state y)
 {
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
-/* Whether either can be told. */
+/* Says whether either can be told. */
 bool kd_is_decided(kd_barrier b, kd_state y, float epsilon)
 {
     float noise = epsilon * b.noise;

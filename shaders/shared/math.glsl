@@ -5,7 +5,7 @@
 
 #define KD_PI 3.14159265358979323846
 
-/* False for infinity and NaN, by the bits of the exponent: a compiler that need not preserve NaN (Vulkan 1.2,
+/* Says whether x is finite, by the bits of the exponent: a compiler that need not preserve NaN (Vulkan 1.2,
  * shaderSignedZeroInfNanPreserve) may take any comparison with one for true. */
 bool kd_is_finite(float x)
 {
@@ -16,7 +16,7 @@ bool kd_is_finite(float x)
 #endif
 }
 
-/* Arc tangent for |x| <= tan(pi/8). Double: Moshier's rational function (Cephes, 1984). */
+/* This is the arc tangent for |x| <= tan(pi/8). Double: Moshier's rational function (Cephes, 1984). */
 float kd_atan_small(float x)
 {
     float z = x * x;
@@ -31,7 +31,7 @@ float kd_atan_small(float x)
 #endif
 }
 
-/* Angle of (x, y) in [0, pi] for y >= 0, where x may have any sign. */
+/* This is the angle of (x, y) in [0, pi] for y >= 0, where x may have any sign. */
 float kd_angle_upper(float x, float y)
 {
     float ax = abs(x), mx = max(ax, y), mn = min(ax, y);
@@ -53,7 +53,7 @@ float kd_log(float x)
         m *= 2.0;
         e--;
     }
-    /* 2 atanh((m - 1)/(m + 1)): the argument is below 0.172, its eleventh odd power below 1e-17. */
+    /* The logarithm is 2 atanh((m - 1)/(m + 1)): the argument is below 0.172, its eleventh odd power below 1e-17. */
     float s = (m - 1.0) / (m + 1.0), z = s * s, sum = 0.0;
     for (int k = 10; k >= 0; k--)
         sum = sum * z + 1.0 / float(2 * k + 1);
@@ -65,7 +65,7 @@ float kd_log(float x)
 
 struct kd_phasor { float c, s; }; /* cosine and sine of an angle */
 
-/* Both, by the series on [-pi/4, pi/4]. */
+/* Cosine and sine come from the series on [-pi/4, pi/4]. */
 kd_phasor kd_cos_sin(float angle)
 {
     float n = floor(angle * (2.0 / KD_PI) + 0.5), x = angle - n * (KD_PI * 0.5), z = x * x;

@@ -1,4 +1,4 @@
-/* What the kernels of light read, on the C side of shaders/shared/emitters.h: numbers and tables of all emitters. */
+/* The kernels of light read this: numbers and tables of all emitters. It is the C side of shaders/shared/emitters.h. */
 #ifndef KD_RENDER_EMIT_EMISSION_H
 #define KD_RENDER_EMIT_EMISSION_H
 
@@ -14,7 +14,7 @@
 #define MEMBER(number, name) _Alignas(16) struct kd_##name##_block name;
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
-/* Laid out as std140 does: the blocks begin at multiples of 16 bytes. */
+/* The layout is that of std140: the blocks begin at multiples of 16 bytes. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef F
 #undef U
@@ -23,7 +23,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef MEMBER
 _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
 
-/* Read as texels: on lavapipe those come four at the price of one of a storage buffer's words. */
+/* Tables are read as texels: on lavapipe those come four at the price of one of a storage buffer's words. */
 typedef float kd_table_row[4];
 #define T(name, first, rows) kd_table_row name[rows];
 struct kd_emit_tables { KD_EMIT_TABLES(T) };
@@ -32,7 +32,7 @@ struct kd_emit_tables { KD_EMIT_TABLES(T) };
 KD_EMIT_TABLES(T)
 #undef T
 
-/* Both lie in one buffer: the tables behind the numbers. */
+/* Both lie in one buffer, the tables behind the numbers. */
 struct kd_emit_data {
     struct kd_emission emission;
     char gap[256 - sizeof(struct kd_emission) % 256];

@@ -1,4 +1,4 @@
-/* What goes on by itself in a live session, as the emitters have it (emitter.h). Pure; any thread. */
+/* Emitters (emitter.h) say what goes on by itself in a live session. Pure; any thread. */
 #ifndef KD_RENDER_EMIT_MOTION_H
 #define KD_RENDER_EMIT_MOTION_H
 
@@ -14,9 +14,9 @@ enum kd_varies {
 
 /* What a picture of the scene would show of another time or azimuth, whether they go on or not: enum kd_varies. */
 unsigned kd_emit_varies(const struct kd_scene *scene);
-/* Whether anything that can be seen changes, by the scene's rates. */
+/* Says whether anything that can be seen changes, by the scene's rates. */
 bool kd_emit_moves(const struct kd_scene *scene);
-/* Whether all that changes is light that grows or fades: nothing moves. */
+/* Says whether all that changes is light that grows or fades, and nothing moves. */
 bool kd_emit_only_dims(const struct kd_scene *scene);
 
 #endif

@@ -35,7 +35,7 @@ double kd_particle_radius(const struct kd_scene *scene, double q)
     return o.low * exp(o.s == 0 ? q * all : log1p(q * expm1(o.s * all)) / o.s);
 }
 
-/* Share of the particles per unit of ln r. */
+/* This is the share of the particles per unit of ln r. */
 static double density(const struct kd_scene *scene, double r)
 {
     const struct span o = span_of(scene);
@@ -85,7 +85,7 @@ static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *g) { return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256; }
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *g) { return kd_particle_guides_bytes(g) + 2 * KD_PARTICLE_EXPECTED_BYTES; }
 
-/* Words of either grid. */
+/* Each grid has so many words. */
 uint64_t kd_particle_words(const struct kd_particle_grid *g) { return (g->rows + 1ull) * g->columns; }
 uint64_t kd_particle_plunge_words(const struct kd_particle_grid *g)
 {
@@ -112,7 +112,7 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     return g;
 }
 
-/* 2^31 radii over particles: what the kernel multiplies by, with the same rounding. */
+/* This is 2^31 radii over particles: what the kernel multiplies by, with the same rounding. */
 static uint32_t per_particle(const struct kd_particle_grid *grid)
 {
     return (uint32_t)(((uint64_t)grid->radii << 31) / (grid->count - grid->plunging));
@@ -144,7 +144,7 @@ static uint32_t hash(uint32_t x)
 
 static uint32_t key_of(const struct kd_scene *scene) { return hash((uint32_t)scene->disk.seed + 0x9e3779b9u); }
 
-/* As the kernel draws them. */
+/* The kernel draws them in the same way. */
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle)
 {
     uint32_t key = key_of(scene), random = hash(particle ^ key);
@@ -155,7 +155,7 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
     };
 }
 
-/* What is left of a phase after whole turns, in 2^-32 of a turn. */
+/* This is what is left of a phase after whole turns, in 2^-32 of a turn. */
 static uint32_t turns(double rate, double t)
 {
     double phase = rate * t / (2 * M_PI);
@@ -183,7 +183,7 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
     }
 }
 
-/* One over the weight that a node of each row expects: particles within a row of it, less by their distance. */
+/* Fills in one over the weight that a node of each row expects. Particles within a row of it count, less by their distance. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
     enum { PARTS = 8 }; /* of the hat on each side */
@@ -199,7 +199,7 @@ static void fill_expected(float *out, const struct kd_scene *scene, const struct
     }
 }
 
-/* The same of the plunge, whose particles are evenly spread in phase. */
+/* Fills in the same for the plunge, whose particles are evenly spread in phase. */
 static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid)
 {
     double weight = (double)grid->plunging * grid->unit / grid->plunge_columns / grid->lap_rows;

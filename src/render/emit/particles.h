@@ -40,35 +40,36 @@ struct kd_particle_grid {
     uint32_t unit;          /* weight of one particle: what a node can hold is 16 bits */
     uint64_t bytes;         /* on the device */
 };
-/* A valid scene's. Cells are about square, a handful of particles in each. */
+/* The grid of a valid scene has cells that are about square, a handful of particles in each. */
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene);
 
-/* The guiding orbit of a particle that does not fall: in order of radius, equal shares but for rounding. */
+/* Says which guiding orbit a particle has that does not fall: in order of radius, equal shares but for rounding. */
 uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particle);
 
-/* The guiding radius inside which there is the share q of the particles. */
+/* Finds the guiding radius inside which there is the share q of the particles. */
 double kd_particle_radius(const struct kd_scene *scene, double q);
 
-/* The guiding orbit of a radius k: its radius, angular frequencies in rad/M, and the largest swings: of ln r; of phi in radians. */
+/* Computes the guiding orbit of a radius k: its radius, angular frequencies in rad/M, and the largest swings: of ln r; of phi in
+ * radians. */
 struct kd_particle_orbit {
     double r, omega, kappa, vertical, swing_r, swing_phi;
 };
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k);
 
-/* Of a particle's epicycles: shares of the largest swings, and phases at time 0 in radians. */
+/* A particle's epicycles have shares of the largest swings, and phases at time 0 in radians. */
 struct kd_particle_swing {
     double radial, radial_phase, vertical, vertical_phase;
 };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
-/* Optical depth of the plunging gas in the mean where r |u^r| is 1, in a scene that has any: that of its surface density, in its
- * own frame, over the disk's just outside the ISCO. A particle counts as much inside as outside. */
+/* Computes the optical depth of the plunging gas in the mean where r |u^r| is 1, in a scene that has any: that of its surface
+ * density, in its own frame, over the disk's just outside the ISCO. A particle counts as much inside as outside. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
-/* How long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */
+/* Says how long before scene->top.time the grid is: about the delay of light from a near camera, so that what is left is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
-/* Where a particle is: Boyer-Lindquist r in M and phi in turns of 2^32, latitude in radians. */
+/* A particle's place is Boyer-Lindquist r in M and phi in turns of 2^32, latitude in radians. */
 struct kd_particle_place {
     float r;
     uint32_t phi;
@@ -85,14 +86,14 @@ uint64_t kd_particle_words(const struct kd_particle_grid *grid);
 uint64_t kd_particle_plunge_words(const struct kd_particle_grid *grid);
 struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const struct kd_particle_grid *grid, double time);
 
-/* What the device gives for a list: a row, or the phase of a plunge in turns of 2^32; an azimuth; a latitude. */
+/* For a list the device gives a row, or the phase of a plunge in turns of 2^32; an azimuth; a latitude. */
 struct kd_particle_listed {
     union { float row; uint32_t phase; };
     uint32_t phi;
     float latitude;
 };
 
-/* Places from that, of the particles first, first + stride, ..., n of them. */
+/* Makes places of that, of the particles first, first + stride, ..., n of them. */
 void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid, const struct kd_particle_listed *got,
                            uint32_t first, uint32_t stride, size_t n, struct kd_particle_place *out);
 

@@ -17,7 +17,7 @@
 
 #include <stdbool.h>
 
-/* Whether the scene has any: a disk of particles that reaches the ISCO, and a share of them. */
+/* Says whether the scene has any: a disk of particles that reaches the ISCO, and a share of them. */
 bool kd_plunging_is_on(const struct kd_scene *scene);
 
 struct kd_plunging {
@@ -28,11 +28,12 @@ struct kd_plunging {
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
-/* At start >= r >= end: phase from 0 to 1; azimuth in turns, less what the orbit at the ISCO has turned since the start. */
+/* Gives the place at start >= r >= end: phase from 0 to 1; azimuth in turns, less what the orbit at the ISCO has turned since the
+ * start. */
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* The other way round, for many phases: cubics between points whose slopes are known; r within 1e-9. */
+/* Goes the other way round, for many phases: cubics between points whose slopes are known; r within 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

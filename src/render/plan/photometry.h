@@ -28,11 +28,11 @@ struct kd_light_report {
     struct kd_light all, spots; /* of the whole picture; of what its hot spots add */
 };
 
-/* Groups of photometry.comp for the pixels of a band, and the bytes of the sums: every band has as many as the first. */
+/* Count the groups of photometry.comp for the pixels of a band, and the bytes of the sums: every band has as many as the first. */
 uint32_t kd_light_groups(uint32_t pixels);
 uint64_t kd_light_bytes(const struct kd_plan *plan);
 
-/* From n times the KD_LIGHT_SUMS sums of photometry.comp. Pure. */
+/* Makes flux and centroid of n times the KD_LIGHT_SUMS sums of photometry.comp. Pure. */
 struct kd_light_report kd_light_of(const struct kd_scene *scene, const float *sums, size_t n);
 
 #endif
