@@ -77,7 +77,7 @@ static void what_is_off_says_and_needs_nothing(void **state)
 static const char BASE[] = "{\"disk\": {\"model\": \"particles\", \"slow_light\": true, \"band\": \"visible\"}, \"sky\": {\"model\": \"grid\"}, "
                            "\"spots\": [{\"brightness\": 1}], \"style\": {\"ringdown\": 0.5}, \"time\": 7, \"camera\": {\"r\": 40}}";
 
-static const char GAS[] = "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10}, \"gas\": {\"amplitude\": 1}, \"time\": 7, "
+static const char GAS[] = "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
                           "\"camera\": {\"r\": 40}}";
 
 /* Numbers are those of the scene at hand, whatever was filled before, in any order. */
