@@ -5,6 +5,7 @@ import { number, t, tell, word } from './i18n.js';
 const pass_names = {
   queue: ['waiting', 'attesa'],
   trace: ['rays', 'raggi'],
+  footprint: ['places that rays stand for', 'luoghi per cui stanno i raggi'],
   transfer: ['disk and sky', 'disco e cielo'],
   fill: ['clearing', 'azzeramento'],
   light: ['light of spots', 'luce delle macchie'],
@@ -12,6 +13,7 @@ const pass_names = {
   rays: ['rays for particles', 'raggi per le particelle'],
   upload: ['upload', 'invio'],
   expose: ['exposure', 'esposizione'],
+  bloom: ['glare', 'alone'],
   post: ['tone and colour', 'toni e colore'],
   readback: ['read back', 'rilettura'],
   audit: ['error measured', 'misura dell’errore'],

@@ -40,7 +40,7 @@ function diskOf(scene) {
   if (model === 'none') return t('No disk.', 'Nessun disco.');
   const inner = scene.get('disk.inner'),
     outer = number(scene.get('disk.outer')),
-    what = model === 'particles' ? t(`disk of ${number(scene.get('disk.particles'))} particles`, `disco di ${number(scene.get('disk.particles'))} particelle`) : t('thin disk', 'disco sottile');
+    what = model === 'particles' ? t(`disk of ${number(scene.get('disk.particles'))} particles`, `disco di ${number(scene.get('disk.particles'))} particelle`) : scene.get('disk.gas.amplitude') > 0 ? t('thin disk of turbulent gas', 'disco sottile di gas turbolento') : t('thin disk', 'disco sottile');
   return inner === 'isco'
     ? t(`A ${what} from the ISCO to ${outer} M.`, `Un ${what} dall’ISCO a ${outer} M.`)
     : t(`A ${what} from ${number(inner)} to ${outer} M.`, `Un ${what} da ${number(inner)} a ${outer} M.`);

@@ -103,6 +103,7 @@ class Lensing(Browser):
                          'Un buco nero, spin 0,5, inclinazione 155°, visto dall’infinito, largo 50 M. Un disco sottile dall’ISCO a 16 M. '
                          'Macchie calde in orbita a 9 M.')
         self.assertIn('spin 0,5', page.get_attribute('#stage', 'aria-label'))
+        self.assertIn('A thin disk of turbulent gas from the ISCO to 22 M.', self.open('lang=en&pause=1&disk.gas.amplitude=1').get_attribute('#picture', 'alt'))
 
     def test_arrow_keys_in_boxes(self):
         page = self.open('lang=en&spots.0.brightness=4')

@@ -83,6 +83,15 @@ class Panel(Browser):
                          [True, False, True, True, False])
         self.assertTrue(page.is_visible('#rest-sky'))
 
+    def test_each_pass_has_a_name(self):
+        page = self.open('lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1')
+        self.open_groups(page)
+        shown = page.locator('#timings th').all_inner_texts()
+        frames = [r for r in self.requests if '/frame.png' in r.url][:-1]  # one is still awaited
+        passes = {entry.strip().split(';')[0] for r in frames for entry in r.response().headers['server-timing'].split(',')}
+        self.assertGreater(len(passes & {'trace', 'transfer', 'post', 'light', 'bloom', 'footprint'}), 4, passes)
+        self.assertEqual(passes & set(shown), set())
+
     def test_layouts(self):
         """At no size does anything stand over anything else, or out of the window."""
         for width, height in SIZES:
