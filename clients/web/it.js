@@ -159,6 +159,10 @@ export const fields = {
   ],
   'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati'],
   'image.bit_depth': ['Profondità', 'Bit per canale: 8 o 16'],
+  'style.name': [
+    'Stile',
+    'Un insieme di valori per l’aspetto, che un documento imposta nominandolo, salvo i campi che imposta da sé; none: nessuno',
+  ],
   'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1'],
   'style.tone_map': [
     'Curva dei toni',

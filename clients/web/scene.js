@@ -46,6 +46,7 @@ function parse(field, text) {
 
 export class Scene extends EventTarget {
   #values = new Map();
+  #styles = {}; // what each style sets, by path
   #now = null; // of the newest picture while time goes on
   #timer = 0;
   #clock = null; // that goes without pictures
@@ -63,9 +64,11 @@ export class Scene extends EventTarget {
       .flatMap(sections)
       .map(([name, spec]) => ({ name, help: spec.description, group: spec['x-group'], most: spec.items && spec.maxItems }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
+    scene.#styles = schema.properties.style.properties.name['x-sets'];
     scene.#renew(schema);
-    for (const [path, field] of scene.fields) {
-      const value = link.get(path) == null ? null : parse(field, link.get(path));
+    const style = scene.#styles[link.get('style.name')] ?? {};
+    for (const [path, field] of scene.#styleFirst(scene.fields)) {
+      const value = link.get(path) == null ? (style[path] ?? null) : parse(field, link.get(path));
       if (Number.isNaN(value)) scene.unknown.push(path);
       else if (value != null) scene.#put(path, value);
     }
@@ -94,8 +97,15 @@ export class Scene extends EventTarget {
     return Math.max(0, ...[...this.#values.keys()].filter(path => path.startsWith(list + '.')).map(path => Number(path.split('.')[1]) + 1));
   }
 
+  #styleFirst(values) {
+    return [...values].sort(([a], [b]) => (b === 'style.name') - (a === 'style.name'));
+  }
+
+  // What a style sets is said even where it is the default: else the style would say it.
   #put(path, value) {
-    if (value == null || value === this.fields.get(path).default) this.#values.delete(path);
+    const styled = path in (this.#styles[this.#values.get('style.name')] ?? {});
+    if (styled) value ??= this.fields.get(path).default;
+    if (value == null || (value === this.fields.get(path).default && !styled)) this.#values.delete(path);
     else this.#values.set(path, value);
     link.set(path, this.#values.get(path));
   }
@@ -105,10 +115,11 @@ export class Scene extends EventTarget {
     return this.#values.get(path) ?? this.fields.get(path)?.default;
   }
 
-  // The changes: { 'camera.r': 30 }; null is the default.
+  // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the changes.
   change(values) {
     if ('time' in values) (this.jumps++, (this.#now = null));
-    for (const [path, value] of Object.entries(values)) this.#put(path, value);
+    const all = { ...this.#styles[values['style.name']], ...values };
+    for (const [path, value] of this.#styleFirst(Object.entries(all))) this.#put(path, value);
     this.#changed();
   }
 

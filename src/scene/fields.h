@@ -131,6 +131,9 @@
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16")
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
+    ENUM(style, name, LOOK, FRONT, KD_STYLE_NONE,                                                                    \
+         "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
+         "none|film|raw|dngr")                                                                                       \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")               \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
@@ -185,6 +188,20 @@
 /* Sections that stand in another one, whose member they are in documents: PART(s, name, section); s is handed through. */
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk)
 
+/* Styles: a document that names one in style.name sets these fields, but for those that it sets itself (scene/style.h). A column for each
+ * word of style.name but "none": ROW(section, name, values as kd_field_put takes them), of fields in sections that are no lists.
+ *
+ * film: the eye's view of a bright thing through a lens. raw: light, and nothing after it. dngr: as Interstellar had it, whose disk is without
+ * the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section 4.3). */
+#define KD_STYLES 3
+#define KD_SCENE_STYLES(ROW)                                                                                         \
+    /*                      film           raw            dngr */                                                    \
+    ROW(disk, doppler,      1,             1,             0)                                                         \
+    ROW(disk, redshift,     1,             1,             0)                                                         \
+    ROW(style, tone_map,    KD_TONE_ACES,  KD_TONE_SRGB,  KD_TONE_ACES)                                              \
+    ROW(style, bloom,       0.5,           0,             0.7)                                                       \
+    ROW(style, dither,      1,             0,             1)
+
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
@@ -193,6 +210,7 @@ enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYA
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };
+enum { KD_STYLE_NONE };
 enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_NEUTRAL };
 enum kd_profile {
     KD_PROFILE_DRAFT,

@@ -2,6 +2,7 @@
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/scan.h"
+#include "scene/style.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 
@@ -10,6 +11,7 @@
 
 struct reader {
     struct kd_scene scene; /* a copy, handed over when the whole document is right */
+    bool given[KD_FIELD_COUNT]; /* by the document, in sections that are no lists */
     bool seen_section[KD_SECTION_COUNT], seen_version;
     const struct kd_old_name *old[KD_SECTION_COUNT]; /* by which an element of the list was given */
     bool seen_old[KD_OLD_NAME_COUNT];
@@ -65,11 +67,19 @@ static enum kd_status read_field(struct reader *reader, struct object *object, c
     struct kd_value value = kd_tree_value(item);
     kd_field_pointer(field, object->index, pointer);
     enum kd_status status = once(reader, &object->seen[field - kd_fields], pointer);
+    reader->given[field - kd_fields] = true;
     if (!status && object->patch && cJSON_IsNull(item)) {
         kd_field_put(&reader->scene, field, object->index, field->initial);
         return KD_OK;
     }
     return status ? status : kd_value_store(&reader->scene, field, object->index, &value, reader->error);
+}
+
+static void reset(struct reader *reader, const struct kd_section *section, size_t index)
+{
+    kd_section_reset(&reader->scene, section, index);
+    for (size_t i = section->first; i < section->first + section->count; i++)
+        reader->given[i] = true;
 }
 
 /* Reads a section, or an element that is there. */
@@ -78,10 +88,10 @@ static enum kd_status read_object(struct reader *reader, const struct kd_section
 {
     struct object object = { .section = section, .index = index, .patch = patch };
     if (patch && cJSON_IsNull(item)) {
-        kd_section_reset(&reader->scene, section, index);
+        reset(reader, section, index);
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             if (kd_section_is_part(&kd_sections[i], section))
-                kd_section_reset(&reader->scene, &kd_sections[i], 0);
+                reset(reader, &kd_sections[i], 0);
         return KD_OK;
     }
     if (!cJSON_IsObject(item))
@@ -222,6 +232,8 @@ static enum kd_status read_document(struct reader *reader, const struct kd_scene
     for (size_t i = 0; i < KD_SECTION_COUNT; i++)
         if (reader->old[i])
             kd_section_trim(&reader->scene, &kd_sections[i], kd_section_size(before, &kd_sections[i]));
+    if (kd_style_field() && reader->given[kd_style_field() - kd_fields])
+        kd_style_apply(&reader->scene, reader->given);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* docs/scene.md, from the table. */
 #include "scene/presets.h"
 #include "scene/rules.h"
+#include "scene/style.h"
 #include "scene/value.h"
 #include "scene/writer.h"
 
@@ -92,6 +93,31 @@ static void write_section(struct kd_writer *w, const struct kd_section *section)
         write_field(w, &kd_fields[section->first + i]);
 }
 
+static void write_styles(struct kd_writer *w)
+{
+    const struct kd_field *names = kd_style_field();
+    kd_write(w, "\n## Styles\n\nA document that has `style.name` sets the fields of that style, but for those that it sets itself; so does a patch, and\n"
+                "a query. The order of `--set` on the command line counts. The canonical form shows every field: nothing else depends on the name.\n\n"
+                "| field |");
+    for (int style = 0; style < KD_STYLES; style++) {
+        const struct kd_word word = kd_field_word(names, style + 1);
+        kd_write(w, " `%.*s` |", word.length, word.text);
+    }
+    kd_write(w, "\n|---|");
+    for (int style = 0; style < KD_STYLES; style++)
+        kd_write(w, "---|");
+    for (size_t i = 0; i < kd_style_row_count; i++) {
+        const struct kd_style_row *row = &kd_style_rows[i];
+        kd_write(w, "\n| `%s.%s` |", row->section, row->name);
+        for (int style = 0; style < KD_STYLES; style++) {
+            kd_write(w, " `");
+            kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
+            kd_write(w, "` |");
+        }
+    }
+    kd_write(w, "\n");
+}
+
 static void write_natures(struct kd_writer *w)
 {
     kd_write(w, "\nEach field has a nature, which says what may be concluded from a picture that it has changed:\n\n");
@@ -109,6 +135,8 @@ enum kd_status kd_scene_reference(struct kd_buffer *out)
     kd_write(w, "\n## Rules across fields\n\n");
     for (size_t i = 0; i < kd_rule_count; i++)
         kd_write(w, "- %s\n", kd_rules[i].text);
+    if (kd_style_field())
+        write_styles(w);
     kd_write(w, "\n## Presets\n\n");
     for (size_t i = 0; i < kd_preset_count; i++)
         kd_write(w, "- `%s`: %s.\n  `%s`\n", kd_presets[i].name, kd_presets[i].title, kd_presets[i].json);

@@ -55,6 +55,7 @@ const char *kd_scene_preset_title(size_t index);
  * index, of which the next free one makes an element. Rejects, with a JSON pointer and what is allowed: text after the document,
  * duplicate keys, unknown fields, wrong types, NaN and numbers that overflow, depth over 32,
  * text over KD_SCENE_JSON_MAX bytes, a version other than 1. On error *scene is unchanged.
+ * A document that names a style sets the fields of that style, but for those that it sets itself (scene/style.h).
  * Does not look across fields: call kd_scene_validate when every source has been merged. */
 #define KD_SCENE_JSON_MAX (1u << 20)
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length,
@@ -65,7 +66,7 @@ enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size
 enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
 /* Set one scalar field by its dotted path ("camera.inclination_deg", "spots.0.r") from text; one of the next free index of a list makes
- * that element. */
+ * that element, and a style sets all of its fields. */
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value,
                             struct kd_error *error);
 

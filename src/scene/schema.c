@@ -1,5 +1,7 @@
 /* JSON Schema of the scene document, from the table. */
+#include "scene/style.h"
 #include "scene/rules.h"
+#include "scene/style.h"
 #include "scene/writer.h"
 
 #include <string.h>
@@ -58,6 +60,23 @@ static void write_group(struct kd_writer *w, const struct kd_section *section)
     kd_write(w, ",\"x-group\":\"%s\"", kd_groups[section->group]);
 }
 
+/* Writes what each style sets, by the paths of the fields. */
+static void write_styles(struct kd_writer *w, const struct kd_field *names)
+{
+    kd_write(w, ",\"x-sets\":{");
+    for (int style = 0; style < KD_STYLES; style++) {
+        const struct kd_word word = kd_field_word(names, style + 1);
+        kd_write(w, "%s\"%.*s\":{", style ? "," : "", word.length, word.text);
+        for (size_t i = 0; i < kd_style_row_count; i++) {
+            const struct kd_style_row *row = &kd_style_rows[i];
+            kd_write(w, "%s\"%s.%s\":", i ? "," : "", row->section, row->name);
+            kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
+        }
+        kd_write(w, "}");
+    }
+    kd_write(w, "}");
+}
+
 static void write_field(struct kd_writer *w, const struct kd_field *field)
 {
     kd_write(w, "\"%s\":{", field->name);
@@ -67,6 +86,8 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
     kd_write(w, ",\"description\":");
     kd_write_string(w, field->help);
     kd_write(w, ",\"x-nature\":\"%s\"", kd_natures[field->nature].word);
+    if (field == kd_style_field())
+        write_styles(w, field);
     if (field->place == KD_FIELD_FRONT)
         kd_write(w, ",\"x-front\":true");
     if (!*field->section)

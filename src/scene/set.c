@@ -1,6 +1,7 @@
 /* One field by its dotted path: --set and query parameters. */
 #include "scene/element.h"
 #include "scene/hint.h"
+#include "scene/style.h"
 #include "scene/text.h"
 #include "scene/value.h"
 
@@ -122,6 +123,8 @@ enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char
     if (place.index >= size)
         kd_section_resize(&grown, place.section, place.index + 1);
     KD_TRY(kd_value_store(&grown, field, place.index, &value, error));
+    if (field == kd_style_field())
+        kd_style_apply(&grown, NULL);
     if (place.old)
         kd_section_trim(&grown, place.section, size);
     *scene = grown;

@@ -51,6 +51,14 @@ class Render(daemon.Case):
         self.assertEqual(by_query.header('ETag'), by_body.header('ETag'))
         self.assertEqual(by_query.body, by_body.body)
 
+    def test_a_style_in_a_query(self):
+        """Whatever its place there: what the query sets itself stays."""
+        tags = [self.daemon.get(RENDER + '&style.bloom=0.25&style.name=dngr&disk.redshift=true').header('ETag'),
+                self.daemon.get(RENDER + '&style.name=dngr&disk.redshift=true&style.bloom=0.25').header('ETag'),
+                self.daemon.post('/v1/render', {'image': {'width': 64, 'height': 36}, 'disk': {'redshift': True, 'doppler': False},
+                                                'style': {'bloom': 0.25, 'name': 'dngr'}}).header('ETag')]
+        self.assertEqual(len(set(tags)), 1, tags)
+
     def test_lists(self):
         """A list by its elements in a query, as an array and as an object in a body, and by the names that its elements once had."""
         image = {'image': {'width': 64, 'height': 36}}

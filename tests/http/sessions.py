@@ -85,6 +85,18 @@ class Sessions(daemon.Owned):
                               ({'disk': None}, [])):
             self.assertEqual(self.patch(session, patch).json()['varies'], varies)
 
+    def test_patch_of_a_style(self):
+        session = self.open({'image': {'width': 64, 'height': 36}, 'style': {'bloom': 0.25}})
+        scene = self.patch(session, {'style': {'name': 'dngr'}}).json()['scene']
+        self.assertEqual((scene['style']['name'], scene['style']['bloom'], scene['disk']['doppler']), ('dngr', 0.7, False))
+        scene = self.patch(session, {'style': {'bloom': 0.125}}).json()['scene']
+        self.assertEqual((scene['style']['name'], scene['style']['bloom'], scene['disk']['doppler']), ('dngr', 0.125, False))
+        scene = self.patch(session, {'disk': {'redshift': False}, 'style': {'name': 'raw'}}).json()['scene']
+        self.assertEqual((scene['style']['tone_map'], scene['style']['bloom'], scene['disk']['doppler'], scene['disk']['redshift']),
+                         ('srgb', 0, True, False))
+        problem = self.assertProblem(self.patch(session, {'style': {'name': 'noir'}}), 422)
+        self.assertEqual(problem['pointer'], '/style/name')
+
     def test_patch_of_a_list(self):
         """RFC 7396 puts an array in the place of the whole one; an object changes elements by their index."""
         session = self.open({**SCENE, 'spots': [{'r': 10}, {'r': 11, 'size': 2}]})

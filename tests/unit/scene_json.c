@@ -157,7 +157,7 @@ static const char hot_spot[] =
     "\"spot2\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"spot3\":{\"brightness\":0,"
     "\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},\"sky\":{\"model\":\"none\",\"brightness\":0.2,"
     "\"grid_deg\":15},\"image\":{\"width\":1280,\"height\":720,\"samples\":1,\"critical_factor\":4,\"bit_depth\":8},"
-    "\"style\":{\"exposure\":-0.5,\"tone_map\":\"aces\",\"bloom\":0,\"dither\":true,\"ringdown\":0,\"ringdown_time\":0},"
+    "\"style\":{\"name\":\"none\",\"exposure\":-0.5,\"tone_map\":\"aces\",\"bloom\":0,\"dither\":true,\"ringdown\":0,\"ringdown_time\":0},"
     "\"motion\":{\"azimuth_rate_deg\":0,\"time_rate\":10},\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\","
     "\"engine\":\"auto\",\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0}";
 

@@ -50,12 +50,13 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
     return KD_OK;
 }
 
+/* The style first: a query is one document, whatever its order. */
 static enum kd_status apply_fields(const struct kd_target *target, struct kd_scene *scene,
                                    struct kd_error *error)
 {
-    for (size_t i = 0; i < target->n_pairs; i++) {
-        const struct kd_target_pair *pair = &target->pairs[i];
-        if (!strcmp(pair->name, "preset"))
+    for (size_t i = 0; i < 2 * target->n_pairs; i++) {
+        const struct kd_target_pair *pair = &target->pairs[i % target->n_pairs];
+        if (!strcmp(pair->name, "preset") || !strcmp(pair->name, "style.name") != (i < target->n_pairs))
             continue;
         enum kd_status status = kd_scene_set(scene, pair->name, pair->value, error);
         if (status == KD_EINVAL && !*error->pointer)

@@ -25,6 +25,8 @@
     LIST(stops, stop, KD_STOPS_FIELDS, HOLE, 3, "stops")                                                     \
     SECTION(top, KD_TOP_FIELDS, MORE, "members of the document itself")
 #define KD_SCENE_PARTS(PART, s)
+#define KD_STYLES 1
+#define KD_SCENE_STYLES(ROW)
 #define KD_SCENE_OLD_NAMES(OLD) OLD(finish, stops, 2) OLD(start, stops, 0)
 
 struct kd_spot;
