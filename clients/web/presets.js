@@ -63,7 +63,7 @@ export async function buildPresets(scene) {
       name = [...known].find(([, text]) => text === now)?.[0];
     own.hidden = name != null;
     select.value = name ?? 'own';
-    link.set('preset', name || (name === '' && first_view && plain));
+    link.set('preset', name || (name === '' && first_view ? plain : null));
     const chosen = presets.find(p => p.name === name);
     help.textContent = chosen ? preset(chosen.name, chosen.title) : '';
   }
