@@ -22,7 +22,7 @@ struct kd_sentence {
     bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);
 };
 
-/* A part of struct kd_scene. */
+/* Names a part of struct kd_scene. */
 struct kd_scene_part { size_t at, size; };
 #define KD_SCENE_PART(section) { offsetof(struct kd_scene, section), sizeof(((struct kd_scene *)0)->section) }
 #define KD_EMITTER_PARTS 6
@@ -39,7 +39,8 @@ struct kd_emitter {
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
-    /* Numbers; and tables, which may take milliseconds. Called anew when a part of the scene that they depend on has changed. */
+    /* Fill in numbers; and tables, which may take milliseconds. They are called anew when a part of the scene that they depend on
+     * has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
     struct kd_scene_part depends[KD_EMITTER_PARTS]; /* up to the first of size 0 */
@@ -58,13 +59,14 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
 /* Whether a scene has an emitter: it is present, and none that is takes its place. */
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
-/* Words of the specialisation constants, 0 for what the scene has not. */
+/* Makes the words of the specialisation constants, 0 for what the scene has not. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* What the lens map must hold; whether anything shines at crossings of the plane; whether the luminance of some of it is kept apart. */
+/* Say what the lens map must hold; whether anything shines at crossings of the plane; whether the luminance of some of it is kept
+ * apart. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
-/* Bytes of all buffers that the scene's emitters have on the device. */
+/* Counts the bytes of all buffers that the scene's emitters have on the device. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass there; 0: it has none, or the scene has not the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
@@ -73,7 +75,7 @@ void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *ra
                        void *user);
 size_t kd_emit_sentence_count(void); /* there are, in force or not */
 
-/* Numbers and tables, and the scenes that they are of: {0} before the first use. Thread of the owner. */
+/* The state holds numbers and tables, and the scenes that they are of: {0} before the first use. Thread of the owner. */
 struct kd_emit_state {
     struct kd_emit_data data;
     struct kd_scene of[KD_EMITTER_COUNT]; /* what each emitter was last filled from, */
@@ -85,17 +87,17 @@ struct kd_emit_state {
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels);
 
 extern const struct kd_emitter kd_emit_disk;
-/* For those that shine by the smooth disk's numbers and tables. */
+/* Emitters that shine by the smooth disk's numbers and tables have its traits. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
 /* Radii of its edges. */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
-/* For those that go round: Doppler shift and redshift as KD_TRAIT_..., needs, and how they vary. */
+/* Emitters that go round have these in common: Doppler shift and redshift as KD_TRAIT_..., needs, and how they vary. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
-/* Largest effective temperature of the disk in K, in the gas's own frame. */
+/* Finds the largest effective temperature of the disk in K, in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* Colours of black bodies; how luminous they are. Of no scene; 15 ms each. */
+/* Fill in the colours of black bodies, and how luminous they are. No scene changes them; 15 ms each. */
 void kd_colour_tables(struct kd_emit_tables *out);
 void kd_luminous_table(struct kd_emit_tables *out);
 

@@ -1,4 +1,4 @@
-/* What emitters on orbits have in common: the C side of shaders/emit/orbit.glsl. */
+/* Emitters on orbits have these in common: the C side of shaders/emit/orbit.glsl. */
 #include "render/emit/emitter.h"
 
 uint32_t kd_orbit_traits(const struct kd_scene *scene)

@@ -77,7 +77,7 @@ struct kd_particle_place {
     bool plunging; /* with the ISCO's energy and angular momentum; else round a guiding orbit */
 };
 
-/* What the kernel needs: orbits of the guides, and behind them what the rows of both grids expect; grids in words of 32 bits. */
+/* The kernel needs tables: orbits of the guides, and behind them what the rows of both grids expect; and grids in words of 32 bits. */
 #define KD_PARTICLE_EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *grid);
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *grid);

@@ -13,7 +13,7 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && kd_emit_at_crossings(scene);
 }
 
-/* Whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a step, then. */
+/* Says whether the rings still change with time. The fit decays up to a fifth too fast beyond a = 0.99: a third of a step, then. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;

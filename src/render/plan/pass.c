@@ -11,7 +11,7 @@
 #define NS_PER_AUDIT 4000.0
 #define NS_PER_CLOSED 3000.0
 
-/* What is made of listed rays is estimated from the table; what it does not know, from the steps. */
+/* The time of listed rays is estimated from the table; of settings that it does not have, from the steps. */
 static double ns_listed(const struct kd_setting *by, const struct kd_capacity *c)
 {
     for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {

@@ -53,7 +53,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
 #define KD_PASS_ID_(id, ...) KD_PASS_##id,
 enum kd_pass_id { KD_PASSES(KD_PASS_ID_) KD_PASS_COUNT };
 
-/* Of one invocation. */
+/* This is the cost of one invocation. */
 struct kd_pass_cost {
     const char *kernel;
     double ns;
@@ -73,9 +73,9 @@ struct kd_pass {
 };
 extern const struct kd_pass kd_passes[KD_PASS_COUNT];
 
-/* NULL: there is none of this name. */
+/* Finds a pass by its name; NULL: there is none. */
 const struct kd_pass *kd_pass_find(const char *name);
-/* What an invocation takes on a device in a plan whose path, setting and quantities are known. */
+/* Estimates what an invocation takes on a device, in a plan whose path, setting and quantities are known. */
 struct kd_pass_cost kd_pass_cost(const struct kd_pass *pass, const struct kd_plan *plan, const struct kd_capacity *capacity);
 
 #endif

@@ -106,8 +106,8 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops)
     return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
 }
 
-/* Limits of the device, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize) where the capacity
- * names none. */
+/* The limits are the device's, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize) where the
+ * capacity names none. */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
 static uint64_t buffer_bytes(const struct kd_capacity *c)
@@ -118,15 +118,16 @@ static uint64_t buffer_bytes(const struct kd_capacity *c)
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-/* Rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays; the others go through
- * the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few hundred groups, is far from it. */
+/* Counts the rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays; the others go
+ * through the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few hundred groups, is far from
+ * it. */
 static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
     return least(rows, in_line * KD_POST_PIXELS / plan->width);
 }
 
-/* Whether all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
+/* Checks that all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
 static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c, struct kd_error *error)
 {
     const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
@@ -218,8 +219,8 @@ static double ergosphere(const struct kd_scene *scene)
     return kd_kerr_ergosphere(scene->spacetime.spin, kd_cos_deg(scene->camera.inclination_deg));
 }
 
-/* Whether E is positive for each ray of the camera, as the device's engines take it to be where rays are listed. The closed form
- * needs no more than L/E and Q/E^2. */
+/* Says whether E is positive for each ray of the camera, as the device's engines take it to be where rays are listed. The closed
+ * form needs no more than L/E and Q/E^2. */
 static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
 
 static enum kd_status may_list(const struct kd_scene *scene, const struct kd_setting *by, struct kd_error *error)
@@ -252,7 +253,7 @@ static enum kd_status ring(struct kd_wish *wish, struct kd_error *error)
 /* The least radius from which the closed form in f32 follows rays: outside all orbits of light, where none that sets out outwards comes back. */
 static double beyond_orbits(const struct kd_scene *scene) { return 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin)); }
 
-/* Which kernel, which engine. */
+/* Chooses the kernel and the engine. */
 static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                              struct kd_error *error)
 {

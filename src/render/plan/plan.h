@@ -1,5 +1,5 @@
-/* What a scene requires and nothing more: passes, specialisation constants, rays, bytes, estimated
- * time, approximations. Rendering executes the plan; admission control reads it. Any thread. */
+/* A plan is what a scene requires and nothing more: passes, specialisation constants, rays, bytes, estimated time, approximations.
+ * Rendering executes the plan; admission control reads it. Any thread. */
 #ifndef KD_RENDER_PLAN_PLAN_H
 #define KD_RENDER_PLAN_PLAN_H
 
@@ -19,7 +19,7 @@
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
 #define KD_PLAN_MAX_APPROXIMATIONS 64 /* a test compares it with all there are */
 
-/* What the device allows and how fast it has been measured to be. */
+/* The capacity says what the device allows and how fast it has been measured to be. */
 struct kd_capacity {
     uint64_t max_binding_bytes, memory_bytes; /* of one storage-buffer binding; of everything on the device */
     const char *memory_by;                    /* what sets memory_bytes, for a sentence; NULL: the device */
@@ -84,11 +84,11 @@ struct kd_plan {
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity,
                             struct kd_plan *out, struct kd_error *error);
 
-/* Whether kd_plan_make finds the scene possible, without the list of pixels at the critical curve, which takes milliseconds for
- * pictures of many pixels. With that list it may still be KD_ETOOBIG. */
+/* Checks whether kd_plan_make finds the scene possible, without the list of pixels at the critical curve, which takes milliseconds
+ * for pictures of many pixels. With that list it may still be KD_ETOOBIG. */
 enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error);
 
-/* Buffers that the lens map of the pixels at the critical curve takes, and bytes of one. */
+/* Count the buffers that the lens map of the pixels at the critical curve takes, and the bytes of one. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
 {
     return plan->critical ? (uint32_t)((plan->critical_pixels + plan->critical_part - 1) / plan->critical_part) : 0;
