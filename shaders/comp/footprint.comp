@@ -30,6 +30,8 @@ layout(push_constant) uniform Push { kd_footprint push_; };
 kd_footprint push; /* read before the first branch: behind one lavapipe reads it anew for each lane and each use */
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 
+const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
+
 /* Where a ray comes to: of a crossing (w, phi), of the sky a unit vector. */
 struct kd_spot { vec3 at; bool there; };
 
@@ -87,13 +89,33 @@ float longest(float a, float b, float c)
     return kd_is_finite(size) ? min(size, KD_FOOTPRINT_EDGE) : KD_FOOTPRINT_EDGE;
 }
 
-float on_grid(uint n, uint at, uint x, uint y)
+/* The footprint and its shape, as the map keeps them. */
+struct kd_oval { float size, shape; };
+
+const kd_oval KD_NO_OVAL = kd_oval(KD_FOOTPRINT_EDGE, 1.0 + (1023.0 + 2048.0 * 1023.0) / 8388608.0);
+
+/* Of J J^T, whose components along r and phi these are; r grows as w falls. */
+kd_oval oval(float rr, float ff, float rf)
+{
+    float size = longest(rr, ff, rf), i = rr / (rr + ff), j = 0.5 - 0.5 * rf * inversesqrt(rr * ff);
+    if (!kd_is_finite(i + j))
+        return kd_oval(size, KD_NO_OVAL.shape);
+    return kd_oval(size, 1.0 + (floor(2047.0 * clamp(i, 0.0, 1.0) + 0.5) + 2048.0 * floor(2047.0 * clamp(j, 0.0, 1.0) + 0.5)) / 8388608.0);
+}
+
+kd_oval on_grid(uint n, uint at, uint x, uint y)
 {
     kd_spot own = spot(n, at, true);
     kd_change across = change(n, own, at, x, push.width, 1), down = change(n, own, at, y, push.rows, push.width);
     vec3 m = scale(n, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend, bend_j = m * down.bend;
-    float size = longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j));
-    return across.there && down.there ? size : KD_FOOTPRINT_EDGE;
+    kd_oval o = kd_oval(longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j)), 0.0);
+    if (SHAPED && n < ORDERS) {
+        vec3 rr = i * i + j * j + bend_i * bend_i + bend_j * bend_j;
+        o.shape = oval(rr.x, rr.y, i.x * i.y + j.x * j.y + bend_i.x * bend_i.y + bend_j.x * bend_j.y).shape;
+    }
+    if (across.there && down.there)
+        return o;
+    return KD_NO_OVAL;
 }
 
 /* Sums for the linear map that fits best: of v v^T, of d v^T, and of d.d; how many neighbours lack what the ray has. */
@@ -130,7 +152,7 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
     fit.lacks += inside ? 1.0 - there : 0.0;
 }
 
-float on_lattice(uint n, uint at)
+kd_oval on_lattice(uint n, uint at)
 {
     uint k = at % max(CRITICAL, 1);
     kd_beside all = beside(at / max(CRITICAL, 1));
@@ -142,16 +164,20 @@ float on_lattice(uint n, uint at)
     float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
-    float size = longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j));
+    kd_oval o = kd_oval(longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
+    if (SHAPED && n < ORDERS)
+        o.shape = oval(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left, area * (i.x * i.y + j.x * j.y)).shape;
     /* Four rays on a pixel without others beside it stand on a line: what is known along it is taken for all directions. */
     if (det < 0.5 * area * area)
-        size = fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE : longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0);
-    return size;
+        o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE : longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0), KD_NO_OVAL.shape);
+    return o;
 }
 
-float footprint(uint n, uint at, uint x, uint y)
+kd_oval footprint(uint n, uint at, uint x, uint y)
 {
-    return CRITICAL > 0 ? on_lattice(n, at) : on_grid(n, at, x, y);
+    if (CRITICAL > 0)
+        return on_lattice(n, at);
+    return on_grid(n, at, x, y);
 }
 
 void main()
@@ -170,13 +196,16 @@ void main()
         for (; n < ORDERS; n++) { /* crossings come without gaps */
             if (lens[at + n * push.stride] <= 0.0)
                 break;
-            lens[plane + n * push.stride] = footprint(n, at, x, y);
+            kd_oval o = footprint(n, at, x, y);
+            lens[plane + n * push.stride] = o.size;
+            if (SHAPED)
+                lens[at + (kd_plane(KD_LENS_SHAPE) + n) * push.stride] = o.shape;
         }
         for (; n < ORDERS; n++)
             lens[plane + n * push.stride] = 0.0;
     }
     if ((QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u) {
         bool escapes = lens[at + kd_plane(KD_LENS_FATE) * push.stride] == KD_FATE_ESCAPED;
-        lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, x, y) : 0.0;
+        lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, x, y).size : 0.0;
     }
 }

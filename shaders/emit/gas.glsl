@@ -27,6 +27,7 @@
     F(warp)                /* displacement by one standard deviation of an octave, in its own cells */         \
     F(loudness)            /* s_0 */                                                                           \
     F(persistence)         /* s_(k+1)/s_k */                                                                   \
+    F(finer)               /* square of the steps of an octave over those of the one before, displacement counted in */ \
     F(depth)               /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 #define KD_TABLES_gas(T)                                                                                       \
@@ -86,6 +87,28 @@ vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
     return at;
 }
 
+/* How many cells of the pattern one ray stands for: of the ellipse that the lens map's is there, the sum of the squared semi-axes and
+ * their product squared. A step (dr, r dphi) is one of (dr, r dphi + shear dr) K/r cells. */
+struct kd_gas_steps { float sum, product; };
+
+kd_gas_steps kd_gas_footprint(kd_sample s)
+{
+    uint bits = floatBitsToUint(s.shape);
+    float i = float(bits & 2047u) * (1.0 / 2047.0), j = float((bits >> 11) & 2047u) * (2.0 / 2047.0) - 1.0;
+    float both = i * (1.0 - i), apart = i - 0.5, per = s.w * s.footprint * emission.gas.cells;
+    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both)); /* M_rr + M_ff by the long axis */
+    float c = j * sqrt(both), shear = emission.gas.shear;
+    return kd_gas_steps(all * (1.0 + shear * (shear * i + 2.0 * c)), all * all * both * (1.0 - j * j));
+}
+
+/* What is left of an octave, in the mean over what a ray stands for: the variance of this noise along a line of q cells is about that at
+ * a point over 1 + 0.66 q^2. Nothing is where that is a small part, so that no alias shimmers; and the loop ends. */
+float kd_gas_left(kd_gas_steps q)
+{
+    float fine = 1.0 + 0.66 * q.sum + 0.4356 * q.product, cut = clamp(1.8 - 0.5 * q.sum, 0.0, 1.0);
+    return cut * cut * (3.0 - 2.0 * cut) * inversesqrt(fine);
+}
+
 /* ln of what flux and depth are multiplied by. */
 float kd_gas_excess(kd_sample s)
 {
@@ -96,11 +119,16 @@ float kd_gas_excess(kd_sample s)
     uint k = min(uint(j), KD_GAS_RINGS - 2u);
     kd_gas_ring one = kd_gas_ring_of(k, x * KD_GAS_RING, s), two = kd_gas_ring_of(k + 1u, (x - 1.0) * KD_GAS_RING, s);
     float sum = 0.0, loud = emission.gas.loudness;
+    kd_gas_steps steps = kd_gas_footprint(s);
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
     for (uint octave = 0u; octave < KD_GAS_TAKEN; octave++) {
+        float left = kd_gas_left(steps), part = loud * left;
+        if (left <= 0.0)
+            break;
         vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
-        sum += loud * (w1 * a.x + w2 * b.x) - 0.5 * loud * loud;
+        sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
         loud *= emission.gas.persistence;
+        steps = kd_gas_steps(steps.sum * emission.gas.finer, steps.product * emission.gas.finer * emission.gas.finer);
         one.p = next * (one.p + emission.gas.warp * a);
         two.p = next * (two.p + emission.gas.warp * b);
     }

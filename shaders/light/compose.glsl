@@ -4,8 +4,8 @@
 #define KD_COMPOSE_GLSL
 
 /* One place on a ray. ago: how long before that which shows the scene's time its light left it; energy, momentum, q: E, L and Carter's Q,
- * by the energy that the observer measures; footprint: of this ray there, M, 0 where no emitter needs it (shared/lens.h). */
-struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint; uint order; };
+ * by the energy that the observer measures; footprint, shape: of this ray there, 0 where no emitter needs it (shared/lens.h). */
+struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint, shape; uint order; };
 /* Where it ends, if it escapes; its footprint in radians. */
 struct kd_end { float u, phi, footprint; };
 /* What one emitter adds at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */

@@ -59,7 +59,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
         kd_beam_given_up(beam);
     else
         kd_beam_at(beam, kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, carter,
-                                   quantity(KD_LENS_FOOTPRINT, plane), n));
+                                   quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n));
 }
 
 const bool ENDS = (QUANTITIES & KD_LENS_FATE) != 0u;

@@ -7,18 +7,20 @@
  *   SLOPE    w', in Mino time, of the ray traced back
  *   FOOTPRINT size on the disk of what one ray stands for, M: how far apart, along the direction in which they are furthest, the
  *            places in (r, r phi) lie that rays a step of the camera apart cross at (comp/footprint.comp)
+ *   SHAPE    of the ellipse whose long axis FOOTPRINT is, as 1 + (i + 2048 j)/2^23: of M = J J^T, J from steps of the camera to (r, r phi),
+ *            i/2047 = M_rr/(M_rr + M_ff) and j/2047 = (1 + M_rf/sqrt(M_rr M_ff))/2
  *   ALPHA    impact parameter of the ray, M, where rays are not on the camera's grid
  *   SKY_U    cosine of the polar angle in which the ray escapes
  *   SKY_PHI  and its azimuth, source minus observer, radians
  *   FATE     KD_FATE_... of interface.h
  *   SKY_FOOTPRINT  the same of directions, radians
  *
- * Footprints need W and PHI, or SKY_U, SKY_PHI and FATE, and are KD_FOOTPRINT_EDGE where a ray has no neighbours. */
+ * Shapes need footprints, and footprints W and PHI, or SKY_U, SKY_PHI and FATE, and are KD_FOOTPRINT_EDGE where a ray has no neighbours. */
 #ifndef KD_LENS_H
 #define KD_LENS_H
 
-#define KD_LENS_OF_CROSSINGS(Q) Q(0, W) Q(1, PHI) Q(2, DELAY) Q(3, SLOPE) Q(4, FOOTPRINT)
-#define KD_LENS_OF_RAYS(Q) Q(5, ALPHA) Q(6, SKY_U) Q(7, SKY_PHI) Q(8, FATE) Q(9, SKY_FOOTPRINT)
+#define KD_LENS_OF_CROSSINGS(Q) Q(0, W) Q(1, PHI) Q(2, DELAY) Q(3, SLOPE) Q(4, FOOTPRINT) Q(5, SHAPE)
+#define KD_LENS_OF_RAYS(Q) Q(6, ALPHA) Q(7, SKY_U) Q(8, SKY_PHI) Q(9, FATE) Q(10, SKY_FOOTPRINT)
 
 #ifdef VULKAN /* GLSL */
 #define Q(number, name) const uint KD_LENS_##name = 1u << number;

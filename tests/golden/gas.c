@@ -185,11 +185,194 @@ static void one_scene_one_picture(void **state)
     assert_true(same_pixels(&other, &other));
 }
 
+/* Brightness over that of the smooth disk, less 1: a map of the pattern, 0 in the mean over seeds. Its side is a power of nothing. */
+enum { SIDE = 60, BANDS = 6 };
+struct map { double at[SIDE][SIDE]; };
+
+static struct map pattern(struct kd_scene scene)
+{
+    struct map out;
+    struct kd_frame gas = studio_render(&scene);
+    scene.gas.amplitude = 0;
+    struct kd_frame smooth = studio_render(&scene);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        uint32_t x = (uint32_t)(i % SIDE), y = (uint32_t)(i / SIDE);
+        double light = luminance(&gas, x, y), of = luminance(&smooth, x, y);
+        assert_true(light >= 0);
+        out.at[y][x] = of > 1e-3 ? light / of - 1 : 0;
+    }
+    kd_frame_finish(&gas);
+    kd_frame_finish(&smooth);
+    return out;
+}
+
+/* |Fourier transform|^2, rows first. */
+static void power_of(const struct map *m, double out[SIDE][SIDE])
+{
+    static double c[SIDE], s[SIDE], re[SIDE][SIDE], im[SIDE][SIDE];
+    for (int k = 0; k < SIDE; k++)
+        c[k] = cos(2 * M_PI * k / SIDE), s[k] = sin(2 * M_PI * k / SIDE);
+    memset(re, 0, sizeof re);
+    memset(im, 0, sizeof im);
+    for (int y = 0; y < SIDE; y++)
+        for (int k = 0; k < SIDE; k++)
+            for (int x = 0; x < SIDE; x++) {
+                re[y][k] += m->at[y][x] * c[k * x % SIDE];
+                im[y][k] -= m->at[y][x] * s[k * x % SIDE];
+            }
+    for (int l = 0; l < SIDE; l++)
+        for (int k = 0; k < SIDE; k++) {
+            double a = 0, b = 0;
+            for (int y = 0; y < SIDE; y++) {
+                a += re[y][k] * c[l * y % SIDE] + im[y][k] * s[l * y % SIDE];
+                b += im[y][k] * c[l * y % SIDE] - re[y][k] * s[l * y % SIDE];
+            }
+            out[l][k] = a * a + b * b;
+        }
+}
+
+/* The band of a wave number, 0 to BANDS - 1; waves along the axes of the picture, where a lattice would show, are a band of their own. */
+static int band_of(int l, int k)
+{
+    int y = l > SIDE / 2 ? SIDE - l : l, x = k > SIDE / 2 ? SIDE - k : k;
+    if ((x == 0 || y == 0) && x + y > 3)
+        return BANDS - 1;
+    int band = (int)(sqrt(x * x + y * y) / (SIDE / 2.0) * (BANDS - 1));
+    return band < BANDS - 1 ? band : BANDS - 2;
+}
+
+static struct kd_scene from_above(void)
+{
+    return studio_scene(NULL, "{\"camera\":{\"inclination_deg\":0,\"field_m\":44},\"accuracy\":{\"orders\":1},\"style\":"
+                              "{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8,\"octaves\":5}},"
+                              "\"image\":{\"width\":60,\"height\":60,\"samples\":2,\"bit_depth\":16}}");
+}
+
+/* Two hundred seeds are two hundred independent patterns: of their mean, each wave has a two-hundredth of the power that they have. A ring,
+ * a seam or a lattice that they had in common would stay. Over n waves the ratio scatters by sqrt(1/n), those of a real map being there
+ * twice and neighbours being alike by some 4. */
+static void nothing_in_common(void **state)
+{
+    (void)state;
+    enum { SEEDS = 200 };
+    static struct map mean, one;
+    static double power[SIDE][SIDE], total[SIDE][SIDE], profile[SIDE / 2], scatter[SIDE / 2];
+    struct kd_scene scene = from_above();
+    memset(&mean, 0, sizeof mean);
+    for (scene.gas.seed = 1; scene.gas.seed <= SEEDS; scene.gas.seed++) {
+        double ring[SIDE / 2] = { 0 };
+        int n[SIDE / 2] = { 0 };
+        one = pattern(scene);
+        power_of(&one, power);
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            double r = hypot(i % SIDE - 0.5 * (SIDE - 1), (int)(i / SIDE) - 0.5 * (SIDE - 1));
+            (&mean.at[0][0])[i] += (&one.at[0][0])[i] / SEEDS;
+            (&total[0][0])[i] += (&power[0][0])[i] / SEEDS;
+            if (r < SIDE / 2) {
+                ring[(int)r] += (&one.at[0][0])[i];
+                n[(int)r]++;
+            }
+        }
+        for (int k = 0; k < SIDE / 2; k++) {
+            profile[k] += ring[k] / n[k] / SEEDS;
+            scatter[k] += pow(ring[k] / n[k], 2) / SEEDS;
+        }
+    }
+    power_of(&mean, power);
+    double sum[BANDS] = { 0 };
+    int waves[BANDS] = { 0 };
+    for (int l = 0; l < SIDE; l++)
+        for (int k = 0; k < SIDE; k++) {
+            int band = band_of(l, k);
+            sum[band] += SEEDS * power[l][k] / total[l][k];
+            waves[band]++;
+        }
+    for (int band = 0; band < BANDS; band++) {
+        double ratio = sum[band] / waves[band], allowed = 4 * sqrt(8.0 / waves[band]);
+        printf("waves of band %d: %.3f of the power that independence leaves, 1 within %.2f\n", band, ratio, allowed);
+        assert_true(fabs(ratio - 1) < allowed);
+    }
+    for (int k = 0; k < SIDE / 2; k++) /* rings: the mean at each radius, by its own scatter */
+        if (scatter[k] > 0 && !(fabs(profile[k]) < 4.5 * sqrt(scatter[k] / SEEDS)))
+            fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
+}
+
+/* The power of the pattern's waves in bands, and how much it changes from a pixel to the next along a radius, which is what winding up would
+ * raise: the same at any time, within what patterns differ by. */
+static void nothing_winds_up(void **state)
+{
+    (void)state;
+    enum { SEEDS = 24, MEASURES = BANDS + 1 };
+    static const double times[] = { 0, 1e5, 1e9 };
+    static double power[SIDE][SIDE];
+    double mean[3][MEASURES] = { 0 }, square[3][MEASURES] = { 0 };
+    struct kd_scene scene = from_above();
+    for (int t = 0; t < 3; t++)
+        for (scene.gas.seed = 1; scene.gas.seed <= SEEDS; scene.gas.seed++) {
+            scene.top.time = times[t];
+            const struct map m = pattern(scene);
+            double of[MEASURES] = { 0 };
+            power_of(&m, power);
+            for (int i = 0; i < SIDE * SIDE; i++)
+                of[band_of(i / SIDE, i % SIDE)] += (&power[0][0])[i];
+            for (int x = 0; x + 1 < SIDE; x++)
+                of[BANDS] += pow(m.at[SIDE / 2][x + 1] - m.at[SIDE / 2][x], 2) + pow(m.at[x + 1][SIDE / 2] - m.at[x][SIDE / 2], 2);
+            for (int k = 0; k < MEASURES; k++) {
+                mean[t][k] += log(of[k]) / SEEDS;
+                square[t][k] += pow(log(of[k]), 2) / SEEDS;
+            }
+        }
+    for (int t = 1; t < 3; t++)
+        for (int k = 0; k < MEASURES; k++) {
+            double scatter = sqrt((square[0][k] - pow(mean[0][k], 2) + square[t][k] - pow(mean[t][k], 2)) / SEEDS);
+            printf("t %g, measure %d: off by %.3f, scatter %.3f\n", times[t], k, mean[t][k] - mean[0][k], scatter);
+            assert_true(scatter < 0.25 && fabs(mean[t][k] - mean[0][k]) < 4 * scatter);
+        }
+}
+
+/* Seen almost from its plane, the gas varies as much from seed to seed with one ray a pixel as with 64: what a ray cannot resolve has
+ * faded to its mean. Without that it is more than half as much again. */
+static void one_ray_varies_as_many(void **state)
+{
+    (void)state;
+    enum { SEEDS = 24, WIDTH = 64, HEIGHT = 36 };
+    struct kd_scene scene = studio_scene(NULL, "{\"camera\":{\"inclination_deg\":85,\"field_m\":4.6},\"accuracy\":{\"orders\":1},\"style\":{\"exposure\":-6.5,"
+                                         "\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8}},\"image\":"
+                                         "{\"width\":64,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}");
+    double variance[2] = { 0 };
+    for (int v = 0; v < 4; v++) { /* a tenth of the picture: beside the hole, and above it */
+        int k = v % 2;
+        static double sum[WIDTH * HEIGHT], square[WIDTH * HEIGHT];
+        memset(sum, 0, sizeof sum);
+        memset(square, 0, sizeof square);
+        scene.image.samples = k ? 8 : 1;
+        scene.camera.centre_alpha = v < 2 ? -10 : 1;
+        scene.camera.centre_beta = v < 2 ? 0.5 : 6;
+        for (scene.gas.seed = 1; scene.gas.seed <= SEEDS; scene.gas.seed++) {
+            struct kd_frame f = studio_render(&scene);
+            for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+                double light = luminance(&f, i % WIDTH, i / WIDTH);
+                assert_true(light >= 0);
+                sum[i] += light / SEEDS;
+                square[i] += light * light / SEEDS;
+            }
+            kd_frame_finish(&f);
+        }
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            variance[k] += square[i] - sum[i] * sum[i];
+    }
+    printf("variance by one ray a pixel over that by 64: %.3f\n", variance[0] / variance[1]);
+    assert_true(fabs(variance[0] / variance[1] - 1) < 0.2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(emission_angle),
         cmocka_unit_test(flux_is_kept),
+        cmocka_unit_test(nothing_in_common),
+        cmocka_unit_test(nothing_winds_up),
+        cmocka_unit_test(one_ray_varies_as_many),
         cmocka_unit_test(one_scene_one_picture),
     };
     int status = studio_open();

@@ -63,7 +63,7 @@ static struct kd_scene scene_of(const struct view *v)
     return scene;
 }
 
-static const struct kd_needs both = { .quantities = KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT };
+static const struct kd_needs both = { .quantities = KD_LENS_SHAPE | KD_LENS_SKY_FOOTPRINT };
 
 static struct kd_plan plan_of(const struct kd_scene *scene, uint64_t binding)
 {
@@ -131,7 +131,7 @@ static struct change change_of(const struct ks_path *p, const struct ks_path *q,
 }
 
 /* The footprints of all orders and of the sky at one place; NAN where there is none. */
-struct sizes { double of[ORDERS + 1]; };
+struct sizes { double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1]; }; /* and of J J^T: rr over the trace; rf over sqrt(rr ff) */
 
 static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene, double x, double y)
 {
@@ -148,6 +148,9 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
             double c = cos(k * M_PI / 720), s = sin(k * M_PI / 720);
             out.of[n] = fmax(out.of[n], sqrt(pow(c * i.x + s * j.x, 2) + pow(c * i.y + s * j.y, 2) + pow(c * i.z + s * j.z, 2)));
         }
+        double rr = i.x * i.x + j.x * j.x, ff = i.y * i.y + j.y * j.y;
+        out.share[n] = rr / (rr + ff);
+        out.tilt[n] = (i.x * i.y + j.x * j.y) / sqrt(rr * ff);
         if (isnan(i.x) || isnan(j.x))
             out.of[n] = NAN;
     }
@@ -174,7 +177,7 @@ static struct range range_at(const struct view *v, const struct kd_scene *scene,
     return out;
 }
 
-struct tally { int n, outside, edges; double errors[WIDTH * HEIGHT]; };
+struct tally { int n, outside, edges; double errors[WIDTH * HEIGHT], shapes[WIDTH * HEIGHT]; };
 
 static int by_value(const void *a, const void *b)
 {
@@ -198,6 +201,13 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
         t->outside++;
         print_message("  order %d: %.6g, the oracle's %.6g between %.6g and %.6g\n", n, got, own, least, most);
     }
+}
+
+/* Against the numbers that shaders/shared/lens.h packs into one. */
+static void judge_shape(struct tally *t, const struct sizes *own, int n, float packed)
+{
+    long bits = lround(((double)packed - 1) * 8388608);
+    t->shapes[t->n - 1] = fmax(fabs((double)(bits % 2048) / 2047 - own->share[n]), fabs((double)(bits / 2048) * 2 / 2047 - 1 - own->tilt[n]));
 }
 
 static void report(const char *name, struct tally *t)
@@ -233,6 +243,8 @@ static void test_grid(void **state)
                     double r = sky ? 1 : 1 / (double)plane(&plan, planes, KD_LENS_W, (uint32_t)n)[at];
                     if (isfinite(r) && r < 1000)
                         judge(&t[n], &range, n, size, 0.02, 1e-5 * r / size);
+                    if (n == 0 && t[0].n > 0 && isfinite(r) && r < 1000 && !isnan(range.least.of[0]))
+                        judge_shape(&t[0], &range.own, 0, plane(&plan, planes, KD_LENS_SHAPE, 0)[at]);
                 }
             }
         report(v->name, t);
@@ -241,6 +253,9 @@ static void test_grid(void **state)
         /* What a picture of many pixels is about: half of the direct image within a two-hundredth, nine tenths within a thirtieth. */
         assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
         assert_true(t[1].n > 5 && t[ORDERS].n > 5);
+        qsort(t[0].shapes, (size_t)t[0].n, sizeof *t[0].shapes, by_value);
+        print_message("%-34s shape of order 0: median %.1e, 90 %% %.1e\n", v->name, t[0].shapes[t[0].n / 2], t[0].shapes[t[0].n * 9 / 10]);
+        assert_true(t[0].shapes[t[0].n / 2] < 5e-3 && t[0].shapes[t[0].n * 9 / 10] < 0.05);
         test_free(planes);
     }
 }
@@ -373,7 +388,7 @@ static void test_plan(void **state)
     kd_renderer_capacity(renderer, &capacity);
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_PHI | KD_LENS_SKY }, &capacity, &off, &error));
     const struct kd_plan on = plan_of(&scene, 0);
-    assert_int_equal(on.planes, off.planes + ORDERS + 1);
+    assert_int_equal(on.planes, off.planes + 2 * ORDERS + 1);
     assert_int_equal(on.n_passes, off.n_passes + 1);
     assert_string_equal(on.passes[1].name, "footprint");
     for (size_t i = 0; i < off.n_passes; i++)

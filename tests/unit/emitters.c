@@ -184,10 +184,10 @@ static void gas_replaces_the_disk(void **state)
     scene.motion.time_rate = 1;
     assert_false(kd_emit_moves(&scene));
     scene.gas.amplitude = 0.5;
-    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI);
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE);
     assert_true(says(&scene, "gas: turbulence") && says(&scene, "gas: fast light") && kd_emit_moves(&scene));
     scene.disk.slow_light = true;
-    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_DELAY);
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE | KD_LENS_DELAY);
     scene.disk.model = KD_DISK_PARTICLES;
     kd_emit_traits(&scene, traits);
     assert_true(!traits[KD_EMITTER_gas] && traits[KD_EMITTER_particles]);

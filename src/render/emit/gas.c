@@ -7,7 +7,9 @@
 #include <math.h>
 
 /* By its cells' width an octave is displaced by this at one standard deviation of the one before: streaks bend, and do not tear. */
-#define WARP 0.35
+#define WARP 0.2
+/* Mean square of the slope of both noises along an axis, a cell: displacements stretch what they displace by so much. */
+#define STEEPNESS 16.6
 /* Each octave's part of the logarithm over that of the one before: cells are KD_GAS_FINER times as many, and Kolmogorov's spectrum
  * falls as the third root of that. */
 #define PERSISTENCE 0.72
@@ -30,7 +32,7 @@ static uint32_t traits(const struct kd_scene *scene)
 /* Rays that are on no grid tell their Q by their slope. */
 static uint32_t needs(const struct kd_scene *scene)
 {
-    return KD_LENS_W | (stirs(scene) ? kd_orbit_needs(scene) : 0) |
+    return KD_LENS_W | (stirs(scene) ? kd_orbit_needs(scene) | KD_LENS_SHAPE : 0) |
            (scene->disk.emission_opacity > 0 && scene->camera.projection == KD_PROJECTION_RING ? KD_LENS_SLOPE : 0);
 }
 
@@ -59,6 +61,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .warp = (float)WARP,
         .loudness = (float)loudness(scene),
         .persistence = (float)PERSISTENCE,
+        .finer = (float)(KD_GAS_FINER * KD_GAS_FINER * (1 + WARP * WARP * STEEPNESS)),
         .depth = (float)scene->disk.emission_opacity,
     };
 }

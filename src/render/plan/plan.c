@@ -313,6 +313,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);
     plan.quantities = needs->quantities;
+    plan.quantities |= plan.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
     plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0; /* differences of which */
     plan.quantities |= plan.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
