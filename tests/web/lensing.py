@@ -175,6 +175,33 @@ class Lensing(Browser):
         self.assertTrue(again.is_checked('#over-shadow'))
         self.assertEqual(self.pixels(again), self.pixels(page))
 
+    def test_a_style_sets_its_fields(self):
+        """As in a document: but for what a link or a hand says. A link keeps also what is as by default, which the style would change."""
+        page = self.open('lang=en&style.name=dngr&style.bloom=0.25')
+        self.open_groups(page)
+
+        def shown():
+            chosen = [page.locator(f'[data-path="{path}"] select').input_value() for path in ('style.name', 'style.tone_map')]
+            return [*chosen, float(self.field(page, 'style.bloom')), *(page.locator(f'[data-path="disk.{name}"] input').is_checked() for name in ('doppler', 'redshift'))]
+
+        def sent():
+            bodies = [json.loads(r.post_data) for r in self.requests if '/v1/sessions' in r.url and r.post_data]
+            return [body for body in bodies if 'style' in body][-1]
+        self.assertEqual(shown(), ['dngr', 'aces', 0.25, False, False])
+        self.assertEqual((sent()['style']['bloom'], sent()['disk']['doppler']), (0.25, False))
+        page.locator('[data-path="style.name"] select').select_option('raw')
+        page.wait_for_selector(AT_REST)
+        self.assertEqual(shown(), ['raw', 'srgb', 0, True, True])
+        self.assertEqual((sent()['style']['tone_map'], sent()['style']['bloom'], sent()['disk']['doppler']), ('srgb', 0, True))
+        page.locator('[data-path="style.tone_map"] select').select_option('aces')
+        page.wait_for_selector(AT_REST)
+        page.wait_for_function('location.hash.includes("style.tone_map=aces")')
+        page.reload()
+        page.wait_for_selector(AT_REST)
+        self.open_groups(page)
+        self.assertEqual(shown(), ['raw', 'aces', 0, True, True])
+        self.assertEqual(sent()['style']['tone_map'], 'aces')
+
     def test_presets_and_refusals(self):
         page = self.open()
         self.open_groups(page)
