@@ -61,6 +61,18 @@ const struct kd_preset kd_presets[] = {
       "\"spots\":[{\"brightness\":4,\"r\":9,\"size\":1.2}],"
       "\"style\":{\"exposure\":-0.5},"
       "\"motion\":{\"time_rate\":10}}" },
+    { "gas", "A disk of turbulent gas, dense where it is bright and seen through where it is faint; in a live session it turns",
+      "{\"spacetime\":{\"spin\":0.9},"
+      "\"camera\":{\"inclination_deg\":78,\"field_m\":44},"
+      "\"disk\":{\"outer\":20,\"emission_opacity\":10,\"peak_temperature_k\":5200,\"gas\":{\"amplitude\":0.8}},"
+      "\"motion\":{\"time_rate\":6}}" },
+    { "gargantua-gas", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
+      "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
+      "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":34},"
+      "\"disk\":{\"inner\":7,\"outer\":19,\"taper\":0.6,\"emission_opacity\":30,\"peak_temperature_k\":7000,\"doppler\":false,\"redshift\":false,"
+      "\"gas\":{\"amplitude\":0.6,\"scale\":0.6,\"shear\":8}},"
+      "\"image\":{\"samples\":2},"
+      "\"motion\":{\"time_rate\":6}}" },
 };
 const size_t kd_preset_count = sizeof kd_presets / sizeof *kd_presets;
 
