@@ -57,7 +57,9 @@ function choiceRow(field, scene, id, hint) {
   return {
     nodes: [select],
     show: () => {
-      select.value = scene.get(field.path);
+      const value = scene.get(field.path);
+      select.value = value;
+      if (select.value !== value) select.add(new Option(word(value), value, false, true)); // several words, or one with a number
     },
   };
 }
@@ -95,7 +97,7 @@ function row(field, scene) {
   const id = 'field-' + field.path,
     { label, help, helpLang } = named(field.path, field.help),
     mark = unit(field.unit);
-  const make = { choice: choiceRow, switch: switchRow }[field.type] ?? numberRow;
+  const make = { choice: choiceRow, words: choiceRow, switch: switchRow }[field.type] ?? numberRow;
   const control = make(field, scene, id, `${id}-help ${id}-nature`);
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true });

@@ -158,6 +158,10 @@ export const fields = {
     'Tante volte di più per lato dei pixel attraversati dalla curva critica, dove l’anello di fotoni è più sottile di loro; al più 16 in tutto',
   ],
   'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati'],
+  'image.layers': ['Contenuto', 'Che cosa contiene il file: l’immagine, o mappe dei raggi (docs/layers.md); del primo attraversamento sul disco, o con _N in coda dell’ordine N; un PNG ne mostra una in falsi colori, NPY ne contiene più d’una come numeri'],
+  'image.layer_min': ['Minimo della scala', 'Numero all’estremo inferiore dei colori di una mappa; automatico: come dice docs/layers.md di ciascuna'],
+  'image.layer_max': ['Massimo della scala', 'Lo stesso all’estremo superiore'],
+  'image.legend': ['Legenda', 'Una scala dei colori nell’angolo in basso a sinistra di una mappa in falsi colori'],
   'image.bit_depth': ['Profondità', 'Bit per canale: 8 o 16'],
   'style.name': [
     'Stile',

@@ -14,10 +14,10 @@ const known = ['view', 'lang', 'over', 'preset', 'pause', 'full']; // what a lin
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.deprecated) continue;
-    if (spec.items) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
+    if (spec.items?.properties) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
     else if (spec.properties) yield* flatten(spec, `${prefix}${name}.`);
     else if (!('const' in spec))
-      yield { path: prefix + name, ...kind(spec), default: spec.default, unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'] };
+      yield { path: prefix + name, ...kind(spec), default: told(spec.default), unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'] };
   }
 }
 
@@ -30,8 +30,12 @@ function sections([path, spec]) {
 // What stands there in a document; undefined where nothing does.
 export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
-// { type: 'number' | 'integer' | 'choice' | 'switch', minimum, maximum, word, choices }
+// Words are a list in a document and a text elsewhere, as in a link.
+const told = value => (Array.isArray(value) ? value.join(',') : value);
+
+// { type: 'number' | 'integer' | 'choice' | 'switch' | 'words', minimum, maximum, word, choices }
 function kind(spec) {
+  if (spec.items) return { type: 'words', word: new RegExp(spec.items.pattern), choices: spec['x-words'].map(name => name.replace(/_N$/, '')) };
   if (spec.enum) return { type: 'choice', choices: spec.enum };
   if (spec.type === 'boolean') return { type: 'switch' };
   const range = spec.anyOf?.find(part => part.type) ?? spec;
@@ -39,6 +43,7 @@ function kind(spec) {
 }
 
 function parse(field, text) {
+  if (field.type === 'words') return text.split(',').every(name => field.word.test(name)) ? text : NaN;
   if (field.type === 'switch') return text === 'true' || (text === 'false' ? false : NaN);
   if (field.type === 'choice' || text === field.word) return text;
   return text.trim() && Number.isFinite(Number(text)) ? Number(text) : NaN;
@@ -102,7 +107,8 @@ export class Scene extends EventTarget {
   }
 
   // What a style sets is said even where it is the default: else the style would say it.
-  #put(path, value) {
+  #put(path, given) {
+    let value = told(given);
     const styled = path in (this.#styles[this.#values.get('style.name')] ?? {});
     if (styled) value ??= this.fields.get(path).default;
     if (value == null || (value === this.fields.get(path).default && !styled)) this.#values.delete(path);
@@ -203,7 +209,7 @@ export class Scene extends EventTarget {
     for (const [path, value] of this.#with(other)) {
       const names = path.split('.'),
         last = names.pop();
-      names.reduce((inside, name) => (inside[name] ??= {}), out)[last] = value;
+      names.reduce((inside, name) => (inside[name] ??= {}), out)[last] = this.fields.get(path)?.type === 'words' ? value.split(',') : value;
     }
     for (const { name } of this.sections.filter(({ most }) => most)) if (out[name]) out[name] = Array.from({ length: this.count(name) }, (_, i) => out[name][i] ?? {});
     return out;
@@ -213,7 +219,7 @@ export class Scene extends EventTarget {
   #pairs(document, before = '') {
     return Object.entries(document).flatMap(([name, value]) => {
       const path = before + name;
-      if (typeof value !== 'object') return [[path, value]];
+      if (typeof value !== 'object' || this.fields.get(path)?.type === 'words') return [[path, told(value)]];
       const inner = this.#pairs(value, path + '.');
       return inner.length ? inner : [...this.fields.values()].filter(field => field.path.startsWith(path + '.')).slice(0, 1).map(field => [field.path, field.default]);
     });

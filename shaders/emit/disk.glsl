@@ -29,13 +29,19 @@ vec3 kd_black_body(float t, uint traits)
     return weight * kd_colour_of(at);
 }
 
+/* T r^(3/4) at r = 1/w, T over the disk's largest. */
+float kd_disk_heat(float w)
+{
+    float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
+    uint i = min(uint(y), KD_DISK_TABLE - 2);
+    vec4 row = kd_table_row(KD_TABLE_disk, i);
+    return row.x + (y - float(i)) * row.y;
+}
+
 kd_gas kd_disk_gas(kd_sample s, uint traits)
 {
     float r = 1.0 / s.w;
-    float y = sqrt(max(1.0 - emission.frame.r_isco * s.w, 0.0)) * float(KD_DISK_TABLE - 1);
-    uint i = min(uint(y), KD_DISK_TABLE - 2);
-    vec4 row = kd_table_row(KD_TABLE_disk, i);
-    float t = (row.x + (y - float(i)) * row.y) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
+    float t = kd_disk_heat(s.w) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
 
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);

@@ -7,5 +7,6 @@
     F(delay)               /* of the light that shows what moves as it is, M */                                \
     F(w_least) F(w_most)   /* 1/r of crossings that may shine */                                              \
     F(r_isco)                                                                                                  \
-    F(one_minus_a)         /* 1 - spin, which a float of the spin has lost near 1 */
+    F(one_minus_a)         /* 1 - spin, which a float of the spin has lost near 1 */                           \
+    F(inner) F(outer)      /* edges of the disk, M, whether anything shines between them or not */
 #endif

@@ -29,30 +29,44 @@ kd_place kd_plunge_place(kd_sample s, float turn)
     way = (way - emission.plunge.log_first) * emission.plunge.step_;
     uint k = min(uint(max(way, 0.0)), KD_PLUNGE_TABLE - 2);
     vec2 at = mix(kd_table_row(KD_TABLE_plunge, k).xy, kd_table_row(KD_TABLE_plunge, k + 1).xy, clamp(way - float(k), 0.0, 1.0));
-    float row = (at.x + s.ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
-    turn += s.ago * emission.plunge.turns - at.y;
+    float ago = (TRAITS_particles & KD_TRAIT_SLOW) != 0u ? s.ago : 0.0;
+    float row = (at.x + ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
+    turn += ago * emission.plunge.turns - at.y;
     row = clamp(row, 0.0, float(emission.plunge.rows));
     return kd_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
+}
+
+/* u^r of the gas. */
+float kd_plunge_speed(float w)
+{
+    float r0 = emission.frame.r_isco, gap = max(r0 * w - 1.0, 1e-12);
+    return -sqrt(gap * (2.0 / 3.0) / r0) * gap;
+}
+
+/* g, of the Doppler shift and of gravity, or with one factor and without the other. */
+float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
+{
+    float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);
+    float own = emission.plunge.energy - a * emission.plunge.j * w2, g = 1.0;
+    if (doppler) {
+        float j = s.momentum - a * s.energy;
+        g = 1.0 / max(((s.energy - a * j * w2) * own - s.slope * kd_plunge_speed(s.w)) / d - j * emission.plunge.j * w2, 1e-20);
+    } else if (FINITE) {
+        g = 1.0 / s.energy;
+    }
+    if (doppler != redshift) {
+        float ut = (1.0 + a * a * w2) * own / d + a * emission.plunge.j * w2;
+        g *= redshift ? 1.0 / ut : ut;
+    }
+    return g;
 }
 
 /* Seen where there is this number of particles over that expected. */
 kd_gas kd_plunge_gas(kd_sample s, float number)
 {
-    bool doppler = (TRAITS_plunge & KD_TRAIT_DOPPLER) != 0u, redshift = (TRAITS_plunge & KD_TRAIT_REDSHIFT) != 0u;
-    float a = cam.spin, r0 = emission.frame.r_isco, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);
-    float gap = max(r0 * s.w - 1.0, 1e-12), ur = -sqrt(gap * (2.0 / 3.0) / r0) * gap;
-    float own = emission.plunge.energy - a * emission.plunge.j * w2, g = 1.0;
-    if (doppler) {
-        float j = s.momentum - a * s.energy;
-        g = 1.0 / max(((s.energy - a * j * w2) * own - s.slope * ur) / d - j * emission.plunge.j * w2, 1e-20);
-    } else if (FINITE) {
-        g = 1.0 / s.energy;
-    }
-    if (doppler != redshift) { /* one factor without the other */
-        float ut = (1.0 + a * a * w2) * own / d + a * emission.plunge.j * w2;
-        g *= redshift ? 1.0 / ut : ut;
-    }
-    return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(emission.plunge.depth * s.w * number / ur)));
+    float g = kd_plunge_shift(s, (TRAITS_plunge & KD_TRAIT_DOPPLER) != 0u, (TRAITS_plunge & KD_TRAIT_REDSHIFT) != 0u);
+    float depth = emission.plunge.depth * s.w * number / kd_plunge_speed(s.w);
+    return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(depth)));
 }
 
 /* Whether a crossing lies where the gas plunges. */

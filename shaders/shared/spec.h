@@ -17,11 +17,13 @@
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0)                    \
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 
-/* SIDE: rays along each side of a pixel. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
+/* SIDE: rays along each side of a pixel; LAYER, ORDER: of layers.comp, which layer (layers.h), and of which image order, KD_NO_ORDER: of the
+ * first crossing that lies on the disk. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) B(3, FINITE, false)                                      \
-    U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0)
-#define KD_SPEC_TRAITS 7
+    U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) U(7, LAYER, 0) U(8, ORDER, KD_NO_ORDER)
+#define KD_SPEC_TRAITS 9
+#define KD_NO_ORDER 0xffffffffu
 
 /* Of rays.comp and rays_kerr_schild.comp: METHOD is a Nystroem order, or one of Kerr-Schild's. */
 #define KD_SPEC_RAYS(U, B) U(0, ORDERS, 3) U(1, STEPS, 16) U(2, METHOD, 6)

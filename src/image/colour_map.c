@@ -64,8 +64,8 @@ static double chroma_of(double lightness, double hue, double limit)
 
 static struct kd_map_colour sequential(double x)
 {
-    double lightness = 8 + 86 * x, hue = 310 - 208 * x;
-    return colour(lightness, chroma_of(lightness, hue, 58), hue);
+    double lightness = 8 + 86 * x, hue = 310 - 208 * x, most = chroma_of(lightness, hue, 140);
+    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue); /* of both the less, without an edge */
 }
 
 static struct kd_map_colour heat(double x)

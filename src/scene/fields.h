@@ -9,6 +9,8 @@
  *   BOOL(section, name, nature, place, default, help)
  *   ENUM(section, name, nature, place, default, help, words)                          words "a|b|c": the value is the index
  *   ASSET(section, name, nature, place, help)                                         bytes by their SHA-256, or none (scene/asset.h)
+ *   WORDS(section, name, nature, place, help, words)                                  some of "a|b_N|c", in any order, each once; b as b_0,
+ *                                                                                     b_1, ... too; the first alone unless said otherwise
  *
  * The nature says what a reader may conclude from a picture that the field has changed. A row without one does not compile.
  *   PHYSICS   an exact consequence of general relativity or radiative transfer follows from it, or how closely that is computed
@@ -24,13 +26,13 @@
 
 #include "physics/observer.h"
 
-#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                      \
+#define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                               \
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M",                                 \
          "spin parameter a; a < 0 is a disk retrograde to its hole")                                                 \
     REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses",                                       \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"")
 
-#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                         \
+#define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     WORD(camera, r, PHYSICS, FRONT, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")   \
     REAL(camera, inclination_deg, PHYSICS, FRONT, 82.0, 0.0, 180.0, "degrees",                                       \
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")                     \
@@ -55,7 +57,7 @@
     REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades",                                        \
          "the same at the middle line, above which rays pass outside the curve and below which inside (ring)")
 
-#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                           \
+#define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
     ENUM(disk, model, MODEL, FRONT, KD_DISK_NOVIKOV_THORNE,                                                          \
          "radial flux: none, the exact Page-Thorne integral, or the Newtonian thin disk cut at the ISCO; "           \
          "particles: the exact one, made of orbiting particles",                                                     \
@@ -96,7 +98,7 @@
     BOOL(disk, slow_light, PHYSICS, REST, false, "each ray shows particles, gas and spots where they were when its light left them, instead of all at " \
          "one coordinate time")
 
-#define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
+#define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     REAL(gas, amplitude, MODEL, FRONT, 0.0, 0.0, 3.0, "1",                                                           \
          "turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk")  \
     INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", "scales of the turbulence, each about half the one before")         \
@@ -105,7 +107,7 @@
          "azimuth by which streaks trail, radians for each unit of ln r; they are 1 + shear^2 times as long as wide; below 0 they lead") \
     INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other gas")
 
-#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
+#define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1",                                                        \
          "surface brightness at the centre in the gas's own frame, in units of the disk's brightest; 0: there is no such spot") \
     REAL(spots, r, MODEL, FRONT, 9.0, 1.0, 1e6, "M", "radius of the circular orbit that the centre goes round on; never inside the ISCO") \
@@ -115,22 +117,30 @@
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
-#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
+#define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
          "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")                  \
     REAL(sky, brightness, MODEL, FRONT, 0.2, 0.0, 100.0, "1", "brightness of the sky in units of the disk's brightest surface brightness at g = 1") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
 
-#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
+#define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture")                                 \
     INT(image, height, LOOK, FRONT, 720, 1, 32768, "pixels", "height of the picture")                                \
     INT(image, samples, LOOK, FRONT, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")  \
     INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1",                                                           \
         "so many times as many along each side of the pixels that the critical curve passes, where the photon ring is thinner " \
         "than they are; at most 16 in all")                                                                          \
-    INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16")
+    INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16")                                   \
+    WORDS(image, layers, LOOK, REST,                                                                                 \
+          "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or behind _N of " \
+          "image order N; a PNG shows one in false colour, NPY holds several as numbers",                            \
+          "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N")       \
+    WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1",                                                   \
+         "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto")        \
+    WORD(image, layer_max, LOOK, REST, INFINITY, -1e12, 1e12, "1", "the same at their upper end", "auto")            \
+    BOOL(image, legend, LOOK, REST, true, "a colour bar in the lower left corner of a layer in false colour")
 
-#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                          \
+#define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_NONE,                                                                    \
          "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
          "none|film|raw|dngr")                                                                                       \
@@ -147,11 +157,11 @@
          "quasi-normal mode l = m = 2, n = 0 of the hole; 0: none")                                                  \
     REAL(style, ringdown_time, LOOK, REST, 0.0, -1e12, 1e12, "M", "time at which it was struck; before that nothing rings")
 
-#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                         \
+#define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
     REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")
 
-#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                       \
+#define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                \
     ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED,                                                     \
          "how closely rays are followed, coarse to fine; reference is double precision",                             \
          "draft|interactive|balanced|high|reference")                                                                \
@@ -167,7 +177,7 @@
         "steps of the integrator a half turn, a multiple of 4; 0: what the profile means")                           \
     INT(accuracy, orders, PHYSICS, REST, 3, 1, 8, "1", "equatorial crossings kept a ray: image orders 0 to n - 1")
 
-#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                            \
+#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     REAL(top, time, PHYSICS, FRONT, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
 /* The sections, in order: SECTION(name, rows, group, help), and LIST(name, element, rows, group, most, help) for up to `most` elements that have these

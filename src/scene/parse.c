@@ -5,6 +5,7 @@
 #include "scene/style.h"
 #include "scene/text.h"
 #include "scene/tree.h"
+#include "scene/words.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -55,6 +56,34 @@ static enum kd_status not_a(struct reader *reader, const cJSON *item, const char
 
 static enum kd_status read_section(struct reader *reader, const struct kd_section *section, const cJSON *item);
 
+/* The first of an array's items that is no word of the field, is there twice or has no room; NULL: there is none. */
+static const cJSON *read_words(const struct kd_field *field, const cJSON *array, struct kd_words *out)
+{
+    *out = (struct kd_words) { 0 };
+    for (const cJSON *item = array->child; item; item = item->next)
+        if (!cJSON_IsString(item) || !kd_words_add(field, item->valuestring, strlen(item->valuestring), out))
+            return item;
+    return NULL;
+}
+
+static enum kd_status store_words(struct reader *reader, const struct kd_field *field, size_t index, const cJSON *item)
+{
+    char pointer[KD_PATH_SIZE], path[KD_PATH_SIZE], given[KD_VALUE_SIZE], allowed[KD_ALLOWED_SIZE];
+    struct kd_words words = { 0 };
+    const cJSON *bad = cJSON_IsArray(item) ? read_words(field, item, &words) : item;
+    if (!bad && words.count) {
+        kd_field_put_words(&reader->scene, field, index, &words);
+        return KD_OK;
+    }
+    struct kd_value value = kd_tree_value(bad ? bad : item);
+    kd_field_pointer(field, index, pointer);
+    kd_field_path(field, index, path);
+    kd_value_describe(&value, given);
+    kd_value_allowed(field, allowed);
+    return kd_error_field(reader->error, pointer, "%s %s %s, allowed are arrays: %s", path, cJSON_IsArray(item) && bad ? "holds" : "is",
+                          bad ? given : "an array of none", allowed);
+}
+
 static enum kd_status read_field(struct reader *reader, struct object *object, const cJSON *item)
 {
     const struct kd_field *field = kd_field_find(object->section->name, item->string);
@@ -72,6 +101,8 @@ static enum kd_status read_field(struct reader *reader, struct object *object, c
         kd_field_put(&reader->scene, field, object->index, field->initial);
         return KD_OK;
     }
+    if (!status && field->kind == KD_FIELD_WORDS)
+        return store_words(reader, field, object->index, item);
     return status ? status : kd_value_store(&reader->scene, field, object->index, &value, reader->error);
 }
 

@@ -52,7 +52,7 @@ static void write_escaped(struct kd_writer *w, const char *text)
 static void write_field(struct kd_writer *w, const struct kd_field *field)
 {
     static const char *const types[] = { "number", "number or word", "whole number", "true or false",
-                                         "word", "asset" };
+                                         "word", "asset", "words" };
     char allowed[KD_ALLOWED_SIZE];
     kd_value_allowed(field, allowed);
     kd_write(w, "| `%s%s%s%s` | %s | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "", field->name,

@@ -16,12 +16,21 @@
 #define KD_SCENE_VERSION 1
 #define KD_ASSET_NAME 65 /* room for the SHA-256 of an asset in hexadecimal digits, or for a name of one; "": there is none */
 
+/* Words of a row of words, in an order of their own; number: what stands behind it, -1: nothing. Beyond count all is 0, so that equal
+ * scenes are equal bytes. */
+#define KD_WORDS_MOST 16
+struct kd_words {
+    int32_t count;
+    struct kd_numbered_word { int16_t word, number; } at[KD_WORDS_MOST];
+};
+
 #define KD_M_REAL(s, name, ...) double name;
 #define KD_M_INT(s, name, ...) int32_t name;
 #define KD_M_BOOL(s, name, ...) bool name;
 #define KD_M_ENUM(s, name, ...) int32_t name;
 #define KD_M_ASSET(s, name, ...) char name[KD_ASSET_NAME];
-#define KD_M_ROWS(ROWS) ROWS(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM, KD_M_ASSET)
+#define KD_M_WORDS(s, name, ...) struct kd_words name;
+#define KD_M_ROWS(ROWS) ROWS(KD_M_REAL, KD_M_REAL, KD_M_INT, KD_M_BOOL, KD_M_ENUM, KD_M_ASSET, KD_M_WORDS)
 #define KD_M_SECTION(name, ROWS, group, help)                                                                \
     struct kd_##name {                                                                                       \
         KD_M_ROWS(ROWS)                                                                                      \

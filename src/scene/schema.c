@@ -2,6 +2,7 @@
 #include "scene/style.h"
 #include "scene/rules.h"
 #include "scene/style.h"
+#include "scene/words.h"
 #include "scene/writer.h"
 
 #include <string.h>
@@ -31,6 +32,42 @@ static void write_words(struct kd_writer *w, const struct kd_field *field)
     kd_write(w, "]");
 }
 
+/* Words that a number may follow are a group of the pattern. */
+static void write_pattern(struct kd_writer *w, const struct kd_field *field, bool numbered)
+{
+    const char *before = numbered ? "(" : "";
+    for (int i = 0; i < kd_field_word_count(field); i++) {
+        bool has;
+        int length = kd_words_length(field, i, &has);
+        if (has == numbered)
+            kd_write(w, "%s%.*s", before, length, kd_field_word(field, i).text);
+        before = has == numbered ? "|" : before;
+    }
+}
+
+static void write_many(struct kd_writer *w, const struct kd_field *field)
+{
+    bool alone = false, numbered = false;
+    for (int i = 0; i < kd_field_word_count(field); i++) {
+        bool has;
+        kd_words_length(field, i, &has);
+        alone |= !has;
+        numbered |= has;
+    }
+    kd_write(w, "\"type\":\"array\",\"minItems\":1,\"maxItems\":%d,\"uniqueItems\":true,\"items\":{\"type\":\"string\",\"pattern\":\"^(",
+             KD_WORDS_MOST);
+    write_pattern(w, field, false);
+    kd_write(w, "%s", alone && numbered ? "|" : "");
+    if (numbered) {
+        write_pattern(w, field, true);
+        kd_write(w, ")(_(0|[1-9][0-9]?))?");
+    }
+    kd_write(w, ")$\"},\"x-words\":[");
+    for (int i = 0; i < kd_field_word_count(field); i++)
+        kd_write(w, "%s\"%.*s\"", i ? "," : "", kd_field_word(field, i).length, kd_field_word(field, i).text);
+    kd_write(w, "]");
+}
+
 static void write_type(struct kd_writer *w, const struct kd_field *field)
 {
     switch (field->kind) {
@@ -52,6 +89,7 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     case KD_FIELD_ASSET:
         kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^([A-Za-z][A-Za-z0-9._-]{0,62}|[0-9a-f]{64})$\"}]");
         return;
+    case KD_FIELD_WORDS: write_many(w, field); return;
     }
 }
 

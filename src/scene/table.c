@@ -45,8 +45,10 @@ const char *const kd_groups[KD_GROUP_COUNT] = {
 #define ENUM(s, n, of, at, d, h, w)                                                                          \
     { AT(s, n, of, at), .kind = KD_FIELD_ENUM, .initial = d, RANGE(0, 0, ""), .help = h, .words = w },
 #define ASSET(s, n, of, at, h) { AT(s, n, of, at), .kind = KD_FIELD_ASSET, RANGE(0, 1, ""), .help = h },
+#define WORDS(s, n, of, at, h, w)                                                                            \
+    { AT(s, n, of, at), .kind = KD_FIELD_WORDS, RANGE(0, 0, ""), .help = h, .words = w },
 
-#define FIELDS(name, ROWS, group, help) ROWS(REAL, WORD, INT, BOOL, ENUM, ASSET)
+#define FIELDS(name, ROWS, group, help) ROWS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)
 #define LIST_FIELDS(name, element, ROWS, group, most, help) FIELDS(name, ROWS, group, help)
 const struct kd_field kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST_FIELDS) };
 
@@ -155,6 +157,11 @@ void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size
     kd_section_resize(scene, list, size);
 }
 
+static double alone(const struct kd_words *words)
+{
+    return words->count == 1 && words->at[0].number < 0 ? words->at[0].word : NAN;
+}
+
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index)
 {
     const void *at = (const char *)scene + field->offset + index * field->stride;
@@ -165,6 +172,7 @@ double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, 
     case KD_FIELD_ENUM: return *(const int32_t *)at;
     case KD_FIELD_BOOL: return *(const bool *)at;
     case KD_FIELD_ASSET: return *(const char *)at != 0;
+    case KD_FIELD_WORDS: return alone(at);
     }
     return NAN;
 }
@@ -182,6 +190,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
         if (value == 0)
             memset(at, 0, KD_ASSET_NAME);
         break;
+    case KD_FIELD_WORDS: *(struct kd_words *)at = (struct kd_words) { 1, { { (int16_t)value, -1 } } }; break;
     }
 }
 
@@ -199,6 +208,16 @@ void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, si
     memcpy(at, text, length);
 }
 
+const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index)
+{
+    return (const void *)((const char *)scene + field->offset + index * field->stride);
+}
+
+void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_words *words)
+{
+    memcpy((char *)scene + field->offset + index * field->stride, words, sizeof *words);
+}
+
 bool kd_field_holds(const struct kd_field *field, double value)
 {
     bool in_range = value >= field->minimum && value <= field->maximum;
@@ -208,7 +227,8 @@ bool kd_field_holds(const struct kd_field *field, double value)
     case KD_FIELD_INT:
     case KD_FIELD_BOOL:
     case KD_FIELD_ASSET: return in_range && value == floor(value);
-    case KD_FIELD_ENUM: return value >= 0 && value < kd_field_word_count(field) && value == floor(value);
+    case KD_FIELD_ENUM:
+    case KD_FIELD_WORDS: return value >= 0 && value < kd_field_word_count(field) && value == floor(value);
     }
     return false;
 }

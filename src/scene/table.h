@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM, KD_FIELD_ASSET };
+enum kd_field_kind { KD_FIELD_REAL, KD_FIELD_WORD, KD_FIELD_INT, KD_FIELD_BOOL, KD_FIELD_ENUM, KD_FIELD_ASSET, KD_FIELD_WORDS };
 
 /* These words say what a field means and where the page has it: the columns of scene/fields.h. */
 enum kd_field_nature { KD_FIELD_PHYSICS, KD_FIELD_MODEL, KD_FIELD_LOOK };
@@ -19,12 +19,12 @@ struct kd_field {
     enum kd_field_kind kind;
     enum kd_field_nature nature;
     enum kd_field_place place;
-    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, or a text (ASSET) */
+    size_t offset; /* in struct kd_scene, of a list's first element: double, int32_t (INT, ENUM), bool, a text (ASSET), or struct kd_words */
     size_t stride; /* from element to element of a list; 0 in a section that is none */
     double initial, minimum, maximum;
-    const char *unit; /* "1": a pure number; "" for BOOL, ENUM and ASSET */
+    const char *unit; /* "1": a pure number; "" for BOOL, ENUM, ASSET and WORDS */
     const char *help;
-    const char *words; /* WORD: the word for INFINITY; ENUM: "a|b|c"; NULL otherwise */
+    const char *words; /* WORD: the word for INFINITY; ENUM and WORDS: "a|b|c"; NULL otherwise */
 };
 
 struct kd_nature {
@@ -47,7 +47,7 @@ struct kd_old_name {
 };
 
 #define KD_ONE(...) +1
-#define KD_COUNT_ROWS(name, ROWS, group, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
+#define KD_COUNT_ROWS(name, ROWS, group, help) ROWS(KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE, KD_ONE)
 #define KD_COUNT_LIST_ROWS(name, element, ROWS, group, most, help) KD_COUNT_ROWS(name, ROWS, group, help)
 enum {
     KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
@@ -93,7 +93,7 @@ void kd_section_reset(struct kd_scene *scene, const struct kd_section *section, 
 void kd_section_trim(struct kd_scene *scene, const struct kd_section *list, size_t least);
 
 /* Read and write a field of any kind as a double: exact for int32_t, 0 or 1 for bool, the index for ENUM. Of an ASSET it says
- * whether there is one; 0 puts it away. */
+ * whether there is one; 0 puts it away. WORDS that are one word alone are its index, others NAN. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t index, double value);
 
@@ -101,10 +101,14 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
 
+/* Of a WORDS field (scene/words.h). */
+const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index);
+void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_words *words);
+
 /* True if value may be stored in field: in range, whole where that is asked for, INFINITY for WORD alone. */
 bool kd_field_holds(const struct kd_field *field, double value);
 
-/* An ENUM has words. The text of a word is not NUL-terminated: print it with %.*s. */
+/* An ENUM has words, and so have WORDS, as the row spells them. The text of a word is not NUL-terminated: print it with %.*s. */
 struct kd_word {
     const char *text;
     int length;

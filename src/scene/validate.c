@@ -4,6 +4,7 @@
 #include "scene/number.h"
 #include "scene/rules.h"
 #include "scene/value.h"
+#include "scene/words.h"
 
 #include <string.h>
 
@@ -25,7 +26,7 @@ static enum kd_status range(const struct kd_scene *scene, const struct kd_field 
     double value = kd_field_get(scene, field, index);
     if (field->kind == KD_FIELD_ASSET)
         return asset(scene, field, index, error);
-    if (kd_field_holds(field, value))
+    if (field->kind == KD_FIELD_WORDS ? kd_words_hold(field, kd_field_words(scene, field, index)) : kd_field_holds(field, value))
         return KD_OK;
     char number[KD_NUMBER_SIZE], path[KD_PATH_SIZE], pointer[KD_PATH_SIZE], allowed[KD_ALLOWED_SIZE];
     kd_field_path(field, index, path);

@@ -3,6 +3,7 @@
 #include "scene/asset.h"
 #include "scene/number.h"
 #include "scene/text.h"
+#include "scene/words.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -57,6 +58,21 @@ static void list_words(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     }
 }
 
+/* "1 to 3 of a, b_N and c, each once": of as many as there are. */
+static void list_many(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
+{
+    int count = kd_field_word_count(field), used = snprintf(out, KD_ALLOWED_SIZE, "1 to %d of ", count < KD_WORDS_MOST ? count : KD_WORDS_MOST);
+    bool any = false, numbered = false;
+    for (int i = 0; i < count && used < KD_ALLOWED_SIZE; i++) {
+        int length = kd_words_length(field, i, &numbered);
+        any |= numbered;
+        used += snprintf(out + used, (size_t)(KD_ALLOWED_SIZE - used), "%s%.*s%s", i == 0 ? "" : i + 1 < count ? ", " : " and ", length,
+                         kd_field_word(field, i).text, numbered ? "[_N]" : "");
+    }
+    if (used < KD_ALLOWED_SIZE)
+        snprintf(out + used, (size_t)(KD_ALLOWED_SIZE - used), ", each once%s", any ? ", N a number" : "");
+}
+
 void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
 {
     char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE];
@@ -77,6 +93,7 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
     case KD_FIELD_ASSET:
         snprintf(out, KD_ALLOWED_SIZE, "null, the SHA-256 of an asset as 64 hexadecimal digits, and a name: a letter, then letters, digits, . _ and -");
         return;
+    case KD_FIELD_WORDS: list_many(field, out); return;
     }
 }
 
@@ -97,6 +114,7 @@ static double convert(const struct kd_field *field, const struct kd_value *value
         if (value->kind == KD_VALUE_NULL || (string && !*value->text))
             return 0;
         return string && (kd_asset_is_hash(value->text) || kd_asset_is_name(value->text)) ? 1 : NAN;
+    case KD_FIELD_WORDS: return NAN; /* more than a number */
     }
     return NAN;
 }
@@ -112,7 +130,12 @@ static bool wants_number(const struct kd_field *field, const struct kd_value *va
 enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field, size_t index,
                               const struct kd_value *value, struct kd_error *error)
 {
+    struct kd_words words;
     double number = convert(field, value);
+    if (field->kind == KD_FIELD_WORDS && value->kind == KD_VALUE_STRING && kd_words_read(field, value->text, &words)) {
+        kd_field_put_words(scene, field, index, &words);
+        return KD_OK;
+    }
     if (kd_field_holds(field, number)) {
         if (field->kind == KD_FIELD_ASSET && number != 0)
             kd_field_put_asset(scene, field, index, value->text);

@@ -19,7 +19,7 @@ struct kd_value {
     const char *text; /* STRING */
 };
 
-/* Stores the value, or fails with KD_EINVAL, the field's pointer, the value and what is allowed; *scene is then unchanged. */
+/* Stores the value, that of WORDS from their text, or fails with KD_EINVAL, the field's pointer, the value and what is allowed; *scene is then unchanged. */
 enum kd_status kd_value_store(struct kd_scene *scene, const struct kd_field *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
 
@@ -34,7 +34,7 @@ struct kd_value kd_value_typed(const char *text);
 const char *kd_value_unwanted(const struct kd_value *value);
 
 /* Write how a message calls the value, and what its field allows: "-1 to 1 M", "\"a\" and \"b\"", "true and false". */
-enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 160 };
+enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 320 };
 void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
 void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE]);
 

@@ -2,6 +2,7 @@
 #include "scene/asset.h"
 #include "scene/number.h"
 #include "scene/sha256.h"
+#include "scene/words.h"
 #include "scene/writer.h"
 
 #include <stdio.h>
@@ -28,6 +29,20 @@ void kd_write_number(struct kd_writer *writer, double value)
     kd_write(writer, "%s", number);
 }
 
+static void write_words(struct kd_writer *writer, const struct kd_field *field, const struct kd_words *words)
+{
+    if (!kd_words_hold(field, words)) {
+        writer->status = writer->status ? writer->status : KD_EINVAL;
+        return;
+    }
+    for (int i = 0; i < words->count; i++) {
+        char word[KD_WORD_SIZE];
+        kd_words_spell(field, words->at[i], word);
+        kd_write(writer, "%s\"%s\"", i ? "," : "[", word);
+    }
+    kd_write(writer, "]");
+}
+
 void kd_write_value(struct kd_writer *writer, const struct kd_field *field, double value)
 {
     struct kd_word word;
@@ -50,11 +65,16 @@ void kd_write_value(struct kd_writer *writer, const struct kd_field *field, doub
         kd_write(writer, "\"%.*s\"", word.length, word.text);
         return;
     case KD_FIELD_ASSET: kd_write(writer, "null"); return; /* one that is there has more than a number */
+    case KD_FIELD_WORDS: write_words(writer, field, &(struct kd_words) { 1, { { (int16_t)value, -1 } } }); return;
     }
 }
 
 void kd_write_field(struct kd_writer *writer, const struct kd_scene *scene, const struct kd_field *field, size_t index)
 {
+    if (field->kind == KD_FIELD_WORDS) {
+        write_words(writer, field, kd_field_words(scene, field, index));
+        return;
+    }
     const char *asset = field->kind == KD_FIELD_ASSET ? kd_field_asset(scene, field, index) : "";
     if (!*asset) {
         kd_write_value(writer, field, kd_field_get(scene, field, index));

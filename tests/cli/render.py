@@ -64,8 +64,8 @@ class Pictures(Case):
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
 
     def test_no_picture_under_a_false_name(self):
-        self.bad(2, "allowed is a PNG file", "render", *SMALL, "-o", self.path("a.JPG"))
-        self.bad(2, "allowed is a PNG file", "render", *SMALL, "-o", self.path("a.exr"))
+        self.bad(2, "allowed is a PNG or NPY file", "render", *SMALL, "-o", self.path("a.JPG"))
+        self.bad(2, "allowed is a PNG or NPY file", "render", *SMALL, "-o", self.path("a.exr"))
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_damaged_pictures(self):

@@ -21,6 +21,7 @@ enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };
 struct ks_path {
     int crossings;
     double r[16], phi[16], delay[16]; /* of each crossing of the equatorial plane after the start */
+    double momentum[16]; /* there, about the axis, as it was integrated */
     double p_z[16]; /* and |p_z| there, by a unit vector normal to the plane: at z = 0, where l_z = 0, the metric's zz is 1 */
     enum ks_fate fate;
     double u, sky_phi; /* direction of escape */

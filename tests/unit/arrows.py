@@ -42,7 +42,7 @@ FOREIGN = {
     "argp.h": {"cli"},
 }
 # Made from shaders/, which has no other way to be included.
-SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|lens|spec)\.h)$")
+SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|layers|lens|spec)\.h)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 

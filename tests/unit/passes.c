@@ -40,6 +40,7 @@ static const char *const scenes[] = {
     "{\"accuracy\": {\"engine\": \"mino-rkn6\", \"precision\": \"f32\", \"steps\": 8}}",
     "{\"accuracy\": {\"engine\": \"closed\", \"precision\": \"f64\"}}",
     "{\"style\": {\"exposure\": 0, \"bloom\": 0.5}}",
+    "{\"image\": {\"layers\": [\"g\"]}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

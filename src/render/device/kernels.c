@@ -12,6 +12,7 @@
 #include "density.spv.h"
 #include "expose.spv.h"
 #include "footprint.spv.h"
+#include "layers.spv.h"
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
 #include "photometry.spv.h"
@@ -54,6 +55,8 @@ static const struct {
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, 6, sizeof(struct kd_slice),
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, 6, sizeof(struct kd_slice),
+                           { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
     [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },

@@ -157,6 +157,12 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     enum kd_status status = bands_init(&store->radiance, vk, plan->bands, light > read ? light : read, "radiance", error);
     if (!status)
         status = kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
+    if (!status && plan->n_layers)
+        status = bands_init(&store->layers, vk, plan->bands, plan->n_layers * kd_plan_layer_bytes(plan), "layers", error);
+    else
+        bands_finish(&store->layers, vk);
+    if (kd_plan_readback_bytes(plan) > words)
+        words = kd_plan_readback_bytes(plan);
     if (!status)
         status = kd_store_at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
     if (!status && !store->transfer)
@@ -236,7 +242,7 @@ static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd
 
 uint64_t kd_store_bytes(const struct kd_store *store)
 {
-    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
+    uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
     return sum + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
@@ -253,6 +259,7 @@ void kd_store_finish(struct kd_store *store)
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         map_finish(&store->maps[i], store->vk);
     bands_finish(&store->radiance, store->vk);
+    bands_finish(&store->layers, store->vk);
     kd_vk_buffer_destroy(store->vk, store->words);
     kd_vk_buffer_destroy(store->vk, store->readback);
     kd_vk_buffer_destroy(store->vk, store->transfer);

@@ -35,6 +35,7 @@ struct kd_store {
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
+    struct kd_bands layers; /* maps of numbers, kd_plan_layer_bytes each, one after the other; none: no frame had any */
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     struct kd_vk_buffer *transfer, *staging; /* parameters and tables: read at each crossing, so on the device, by way of the other */
     struct kd_emit_data *sent;           /* what is there; NULL: nothing yet */

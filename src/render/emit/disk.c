@@ -43,14 +43,14 @@ double kd_disk_peak_temperature(const struct kd_scene *scene)
     return kd_disk_temperature(largest_flux(scene), a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
-static double inner(const struct kd_scene *scene)
+double kd_disk_inner(const struct kd_scene *scene)
 {
     return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;
 }
 
 void kd_disk_reach(const struct kd_scene *scene, double radii[2])
 {
-    radii[0] = inner(scene);
+    radii[0] = kd_disk_inner(scene);
     radii[1] = scene->disk.outer;
 }
 
@@ -59,7 +59,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     const struct kd_disk *d = &scene->disk;
     double peak = kd_disk_peak_temperature(scene) * d->hardening;
     out->disk = (struct kd_disk_block) {
-        .r_in = (float)inner(scene),
+        .r_in = (float)kd_disk_inner(scene),
         .r_out = (float)d->outer,
         .fade = (float)(1 / fmax(d->outer * d->taper, 1e-6)),
         .opacity = (float)d->opacity,

@@ -166,6 +166,8 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
         .one_minus_a = (float)(1 - scene->spacetime.spin),
+        .inner = (float)kd_disk_inner(scene),
+        .outer = (float)scene->disk.outer,
     };
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         const struct kd_emitter *e = kd_emitters[i];

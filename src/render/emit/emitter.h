@@ -97,6 +97,8 @@ uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* Finds the largest effective temperature of the disk in K, in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
+/* The inner edge of the disk, M. */
+double kd_disk_inner(const struct kd_scene *scene);
 /* Fill in the colours of black bodies, and how luminous they are. No scene changes them; 15 ms each. */
 void kd_colour_tables(struct kd_emit_tables *out);
 void kd_luminous_table(struct kd_emit_tables *out);

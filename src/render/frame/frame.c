@@ -41,6 +41,8 @@ static enum kd_status run(struct kd_frame_job *j)
         status = kd_frame_bloom(j);
     if (!status && !j->plan->unseen)
         status = kd_frame_post(j);
+    if (!status)
+        status = kd_frame_layers(j);
     if (!status && j->plan->light)
         status = kd_frame_read_light(j);
     double audited = kd_clock_ms();
@@ -62,8 +64,12 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
     struct kd_frame frame = { .width = plan->width, .height = plan->height };
     const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
     enum kd_status status = plan->unseen ? KD_OK : kd_frame_add_layer(&frame, "rgb", 3, type, job->error);
-    if (status)
+    if (!status)
+        status = kd_frame_add_layers(&frame, plan, job->error);
+    if (status) {
+        kd_frame_finish(&frame);
         return status;
+    }
     job->frame = &frame;
     status = run(job);
     if (!status) {

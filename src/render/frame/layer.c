@@ -1,15 +1,17 @@
 #include "render/frame/frame.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
                                   struct kd_error *error)
 {
-    struct kd_layer layer = { .name = name, .channels = channels, .type = type };
+    struct kd_layer layer = { .channels = channels, .type = type };
     size_t bytes = (size_t)frame->width * frame->height * kd_layer_pixel_bytes(&layer);
     if (frame->n_layers == KD_FRAME_MAX_LAYERS)
         return kd_error_set(error, KD_ETOOBIG, "a frame has %d layers at most, and no room for \"%s\"", KD_FRAME_MAX_LAYERS, name);
+    snprintf(layer.name, sizeof layer.name, "%s", name);
     layer.data = malloc(bytes);
     if (!layer.data)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu bytes of pixels", bytes);

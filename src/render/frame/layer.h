@@ -1,4 +1,6 @@
-/* What a frame holds: layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown. */
+/* What a frame holds: layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown,
+ * which is the one map that is asked for in false colour; behind it may be "radiance", linear sRGB in units of the brightest surface
+ * brightness of the disk at g = 1, and maps by their names (plan/layer_kinds.h), where NaN stands for nothing. */
 #ifndef KD_RENDER_FRAME_LAYER_H
 #define KD_RENDER_FRAME_LAYER_H
 
@@ -7,10 +9,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_FRAME_MAX_LAYERS 16
+#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and as many maps as image.layers has words */
 
 struct kd_layer {
-    const char *name; /* a static string */
+    char name[40];
     uint32_t channels;
     enum kd_layer_type { KD_LAYER_U8, KD_LAYER_U16, KD_LAYER_F32 } type;
     void *data; /* rows from the top, a pixel's channels together, no padding, numbers of this machine; malloc'd */

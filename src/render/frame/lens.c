@@ -50,15 +50,24 @@ static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_criti
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
+/* What a kernel makes: rays, the light of the picture, or the plan's layer of that number. */
+enum { RAYS = -2, PICTURE = -1 };
+
+static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int layer, const struct kd_vk_pipeline **out)
 {
+    const enum kd_kernel kernel = layer < 0 ? KD_KERNEL_TRANSFER : KD_KERNEL_LAYERS;
     const struct kd_plan *p = j->plan;
     struct kd_spec_transfer spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .FINITE = !isinf(j->scene->camera.r),
         .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
+        .ORDER = KD_NO_ORDER,
     };
+    if (layer >= 0)
+        spec.LAYER = (uint32_t)p->layers[layer].kind;
+    if (layer >= 0 && p->layers[layer].order >= 0)
+        spec.ORDER = (uint32_t)p->layers[layer].order;
     memcpy(spec.traits, p->traits, sizeof spec.traits);
-    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_TRANSFER, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
+    return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
 /* Rows of pixels of a band, traced and lit in one go. */
@@ -81,9 +90,10 @@ static struct kd_vk_binding camera_binding(const struct kd_frame_job *j, int cam
     return (struct kd_vk_binding) { j->store->cameras, (uint64_t)camera * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
 }
 
-/* Record a kernel over a slice. rays: the grid is that of the rays, not of the pixels. */
-static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, bool rays)
+/* Record the kernel that makes something over a slice: of RAYS the grid is theirs, else that of the pixels. */
+static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, int makes)
 {
+    const bool rays = makes == RAYS, columns = makes == PICTURE && in_columns(j->plan);
     const struct kd_plan *p = j->plan;
     const struct kd_slice push = {
         .row0 = s->first * p->side, .rows = s->count * p->side, .band0 = kd_frame_band_first(j, s->band) * p->side,
@@ -91,7 +101,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     };
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
-    d->groups[1] = rays ? push.rows : in_columns(p) ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
+    d->groups[1] = rays ? push.rows : columns ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
     return kd_vk_dispatch(j->r->vk, d, j->error);
 }
 
@@ -132,15 +142,15 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
     if (j->plan->path == KD_LENS_LISTED)
         return list_slice(j, s);
     struct kd_vk_dispatch d = trace_dispatch(j, pipeline, lens_buffer(j, s->band), KD_CAMERA_GRID);
-    return record(j, s, &d, true);
+    return record(j, s, &d, RAYS);
 }
 
 static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
-                                               struct kd_vk_buffer *lens, uint32_t band, int camera)
+                                               struct kd_vk_buffer *lens, uint32_t band, int camera, int makes)
 {
     struct kd_vk_buffer *prepared = kd_prepared_buffer(j->prepared, j->plan);
-    return (struct kd_vk_dispatch) {
-        kd_passes[KD_PASS_TRANSFER].name,
+    struct kd_vk_dispatch d = {
+        kd_passes[makes < 0 ? KD_PASS_TRANSFER : KD_PASS_LAYERS].name,
         pipeline,
         { { lens, 0, 0, false },
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
@@ -151,6 +161,12 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
         NULL,
         { 0 },
     };
+    if (makes >= 0) {
+        d.bindings[3].buffer = j->store->layers.buffers[band];
+        d.bindings[3].offset = (uint64_t)makes * kd_plan_layer_bytes(j->plan);
+        d.bindings[3].size = kd_plan_layer_bytes(j->plan);
+    }
+    return d;
 }
 
 /* Of a slice that was just traced, the rows that can be finished. Footprints need the row of rays below too, and two at the upper edge:
@@ -206,13 +222,14 @@ done:
 static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
 {
     const struct kd_vk_pipeline *transfer;
-    enum kd_status status = transfer_kernel(j, &on_grid, &transfer);
-    if (status)
-        return status;
-    struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band, KD_CAMERA_GRID);
-    status = darken(j, s);
-    if (!status && s->count)
-        status = record(j, s, &d, false);
+    enum kd_status status = darken(j, s);
+    for (int makes = PICTURE; s->count && makes < (int)j->plan->n_layers && !status; makes++) {
+        status = transfer_kernel(j, &on_grid, makes, &transfer);
+        if (status)
+            break;
+        struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band, KD_CAMERA_GRID, makes);
+        status = record(j, s, &d, makes);
+    }
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
 }
 
@@ -254,10 +271,9 @@ static struct part part_of(const struct kd_frame_job *j, uint32_t number)
     return part;
 }
 
-/* Run a kernel over pixels `from` to `to` of a part in slices. rays: the one that traces them, an invocation a ray; else the one
- * that lights pixels. base: the dispatch but for its pipeline and size. */
+/* Run the kernel that makes something over pixels `from` to `to` of a part in slices: RAYS are an invocation each, else pixels. base: the dispatch but for its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, uint64_t from, uint64_t to,
-                               const struct kd_vk_dispatch *base, bool rays, double ns_per_ray)
+                               const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
 {
     const struct kd_critical_lattice lattice = kd_critical_lattice(j->plan->critical);
     uint32_t step = slice_rows(ns_per_ray * j->plan->critical, (uint32_t)part->n);
@@ -268,9 +284,9 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct part *part, 
         push.row0 = (uint32_t)from;
         push.rows = (uint32_t)(to - from < step ? to - from : step);
         d.push = &push;
-        d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * j->plan->critical : push.rows);
+        d.groups[0] = kd_frame_groups(makes == RAYS ? (uint64_t)push.rows * j->plan->critical : push.rows);
         d.groups[1] = 1;
-        KD_TRY((rays ? trace_kernel : transfer_kernel)(j, &lattice, &d.pipeline));
+        KD_TRY(makes == RAYS ? trace_kernel(j, &lattice, &d.pipeline) : transfer_kernel(j, &lattice, makes, &d.pipeline));
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, 0));
@@ -339,11 +355,11 @@ static enum kd_status trace_part(struct kd_frame_job *j, const struct part *part
     if (status || j->plan->path == KD_LENS_LISTED)
         return status ? status : list_part(j, part);
     const struct kd_vk_dispatch d = trace_dispatch(j, NULL, part->lens, KD_CAMERA_CRITICAL);
-    return run_part(j, part, 0, part->n, &d, true, j->plan->trace_ns);
+    return run_part(j, part, 0, part->n, &d, RAYS, j->plan->trace_ns);
 }
 
-/* A pixel's light is written anew. */
-static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, double ns)
+/* A pixel's light is written anew, for the picture or a layer of light. */
+static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, int makes, double ns)
 {
     enum kd_status status = KD_OK;
     for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
@@ -352,9 +368,9 @@ static enum kd_status transfer_part(struct kd_frame_job *j, struct part *part, d
         uint64_t to = kd_critical_pixels_above(&j->lens->pixels, row + kd_frame_band_rows(j, band));
         from = from > first ? from - first : 0;
         to = to < first ? 0 : to - first < part->n ? to - first : part->n;
-        const struct kd_vk_dispatch d = transfer_dispatch(j, NULL, part->lens, band, KD_CAMERA_CRITICAL);
+        const struct kd_vk_dispatch d = transfer_dispatch(j, NULL, part->lens, band, KD_CAMERA_CRITICAL, makes);
         part->push.band0 = row;
-        status = run_part(j, part, from, to, &d, false, ns);
+        status = run_part(j, part, from, to, &d, makes, ns);
     }
     return status;
 }
@@ -374,7 +390,9 @@ static enum kd_status light_at_curve(struct kd_frame_job *j, bool needed, double
             KD_TRY(trace_part(j, &part));
         if (needed)
             KD_TRY(footprint_part(j, &part));
-        KD_TRY(transfer_part(j, &part, transfer_ns));
+        for (int makes = PICTURE; makes < (int)p->n_layers; makes++)
+            if (makes == PICTURE || kd_layer_kinds[p->layers[makes].kind].of == KD_OF_LIGHT)
+                KD_TRY(transfer_part(j, &part, makes, transfer_ns));
     }
 done:
     return status;

@@ -38,14 +38,30 @@ const struct kd_format *kd_format_live(void)
     return kd_formats[i];
 }
 
+/* A picture is one thing: itself, or one map. */
+static enum kd_status check_layers(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error)
+{
+    if (scene->image.layers.count <= 1 || format->carries & KD_CARRIES_LAYERS)
+        return KD_OK;
+    return kd_error_field(error, "/image/layers", "image.layers holds %d, allowed in a file of the format %s is one; npy holds all", scene->image.layers.count,
+                          format->name);
+}
+
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error)
 {
+    const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
+    if (!(format->carries & KD_CARRIES_PICTURE) && isinf(scene->style.exposure))
+        scene->style.exposure = 0;
+    if (!(format->carries & shows))
+        scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
+    enum kd_status status = check_layers(format, scene, error);
+    if (status)
+        return status;
     struct kd_needs needs = kd_needs_of(scene);
     needs.light |= (format->carries & KD_CARRIES_LIGHT) != 0;
     needs.unseen = format->carries == KD_CARRIES_LIGHT;
-    if (!(format->carries & KD_CARRIES_PICTURE) && isinf(scene->style.exposure))
-        scene->style.exposure = 0;
+    needs.radiance = (format->carries & KD_CARRIES_LAYERS) != 0;
     return kd_plan_make_for(scene, &needs, capacity, out, error);
 }
 

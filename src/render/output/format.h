@@ -24,7 +24,8 @@ enum kd_effort {
 };
 
 /* What a frame must carry for a format, bits. */
-enum { KD_CARRIES_PICTURE = 1 /* layer "rgb" */, KD_CARRIES_LIGHT = 2 /* frame->light */ };
+enum { KD_CARRIES_PICTURE = 1 /* layer "rgb" */, KD_CARRIES_LIGHT = 2 /* frame->light */,
+       KD_CARRIES_LAYERS = 4 /* whatever image.layers names, as numbers: of the picture its linear light */ };
 
 struct kd_format {
     const char *name;       /* "png": of `format=`, and behind the last dot of a file's name; lower case */
@@ -41,7 +42,7 @@ struct kd_format {
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
 
-#define KD_FORMATS(FORMAT) FORMAT(png)
+#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(npy)
 #define KD_FORMAT_DECLARE(name) extern const struct kd_format kd_format_##name;
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
@@ -55,8 +56,8 @@ const struct kd_format *kd_format_of_path(const char *path);                    
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size);       /* by its beginning; NULL: none */
 const struct kd_format *kd_format_live(void);                                    /* what live views are made of */
 
-/* The plan of a frame that carries what the format needs. What would show in none of it, auto exposure, is taken from the scene. Errors
- * as kd_plan_make. */
+/* The plan of a frame that carries what the format needs. What would show in none of it, auto exposure and layers, is taken from the
+ * scene. Errors as kd_plan_make, and KD_EINVAL at /image/layers for more of them than the format holds. */
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error);
 

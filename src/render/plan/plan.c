@@ -22,9 +22,11 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
-WHEN(film, scene->style.tone_map == KD_TONE_ACES)
-WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL)
-WHEN(bloom, plan->bloom.levels)
+WHEN(film, scene->style.tone_map == KD_TONE_ACES && !kd_plan_is_map(plan))
+WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !kd_plan_is_map(plan))
+WHEN(bloom, plan->bloom.levels && !kd_plan_is_map(plan))
+WHEN(maps, plan->n_layers > 0)
+WHEN(coloured, kd_plan_is_map(plan))
 WHEN(projected, plan->ring)
 WHEN(single, plan->setting.precision == KD_PRECISION_F32)
 WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
@@ -41,6 +43,8 @@ static const struct sentence {
     { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance", neutral },
     { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave the picture stays "
       "at its edge", bloom },
+    { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
+    { "layers: a picture of a map has false colours; NPY has its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
     { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
     { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
@@ -155,8 +159,10 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
     uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t row_layers = 4ull * plan->n_layers * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
-    uint64_t rows = (buffer_bytes(c) - 64) / widest, fit = rows_of_groups(plan, c);
+    widest = row_layers > widest ? row_layers : widest;
+    uint64_t rows = (buffer_bytes(c) - 64 - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
         return kd_error_set(error, KD_ETOOBIG, "one row of the picture needs %llu bytes, this device binds %llu at once",
                             (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
@@ -168,9 +174,10 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
     plan->lens_bytes = row_lens * plan->height + at_curve;
-    plan->host_bytes = row_out * plan->height;
+    plan->host_bytes = (row_out + row_layers + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
     uint64_t fixed = kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
-                     plan->bloom.bytes + (plan->light ? 2 * kd_light_bytes(plan) : 0);
+                     plan->bloom.bytes + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
+                     plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
 }
@@ -290,6 +297,9 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     bool map = (by->engine == KD_ENGINE_MINO_RKN4 || by->engine == KD_ENGINE_MINO_RKN6) && by->precision == KD_PRECISION_F32 &&
                !kd_plan_holds(plan, KD_LENS_DELAY); /* which only listed rays know */
     plan->path = map ? KD_LENS_MAP : KD_LENS_LISTED;
+    if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene) && !scene->disk.slow_light)
+        return kd_error_field(error, "/image/layers", "image.layers holds delay, which is not known inside the ergosphere, camera.r %.9g",
+                              scene->camera.r);
     if (kd_plan_holds(plan, KD_LENS_DELAY) && !outside(scene))
         return kd_error_field(error, "/disk/slow_light",
                               "disk.slow_light is true, allowed inside the ergosphere, camera.r %.9g, is false", scene->camera.r);
@@ -318,12 +328,16 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.quantities |= plan.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
+    plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
+    plan.radiance = needs->radiance && plan.picture;
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && plan.ring)
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\", allowed are \"plane\" and \"pinhole\" where light is measured: "
                               "areas of the ring projection are not to scale");
-    enum kd_status status = choose(&plan, scene, capacity, error);
+    enum kd_status status = kd_layers_check(scene, error);
+    if (!status)
+        status = choose(&plan, scene, capacity, error);
     if (status)
         return status;
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
@@ -356,7 +370,7 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
 struct kd_needs kd_needs_of(const struct kd_scene *scene)
 {
     return (struct kd_needs) {
-        .quantities = kd_emit_needs(scene),
+        .quantities = kd_emit_needs(scene) | kd_layers_needs(scene),
         .light = kd_emit_apart(scene) && scene->camera.projection != KD_PROJECTION_RING,
     };
 }

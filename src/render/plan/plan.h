@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "render/accuracy/engine.h"
 #include "render/plan/bloom.h"
+#include "render/plan/layer_kinds.h"
 #include "render/plan/pass.h"
 #include "scene/scene.h"
 #include "lens.h"
@@ -60,6 +61,10 @@ struct kd_plan {
     bool light;                     /* flux and centroid are measured */
     bool unseen;                    /* no pixels are made of the radiance */
     bool ring;                      /* rays are listed, round the critical curve */
+    struct kd_plan_layer layers[KD_WORDS_MOST]; /* maps of numbers beside the picture */
+    size_t n_layers;
+    bool picture;                   /* the picture is among image.layers */
+    bool radiance;                  /* and linear light is brought to the host too */
     uint32_t quantities;            /* of the lens map, KD_LENS_... */
     uint32_t orders;                /* crossings a ray */
     uint32_t planes;                /* 4-byte values a ray in the lens map */
@@ -117,6 +122,18 @@ static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->r
 /* Of linear light, a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }
 
+/* Of one layer, a band of pixels: a multiple of what a binding may begin at. */
+static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->width * plan->band_rows + 255) / 256 * 256; }
+
+/* What layers need to come to the host a band at a time. */
+static inline uint64_t kd_plan_readback_bytes(const struct kd_plan *plan)
+{
+    return (plan->radiance ? 12ull : plan->n_layers ? 4ull : 0) * plan->width * plan->band_rows;
+}
+
+/* Whether the one layer that is asked for is a map: then the picture is that in false colour. */
+static inline bool kd_plan_is_map(const struct kd_plan *plan) { return plan->n_layers == 1 && !plan->picture; }
+
 /* Stops to apply where the picture alone would have `stops`. */
 double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
@@ -125,6 +142,7 @@ struct kd_needs {
     uint32_t quantities; /* KD_LENS_... */
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
     bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layer "rgb" */
+    bool radiance;       /* and that linear light be among the layers, where the picture is asked for */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,

@@ -168,7 +168,7 @@ static void add_fields(struct kd_json *json, const cJSON *schema, const char *pr
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", property->string);
         if (cJSON_GetObjectItemCaseSensitive(property, "deprecated"))
             continue;
-        if (cJSON_GetObjectItemCaseSensitive(property, "items")) {
+        if (cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(property, "items"), "properties")) {
             add_elements(json, property, name);
             continue;
         }

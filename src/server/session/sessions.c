@@ -57,6 +57,9 @@ struct kd_scene kd_session_scene(const struct kd_session *s, double now)
 
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {
+    if (plan->n_layers + plan->picture > 1)
+        return kd_error_field(error, "/image/layers", "image.layers holds %zu, allowed in a session, which shows a picture, is one",
+                              plan->n_layers + plan->picture);
     if (plan->estimate_ms <= all->params.longest_s * 1e3)
         return KD_OK;
     return kd_error_set(error, KD_ETOOBIG, "a frame of this scene would take about %.0f s, more than the %u s a render may take",

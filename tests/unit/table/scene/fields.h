@@ -3,19 +3,19 @@
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
 
-#define KD_PLACE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                  \
+#define KD_PLACE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                           \
     REAL(place, width, PHYSICS, FRONT, 2.0, 0.0, 10.0, "M", "how wide")                                      \
     ASSET(place, map, MODEL, REST, "what lies there")
-#define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                 \
+#define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                          \
     BOOL(bodies, dark, LOOK, FRONT, true, "whether it is dark")                                              \
     ENUM(bodies, shape, MODEL, FRONT, 1, "its shape", "ball|disk|ring")                                      \
     ASSET(bodies, texture, LOOK, REST, "its surface")                                                        \
     INT(bodies, moons, PHYSICS, REST, 3, 0, 9, "1", "how many moons")                                        \
     WORD(bodies, r, MODEL, REST, INFINITY, 1.0, 50.0, "M", "where it is", "far")
-#define KD_STOPS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                  \
+#define KD_STOPS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                           \
     REAL(stops, time, PHYSICS, FRONT, 0.5, -1.0, 1.0, "M", "when")                                           \
     ASSET(stops, sound, LOOK, FRONT, "what is heard")
-#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET)                                                    \
+#define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                             \
     REAL(top, time, PHYSICS, FRONT, 0.0, -5.0, 5.0, "M", "time")                                             \
     ASSET(top, film, LOOK, REST, "all of it")
 

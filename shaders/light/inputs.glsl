@@ -1,0 +1,46 @@
+/* What kernels read that make light of a lens map: camera, map, numbers and tables of the emitters, their grid. Bindings 0, 1, 2, 4 and 5;
+ * 3 is what they write. Needs the specialisation constants of KD_SPEC_TRANSFER. */
+#ifndef KD_INPUTS_GLSL
+#define KD_INPUTS_GLSL
+
+#include "shared/math.glsl"
+#include "ray/kerr_ray.glsl"
+#include "ray/planes.glsl"
+#include "shared/emitters.h"
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+#define F(name) float name;
+#define U(name) uint name;
+#define A(type, name, count) type name[count];
+#define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
+#define MEMBER(number, name) kd_##name##_block name;
+layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+struct kd_spot_block { KD_BLOCK_spot(F, U) };
+KD_EMIT_BLOCKS(BLOCK)
+layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
+/* What is the same for all invocations, read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
+struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
+#define READ(number, name) emission.name = emission_.name;
+layout(set = 0, binding = 2) uniform textureBuffer tables;
+#define TABLE(name, first, rows) const uint KD_TABLE_##name = first;
+KD_EMIT_TABLES(TABLE)
+vec4 kd_table_row(uint table, uint row) { return texelFetch(tables, int(table + row)); }
+layout(set = 0, binding = 4) readonly buffer Density { float density[]; };
+#define KD_CAMERA_BINDING 5
+#include "ray/camera.glsl"
+#include "ray/place.glsl"
+#include "light/compose.glsl"
+
+const bool SLOW = (QUANTITIES & KD_LENS_DELAY) != 0u;
+
+float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? lens[at + kd_plane(which) * slice.stride] : 0.0; }
+
+/* Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
+float kd_carter_of_slope(float energy, float momentum, float w, float slope)
+{
+    float w2 = w * w, ae = cam.spin * energy, j = momentum - ae;
+    float rest = energy * energy + (ae * ae - momentum * momentum) * w2 + 2.0 * j * j * w2 * w - slope * slope;
+    return rest / (w2 * kd_delta(w, cam.root));
+}
+
+#endif

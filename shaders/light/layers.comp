@@ -1,0 +1,156 @@
+/* One layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's number, NaN where there is none. LAYER says
+ * which, ORDER of which crossing. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
+#include "shared/layers.h"
+#include "light/inputs.glsl"
+layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
+
+/* A device need not keep NaN in arithmetic: it is told from numbers, and written, by its bits. */
+#define KD_NOTHING_BITS 0x7fc00000u
+#define KD_INFINITE_BITS 0x7f800000u
+#define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)
+
+#define NOT_LIGHT_(number, name, needs)
+#define NOT_(number, name, needs, value)
+#define IS_LIGHT_(number, name, needs) || LAYER == number
+#define IS_(number, name, needs, value) || LAYER == number
+const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_);
+const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_);
+
+/* Frequency as the observer measures it over that in the frame of the gas, whether a picture shows that or not. */
+float kd_layer_g(kd_sample s)
+{
+    if (kd_plunge_falls(s))
+        return kd_plunge_shift(s, true, true);
+    return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
+}
+
+/* Of the black body that the gas shines as, in its own frame, K. */
+float kd_layer_temperature(kd_sample s)
+{
+    if (kd_plunge_falls(s))
+        return emission.plunge.temperature * emission.disk.peak;
+    float r = 1.0 / s.w, t = emission.disk.peak * kd_disk_heat(s.w) * inversesqrt(r * sqrt(r));
+    return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s)) : t; /* its flux goes as the fourth power */
+}
+
+/* That of what shines there, along the ray: -ln of the part of the light from behind that it lets through. */
+float kd_layer_depth(kd_sample s)
+{
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    kd_beam_at(beam, s);
+    return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
+}
+
+/* Azimuth in (-pi, pi]. */
+float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
+
+/* From its cosine. For the angle between the light and the normal of the disk, in the frame of the gas, that is g |p_theta| / r: the
+ * photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial plane, over its energy there, 1/g; gas that stays
+ * in the plane, however it moves in it, sees the normal along theta (Carter 1968). */
+float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
+
+/* A footprint; a ray without neighbours has none. */
+float kd_layer_size(float footprint) { return footprint < KD_FOOTPRINT_EDGE ? footprint : KD_NOTHING; }
+
+kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
+{
+    uint plane = at + n * slice.stride;
+    bool listed = (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays round the critical curve, which the camera does not know */
+    float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
+    float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0, slope = quantity(KD_LENS_SLOPE, plane);
+    float q = listed ? kd_carter_of_slope(ray.e, momentum, w, slope) : kd_geodesic_of(ray, cam.spin, cam.u, cam.s).q;
+    return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
+}
+
+/* Luminance of a ray: of all that it sees, or of one order, as it arrives. */
+float light(uvec2 place, uint at)
+{
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    kd_ray ray = kd_camera_ray(place.x, place.y);
+    bool given_up = false;
+    for (uint n = 0; KD_GLOWS && n < (ORDER == KD_NO_ORDER ? ORDERS : ORDER + 1u); n++) {
+        float w = lens[at + n * slice.stride];
+        if (ORDER != KD_NO_ORDER)
+            beam.light = vec3(0.0);
+        given_up = given_up || w < 0.0;
+        if (w <= 0.0)
+            break;
+        kd_beam_at(beam, sample_at(n, w, at, ray));
+    }
+    if (ORDER == KD_NO_ORDER && (QUANTITIES & KD_LENS_FATE) != 0u) {
+        float fate = quantity(KD_LENS_FATE, at);
+        given_up = given_up || fate == KD_FATE_UNDECIDED;
+        if (fate == KD_FATE_ESCAPED)
+            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at)));
+    }
+    return given_up ? KD_NOTHING : dot(beam.light, vec3(0.2126, 0.7152, 0.0722));
+}
+
+/* Of a crossing, which lies on the disk. */
+float value_of(kd_sample s, float delay)
+{
+#define VALUE_(number, name, needs, value)                                                                     \
+    if (LAYER == number)                                                                                       \
+        return value;
+    KD_LAYERS(NOT_LIGHT_, VALUE_, NOT_)
+    return KD_NOTHING;
+}
+
+float of_crossing(uvec2 place, uint at)
+{
+    kd_ray ray = kd_camera_ray(place.x, place.y);
+    for (uint n = 0; n < ORDERS; n++) {
+        float w = lens[at + n * slice.stride];
+        if (w <= 0.0)
+            break;
+        kd_sample s = sample_at(n, w, at, ray);
+        bool on = w * emission.frame.inner <= 1.0 && w * emission.frame.outer >= 1.0;
+        if ((on || kd_plunge_falls(s)) && (ORDER == KD_NO_ORDER || n == ORDER))
+            return value_of(s, quantity(KD_LENS_DELAY, at + n * slice.stride));
+    }
+    return KD_NOTHING;
+}
+
+float of_end(uint at)
+{
+    float fate = quantity(KD_LENS_FATE, at);
+    kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at));
+    KD_LAYERS(NOT_LIGHT_, NOT_, VALUE_)
+    return KD_NOTHING;
+}
+
+void main()
+{
+    kd_camera_read();
+    KD_EMIT_BLOCKS(READ)
+    uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
+    if (px >= (CRITICAL > 0 ? slice.rows : emission.frame.pixels_x))
+        return;
+    if (CRITICAL > 0) {
+        listed = slice.row0 + px;
+        uvec2 pixel = kd_listed_pixel(listed);
+        px = pixel.x;
+        py = pixel.y;
+    }
+    float value = 0.0;
+    if (OF_LIGHT) {
+        const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
+        for (uint i = 0; i < rays; i++) {
+            uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
+            value += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x);
+        }
+        value *= 1.0 / float(rays);
+    } else {
+        uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u; /* of the grid: the middle one, or the one before it */
+        uint at = (place.y - slice.band0) * cam.width + place.x;
+        value = OF_CROSSING ? of_crossing(place, at) : of_end(at);
+    }
+    uint o = (py - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + px;
+    uint bits = floatBitsToUint(value);
+    layer[o] = kd_is_finite(value) || bits == KD_INFINITE_BITS ? bits : KD_NOTHING_BITS;
+}

@@ -1,0 +1,122 @@
+/* Maps of numbers: from the device to the frame's layers, and of one of them a picture in false colour. */
+#include "render/frame/job.h"
+
+#include "image/legend.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    if (plan->radiance)
+        status = kd_frame_add_layer(frame, "radiance", 3, KD_LAYER_F32, error);
+    for (size_t i = 0; i < plan->n_layers && !status; i++) {
+        char name[KD_LAYER_NAME];
+        kd_layer_name(plan->layers[i], name);
+        status = kd_frame_add_layer(frame, name, 1, KD_LAYER_F32, error);
+    }
+    return status;
+}
+
+/* One band of a layer, as far as there is light. */
+static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *from, uint64_t offset, const struct kd_layer *to)
+{
+    struct kd_vk *vk = j->r->vk;
+    size_t pixel = kd_layer_pixel_bytes(to), bytes = pixel * j->plan->width * kd_frame_band_lit(j, band);
+    size_t first = pixel * j->plan->width * kd_frame_band_first(j, band);
+    enum kd_status status;
+    KD_TRY(kd_vk_copy(vk, "readback", j->store->readback, 0, from, offset, bytes, j->error));
+    KD_TRY(kd_vk_submit(vk, NULL, j->error));
+    KD_TRY(kd_vk_wait(vk, 0, j->error));
+    memcpy((char *)to->data + first, kd_vk_buffer_map(j->store->readback), bytes);
+done:
+    return status;
+}
+
+static enum kd_status read_all(struct kd_frame_job *j)
+{
+    const struct kd_plan *p = j->plan;
+    struct kd_layer *layer = &j->frame->layers[1];
+    enum kd_status status = KD_OK;
+    for (uint32_t band = 0; band < p->bands && kd_frame_band_lit(j, band) && !status; band++) {
+        if (p->radiance)
+            status = read_band(j, band, j->store->radiance.buffers[band], 0, layer);
+        for (size_t i = 0; i < p->n_layers && !status; i++)
+            status = read_band(j, band, j->store->layers.buffers[band], i * kd_plan_layer_bytes(p), &layer[i + (p->radiance ? 1 : 0)]);
+    }
+    return status;
+}
+
+/* Least and largest of the numbers; 0 and 1 where there are none. */
+static struct kd_map_scale extent_of(const float *values, size_t n)
+{
+    struct kd_map_scale extent = { INFINITY, -INFINITY, false };
+    for (size_t i = 0; i < n; i++) {
+        if (isinf(values[i]))
+            continue;
+        extent.low = values[i] < extent.low ? values[i] : extent.low; /* false of NaN */
+        extent.high = values[i] > extent.high ? values[i] : extent.high;
+    }
+    return extent.low <= extent.high ? extent : (struct kd_map_scale) { 0, 1, false };
+}
+
+/* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is logarithmic, so that
+ * its ends are as far from there. */
+static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values, size_t n)
+{
+    const struct kd_map_scale extent = extent_of(values, n);
+    struct kd_map_scale scale = kind->scale;
+    double most = fmax(extent.high, 1 / fmax(extent.low, 1e-3));
+    bool about_one = kind->map == KD_MAP_DIVERGING && scale.logarithmic;
+    scale.low = !isnan(scale.low) ? scale.low : about_one ? 1 / fmax(most, 1.01) : extent.low;
+    scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : extent.high;
+    scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
+    scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
+    return scale;
+}
+
+static void paint(const struct kd_canvas *to, uint32_t rows, const float *values, const struct kd_legend *legend, const struct kd_map_table *table)
+{
+    for (uint32_t y = 0; y < rows; y++)
+        for (uint32_t x = 0; x < to->width; x++) {
+            double value = values[(size_t)y * to->width + x];
+            struct kd_map_colour c = { 0, 0, 0 };
+            if (!isnan(value))
+                c = legend->map == KD_MAP_CATEGORICAL ? kd_colour_map_at(KD_MAP_CATEGORICAL, value)
+                                                      : kd_map_table_at(table, kd_map_scale_place(&legend->scale, value));
+            kd_canvas_put(to, x, y, c);
+        }
+}
+
+static enum kd_status show(struct kd_frame_job *j)
+{
+    const struct kd_layer *layer = &j->frame->layers[1];
+    const struct kd_layer_kind *kind = &kd_layer_kinds[j->plan->layers[0].kind];
+    const struct kd_canvas canvas = { kd_frame_pixels(j->frame), j->frame->width, j->frame->height, kd_frame_bit_depth(j->frame) };
+    struct kd_map_table *table = malloc(sizeof *table);
+    char title[KD_LAYER_NAME + 16];
+    size_t n = (size_t)canvas.width * j->lit;
+    if (!table)
+        return kd_error_set(j->error, KD_ENOMEM, "out of memory for the colours of a layer");
+    snprintf(title, sizeof title, *kind->unit ? "%s (%s)" : "%s", layer->name, kind->unit);
+    const struct kd_legend legend = {
+        .title = title, .map = kind->map, .scale = scale_of(j->scene, kind, layer->data, n), .names = kind->classes,
+        .classes = kind->n_classes ? kind->n_classes : (uint32_t)extent_of(layer->data, n).high + 1,
+    };
+    if (kind->map != KD_MAP_CATEGORICAL)
+        kd_colour_map_fill(table, kind->map);
+    paint(&canvas, j->lit, layer->data, &legend, table);
+    if (j->scene->image.legend)
+        kd_legend_draw(&canvas, &legend);
+    free(table);
+    return KD_OK;
+}
+
+enum kd_status kd_frame_layers(struct kd_frame_job *j)
+{
+    enum kd_status status = j->plan->n_layers || j->plan->radiance ? read_all(j) : KD_OK;
+    return !status && kd_plan_is_map(j->plan) ? show(j) : status;
+}

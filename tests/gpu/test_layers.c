@@ -1,0 +1,382 @@
+/* Layers against the Kerr-Schild oracle, which shares no equation with the kernels: it integrates the photon's momentum in Cartesian
+ * coordinates, from which g and the angle to the disk's normal follow by the metric of the plane alone. And layers of light against the
+ * picture's own linear light.
+ *
+ * How far a number may be off: some last bits of a float, times how much it changes where the ray is changed by as much, which is
+ * measured on the oracle itself. */
+#include "kerr_schild.h"
+#include "image/colour_map.h"
+#include "physics/disk.h"
+#include "physics/kerr.h"
+#include "render/output/format.h"
+
+#include "interface.h"
+#include "render_support.h"
+
+#include <math.h>
+
+enum { WIDTH = 28, HEIGHT = 20, PIXELS = WIDTH * HEIGHT, ORDERS = 2 };
+
+static struct kd_scene scene_of(double spin, double inclination, double r, const char *layers)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.image.critical_factor = 1;
+    scene.spacetime.spin = spin;
+    scene.camera.inclination_deg = inclination;
+    scene.camera.r = r;
+    scene.camera.azimuth_deg = 130;
+    scene.camera.field_m = 34;
+    scene.camera.fov_deg = 60;
+    scene.disk.outer = 15;
+    scene.disk.taper = 0;
+    scene.accuracy.orders = ORDERS;
+    OK(kd_scene_set(&scene, "image.layers", layers, &error));
+    OK(kd_scene_validate(&scene, &error));
+    return scene;
+}
+
+/* By the format NPY, which takes any layers. */
+static struct kd_plan plan_of(struct kd_scene *scene, uint64_t most_bytes)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    kd_renderer_capacity(renderer, &c);
+    if (most_bytes)
+        c.max_binding_bytes = most_bytes;
+    OK(kd_format_plan(&kd_format_npy, scene, &c, &plan, &error));
+    return plan;
+}
+
+static struct kd_frame frame_of(struct kd_scene *scene)
+{
+    struct kd_frame frame;
+    const struct kd_plan plan = plan_of(scene, 0);
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+static const float *layer(const struct kd_frame *frame, const char *name)
+{
+    const struct kd_layer *found = kd_frame_layer(frame, name);
+    if (!found)
+        fail_msg("the frame has no layer %s", name);
+    return found->data;
+}
+
+/* The oracle's path of a pixel's middle, of a ray scaled by so much. */
+static struct ks_path path_of(const struct kd_scene *scene, int pixel, double scale, int crossings, double *energy)
+{
+    bool far = isinf(scene->camera.r);
+    double theta = scene->camera.inclination_deg * M_PI / 180;
+    double step = scale * (far ? scene->camera.field_m : 2 * tan(scene->camera.fov_deg * M_PI / 360)) / WIDTH;
+    double x = step * (pixel % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (pixel / WIDTH - 0.5 * (HEIGHT - 1));
+    double n = 1 / sqrt(1 + x * x + y * y), k[3] = { -n, -y * n, x * n };
+    const struct ks_photon photon = far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y)
+                                        : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+    *energy = photon.energy;
+    return ks_trace(photon, crossings);
+}
+
+/* -(ds/dt)^2 on a circle in the plane, and where it pulls neither in nor out: g_tt = -(1 - 2/r), g_tphi = -2a/r,
+ * g_phiphi = r^2 + a^2 + 2a^2/r. */
+static double line(double a, double r, double omega) { return (1 - 2 / r) + 4 * a / r * omega - (r * r + a * a + 2 * a * a / r) * omega * omega; }
+static double omega_of(double a, double r)
+{
+    double low = 0, high = 1 / r, h = 1e-3 * r;
+    for (int i = 0; i < 60; i++) {
+        double w = 0.5 * (low + high);
+        double pull = 8 * (line(a, r + h, w) - line(a, r - h, w)) - line(a, r + 2 * h, w) + line(a, r - 2 * h, w);
+        *(pull > 0 ? &low : &high) = w;
+    }
+    return 0.5 * (low + high);
+}
+
+/* What the layers are at a crossing: g, r, phi, delay, emission angle. */
+enum { G, R, PHI, DELAY, ANGLE, KINDS };
+static const char *const names[KINDS] = { "g", "r", "phi", "delay", "emission_angle" };
+
+static void expected(const struct kd_scene *scene, const struct ks_path *path, int n, double energy, double out[KINDS])
+{
+    double a = scene->spacetime.spin, r = path->r[n], omega = omega_of(a, r);
+    double emitted = (energy - omega * path->momentum[n]) / sqrt(line(a, r, omega)); /* -p.u */
+    out[G] = 1 / emitted;
+    out[R] = r;
+    out[PHI] = path->phi[n] + scene->camera.azimuth_deg * M_PI / 180;
+    out[DELAY] = path->delay[n];
+    out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted, 1)); /* in the plane the unit normal is along z, which the gas does not move in */
+}
+
+static double apart(int kind, double x, double y) { return kind == PHI ? fabs(remainder(x - y, 2 * M_PI)) : fabs(x - y); }
+
+/* Whether a crossing is on the disk; false also where it is so close to an edge that a float may have it on either side. */
+static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
+{
+    double in = kd_kerr_isco(scene->spacetime.spin), out = scene->disk.outer, r = path->r[n];
+    bool there = n < path->crossings;
+    *near = there && (fabs(r / in - 1) < 1e-3 || fabs(r / out - 1) < 1e-3);
+    return there && r > in && r < out;
+}
+
+static void judge(const struct kd_scene *scene, const struct kd_frame *frame, const float *values[KINDS][ORDERS], bool delay)
+{
+    double worst[KINDS] = { 0 };
+    int compared = 0;
+    for (int k = 0; k < PIXELS; k++) {
+        double energy, other;
+        struct ks_path path = path_of(scene, k, 1, ORDERS, &energy), beside = path_of(scene, k, 1 + 1e-6, ORDERS, &other);
+        int first = -1;
+        bool unsure = false;
+        for (int n = 0; n < ORDERS; n++) {
+            bool near, on = on_disk(scene, &path, n, &near);
+            double want[KINDS], moved[KINDS];
+            unsure |= near || (first < 0 && path.crossings != beside.crossings);
+            if (near || path.crossings != beside.crossings)
+                continue;
+            if (isnan(values[R][n][k]) == on)
+                fail_msg("spin %g, pixel %d, order %d: %g, the oracle has %g", scene->spacetime.spin, k, n, values[R][n][k], path.r[n]);
+            if (!on)
+                continue;
+            first = first < 0 ? n : first;
+            expected(scene, &path, n, energy, want);
+            expected(scene, &beside, n, other, moved);
+            for (int i = 0; i < KINDS; i++) {
+                if (i == DELAY && !delay)
+                    continue;
+                double gain = apart(i, moved[i], want[i]) / 1e-6, scale = i == R || i == DELAY ? 1 + fabs(want[i]) : 1;
+                double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1; /* of the arc cosine */
+                worst[i] = fmax(worst[i], apart(i, values[i][n][k], want[i]) / (scale * steep + gain));
+            }
+            compared++;
+        }
+        const float *orders = layer(frame, "order"), *g = layer(frame, "g");
+        if (unsure)
+            continue;
+        assert_true(first < 0 ? isnan(orders[k]) && isnan(g[k]) : orders[k] == first && g[k] == values[G][first][k]);
+    }
+    print_message("a %6.3f, i %2.0f, r %4g: %4d crossings, worst", scene->spacetime.spin, scene->camera.inclination_deg, scene->camera.r, compared);
+    for (int i = 0; i < KINDS; i++)
+        print_message(" %s %.1e", names[i], worst[i]);
+    print_message("\n");
+    assert_true(compared > PIXELS / 4);
+    for (int i = 0; i < KINDS; i++)
+        assert_true(worst[i] < (i == DELAY ? 2e-5 : 4e-6)); /* of g and angles ten times what is seen; delays are by the steps of the profile */
+}
+
+static void test_crossings(void **state)
+{
+    (void)state;
+    static const struct { double a, i, r; bool delay; } views[] = {
+        { 0, 60, INFINITY, false }, { 0.9, 75, INFINITY, false }, { 0.998, 85, INFINITY, true },
+        { -0.7, 30, INFINITY, false }, { 0.9, 70, 25, false },    { 0.5, 80, 30, true },
+    };
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
+        struct kd_scene scene = scene_of(views[v].a, views[v].i, views[v].r,
+                                         views[v].delay ? "g_0,r_0,phi_0,emission_angle_0,g_1,r_1,phi_1,emission_angle_1,order,g,delay_0,delay_1"
+                                                        : "g_0,r_0,phi_0,emission_angle_0,g_1,r_1,phi_1,emission_angle_1,order,g");
+        struct kd_frame frame = frame_of(&scene);
+        const float *values[KINDS][ORDERS];
+        for (int i = 0; i < KINDS; i++)
+            for (int n = 0; n < ORDERS && (i != DELAY || views[v].delay); n++) {
+                char name[40];
+                snprintf(name, sizeof name, "%s_%d", names[i], n);
+                values[i][n] = layer(&frame, name);
+            }
+        judge(&scene, &frame, values, views[v].delay);
+        kd_frame_finish(&frame);
+    }
+}
+
+/* Directions in the sky, by the oracle; and fates. */
+static void test_ends(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 75, INFINITY, "sky_theta,sky_phi,fate");
+    struct kd_frame frame = frame_of(&scene);
+    const float *theta = layer(&frame, "sky_theta"), *phi = layer(&frame, "sky_phi"), *fate = layer(&frame, "fate");
+    int compared = 0;
+    for (int k = 0; k < PIXELS; k++) {
+        double energy, azimuth = scene.camera.azimuth_deg * M_PI / 180;
+        struct ks_path path = path_of(&scene, k, 1, 16, &energy), beside = path_of(&scene, k, 1 + 1e-6, 16, &energy);
+        if (path.fate == KS_UNDECIDED || path.fate != beside.fate)
+            continue;
+        assert_true(fate[k] == (path.fate == KS_ESCAPED ? KD_FATE_ESCAPED : KD_FATE_CAPTURED));
+        assert_true(isnan(theta[k]) == (path.fate != KS_ESCAPED) && isnan(phi[k]) == isnan(theta[k]));
+        if (path.fate != KS_ESCAPED)
+            continue;
+        double want = acos(path.u), gain = fabs(acos(beside.u) - want) / 1e-6, turn = fabs(remainder(beside.sky_phi - path.sky_phi, 2 * M_PI)) / 1e-6;
+        assert_true(fabs(theta[k] - want) < 2e-6 * (1 + gain) / fmax(sin(want), 1e-2));
+        assert_true(fabs(remainder(phi[k] - path.sky_phi - azimuth, 2 * M_PI)) < 2e-6 * (1 + turn) / fmax(sin(want), 1e-2));
+        assert_true(phi[k] > -M_PI - 1e-5 && phi[k] < M_PI + 1e-5);
+        compared++;
+    }
+    assert_true(compared > PIXELS / 2);
+    kd_frame_finish(&frame);
+}
+
+static double luminance(const float *rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+
+/* Of each order the light that arrives; all of them and the sky are the picture's luminance, whatever rays it is the mean of. */
+static void test_light(void **state)
+{
+    (void)state;
+    static const char *const settings[][2] = { { "image.samples", "1" }, { "image.samples", "2" }, { "image.critical_factor", "4" },
+                                               { "disk.opacity", "0.4" }, { "sky.model", "grid" }, { "disk.model", "particles" } };
+    for (size_t s = 0; s < sizeof settings / sizeof *settings; s++) {
+        struct kd_scene scene = scene_of(0.9, 75, INFINITY, "rgb,intensity,intensity_0,intensity_1,intensity_2");
+        scene.accuracy.orders = 3;
+        OK(kd_scene_set(&scene, settings[s][0], settings[s][1], &error));
+        struct kd_frame frame = frame_of(&scene);
+        const float *all = layer(&frame, "intensity"), *rgb = layer(&frame, "radiance");
+        const float *parts[] = { layer(&frame, "intensity_0"), layer(&frame, "intensity_1"), layer(&frame, "intensity_2") };
+        double most = 0, higher = 0, rest = 0;
+        for (int k = 0; k < PIXELS; k++)
+            most = fmax(most, all[k]);
+        for (int k = 0; k < PIXELS; k++) {
+            double sum = (double)parts[0][k] + parts[1][k] + parts[2][k];
+            assert_true(fabs(all[k] - luminance(rgb + 3 * k)) <= 1e-6 * most);
+            assert_true(scene.sky.model ? all[k] - sum >= -1e-6 * most : fabs(all[k] - sum) <= 1e-6 * most);
+            higher += parts[1][k] + parts[2][k];
+            rest += all[k] - sum;
+        }
+        assert_true(most > 0.5 && higher > 0);
+        assert_true((rest > 0.01 * PIXELS) == (scene.sky.model != 0));
+        kd_frame_finish(&frame);
+    }
+}
+
+/* What arrives of a black body is (g T)^4, T that of the flux at its radius; and an opaque crossing is infinitely deep. */
+static void test_temperature(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 75, INFINITY, "r_0,g_0,temperature_0,intensity_0,optical_depth_0,intensity_1");
+    double largest = kd_disk_flux_page_thorne(0.9, kd_disk_peak_page_thorne(0.9));
+    for (int clear = 0; clear < 2; clear++) {
+        scene.disk.opacity = clear ? 0.25 : 1;
+        struct kd_frame frame = frame_of(&scene);
+        const float *r = layer(&frame, "r_0"), *g = layer(&frame, "g_0"), *t = layer(&frame, "temperature_0");
+        const float *light = layer(&frame, "intensity_0"), *depth = layer(&frame, "optical_depth_0");
+        int n = 0;
+        for (int k = 0; k < PIXELS; k++) {
+            assert_true(isnan(t[k]) == isnan(r[k]) && isnan(depth[k]) == isnan(r[k]));
+            if (isnan(r[k]) || r[k] < 1.01 * kd_kerr_isco(0.9))
+                continue;
+            double want = scene.disk.peak_temperature_k * pow(kd_disk_flux_page_thorne(0.9, r[k]) / largest, 0.25);
+            assert_true(fabs(t[k] / want - 1) < 2e-4); /* the table is linear between 1024 nodes */
+            assert_true(fabs(light[k] / (scene.disk.opacity * pow(g[k] * t[k] / scene.disk.peak_temperature_k, 4)) - 1) < 1e-5);
+            assert_true(clear ? fabs(depth[k] + log(0.75)) < 1e-6 : isinf(depth[k]));
+            n++;
+        }
+        assert_true(n > PIXELS / 8);
+        kd_frame_finish(&frame);
+    }
+}
+
+/* x.y of covariant components in the plane, but for those along r and theta: by the inverse metric. */
+static double product(double a, double r, double x_t, double x_phi, double y_t, double y_phi)
+{
+    double delta = r * r - 2 * r + a * a;
+    return (-(r * r + a * a + 2 * a * a / r) * x_t * y_t - 2 * a / r * (x_t * y_phi + x_phi * y_t) + (1 - 2 / r) * x_phi * y_phi) / delta;
+}
+
+/* Gas that falls from the ISCO has a place, a temperature and a g: that of its four-velocity, which keeps the E and L it had there, its
+ * radial part by u.u = -1, that of the light by p.p = 0, with the sign of either way. */
+static void test_plunge(void **state)
+{
+    (void)state;
+    const double a = 0.3, isco = kd_kerr_isco(a), omega = omega_of(a, isco), ut = 1 / sqrt(line(a, isco, omega));
+    const double u_t = ut * (-(1 - 2 / isco) - 2 * a / isco * omega), u_phi = ut * (-2 * a / isco + (isco * isco + a * a + 2 * a * a / isco) * omega);
+    struct kd_scene scene = scene_of(a, 60, INFINITY, "r_0,g_0,temperature_0");
+    scene.disk.model = KD_DISK_PARTICLES;
+    scene.camera.field_m = 12;
+    struct kd_frame frame = frame_of(&scene);
+    const float *r = layer(&frame, "r_0"), *g = layer(&frame, "g_0"), *t = layer(&frame, "temperature_0");
+    int inside = 0;
+    for (int k = 0; k < PIXELS; k++) {
+        if (!(r[k] < 0.97 * isco))
+            continue;
+        double energy, p_t = -1;
+        const struct ks_path path = path_of(&scene, k, 1, ORDERS, &energy);
+        double x = path.r[0], l = path.momentum[0];
+        double u_r = -sqrt(fmax(-1 - product(a, x, u_t, u_phi, u_t, u_phi), 0)), p_r = sqrt(fmax(-product(a, x, p_t, l, p_t, l) - path.p_z[0] * path.p_z[0], 0));
+        double rest = product(a, x, u_t, u_phi, p_t, l); /* both radial parts are by a unit vector */
+        double in = -1 / (rest - u_r * p_r), out = -1 / (rest + u_r * p_r);
+        inside++;
+        assert_true(fabs(t[k] - 0.7 * scene.disk.peak_temperature_k) < 0.01);
+        if (!(fmin(fabs(g[k] - in), fabs(g[k] - out)) < 1e-4 * g[k])) /* near the horizon g is a small difference */
+            fail_msg("at r %g g is %.9g, of light that falls %.9g, that rises %.9g", x, g[k], in, out);
+    }
+    assert_true(inside > 50);
+    kd_frame_finish(&frame);
+}
+
+/* The same numbers to the bit in many bands, and from a lens map that is kept. */
+static void test_bands(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 75, INFINITY, "rgb,phi,intensity_1,footprint,fate");
+    struct kd_frame whole = frame_of(&scene), again = frame_of(&scene), parts;
+    scene.camera.azimuth_deg = 131; /* another picture, the same map */
+    struct kd_frame other = frame_of(&scene);
+    scene.camera.azimuth_deg = 130;
+    const struct kd_plan plan = plan_of(&scene, 7200);
+
+    assert_true(plan.bands > 2 && !whole.lens_reused && again.lens_reused && other.lens_reused);
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &parts, &error));
+    for (size_t i = 0; i < whole.n_layers; i++) {
+        size_t bytes = PIXELS * kd_layer_pixel_bytes(&whole.layers[i]);
+        assert_memory_equal(whole.layers[i].data, again.layers[i].data, bytes);
+        if (strcmp(whole.layers[i].name, "footprint")) /* at the edges of bands neighbours are to one side */
+            assert_memory_equal(whole.layers[i].data, parts.layers[i].data, bytes);
+    }
+    const float *a = layer(&whole, "phi"), *b = layer(&other, "phi");
+    for (int k = 0; k < PIXELS; k++)
+        assert_true(isnan(a[k]) ? isnan(b[k]) : fabs(remainder(b[k] - a[k] - M_PI / 180, 2 * M_PI)) < 1e-6);
+    kd_frame_finish(&whole);
+    kd_frame_finish(&again);
+    kd_frame_finish(&parts);
+    kd_frame_finish(&other);
+}
+
+/* One map alone is the picture: each pixel has the colour of its number, none is black; in 8 bits as in 16. */
+static void test_false_colour(void **state)
+{
+    (void)state;
+    for (int depth = 8; depth <= 16; depth += 8) {
+        struct kd_scene scene = scene_of(0.9, 75, INFINITY, "r");
+        struct kd_map_table table;
+        const struct kd_map_scale scale = { 2, 12, false };
+        scene.image.bit_depth = depth;
+        scene.image.layer_min = scale.low;
+        scene.image.layer_max = scale.high;
+        struct kd_frame frame = frame_of(&scene);
+        const float *r = layer(&frame, "r");
+        int coloured = 0;
+        kd_colour_map_fill(&table, KD_MAP_SEQUENTIAL);
+        for (int k = 0; k < PIXELS; k++) {
+            struct kd_map_colour c = isnan(r[k]) ? (struct kd_map_colour) { 0, 0, 0 } : kd_map_table_at(&table, kd_map_scale_place(&scale, r[k]));
+            const double want[3] = { c.r, c.g, c.b };
+            for (int i = 0; i < 3; i++) {
+                long got = depth == 16 ? ((uint16_t *)kd_frame_pixels(&frame))[3 * k + i] : ((uint8_t *)kd_frame_pixels(&frame))[3 * k + i];
+                assert_true(got == lround(want[i] * (depth == 16 ? 65535 : 255)));
+            }
+            coloured += !isnan(r[k]);
+        }
+        assert_true(coloured > PIXELS / 4);
+        kd_frame_finish(&frame);
+    }
+}
+
+int main(void)
+{
+    int status = open_renderer();
+    if (status)
+        return status;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_crossings), cmocka_unit_test(test_ends),  cmocka_unit_test(test_light),       cmocka_unit_test(test_temperature),
+        cmocka_unit_test(test_plunge),    cmocka_unit_test(test_bands), cmocka_unit_test(test_false_colour),
+    };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
