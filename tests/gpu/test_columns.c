@@ -28,7 +28,11 @@ static struct kd_frame render(const struct kd_scene *scene)
 static void assert_same_light(struct kd_scene scene)
 {
     const int w = 96, h = 60;
-    scene.image = (struct kd_image){ .width = w, .height = h, .samples = 2, .critical_factor = 1, .bit_depth = 16 };
+    scene.image.width = w;
+    scene.image.height = h;
+    scene.image.samples = 2;
+    scene.image.critical_factor = 1;
+    scene.image.bit_depth = 16;
     scene.style.tone_map = KD_TONE_SRGB;
     scene.style.exposure = -4;
     scene.style.dither = false;
