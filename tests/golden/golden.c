@@ -31,6 +31,8 @@ static const struct shot {
     { "edge-on", "edge-on", "{" SIZE "}" },
     { "face-on", "face-on", "{" SIZE "}" },
     { "photon-rings", "photon-rings", "{" SIZE "}" },
+    { "gas", "gas", "{\"time\":1000," SIZE "}" },
+    { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
     { "spots", NULL,
