@@ -100,11 +100,11 @@ class Negotiation(daemon.Case):
                        'image/x-exr, image/png;q=0.001', '*/*;q=0, image/png', ',,image/png', 'image/png;x="a,b;q=0"'):
             with self.subTest(accept):
                 self.assertEqual(self.daemon.get(target, Accept=accept).status, 200)
-        for accept in ('image/x-exr', 'application/fits', 'application/x-npy', 'text/html', 'image/png;q=0',
-                       '*/*, image/png;q=0', 'image/*;q=0, */*', 'image/png;q=2', 'image/png;q=x', ';;;', 'png', 'image'):
+        for accept in ('image/x-exr', 'application/fits', 'text/html', 'image/png;q=0', '*/*, image/png;q=0, application/x-npy;q=0',
+                       'image/*;q=0, */*, application/x-npy;q=0', 'image/png;q=2', 'image/png;q=x', ';;;', 'png', 'image'):
             with self.subTest(accept):
                 problem = self.assertProblem(self.daemon.get(target, Accept=accept), 406, 'not-acceptable')
-                self.assertEqual(problem['offered'], 'image/png')
+                self.assertEqual(problem['offered'], 'image/png, application/x-npy')
 
 class Log(unittest.TestCase):
     def test_no_token_and_no_whole_id(self):
