@@ -23,7 +23,7 @@
     RAY(10, sky_phi, KD_LENS_SKY, fate == KD_FATE_ESCAPED ? kd_layer_turned(end.phi + emission.frame.azimuth) : KD_NOTHING) \
     RAY(11, fate, KD_LENS_SKY, fate)                                                                           \
     CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint))                       \
-    RAY(13, sky_footprint, KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT, kd_layer_size(end.footprint))                  \
+    RAY(13, sky_footprint, KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT, fate == KD_FATE_ESCAPED ? kd_layer_size(end.footprint) : KD_NOTHING) \
     CROSSING(14, optical_depth, 0, kd_layer_depth(s))
 
 #endif

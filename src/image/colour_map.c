@@ -106,7 +106,7 @@ struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x)
 void kd_colour_map_fill(struct kd_map_table *table, enum kd_colour_map map)
 {
     for (size_t i = 0; i < KD_MAP_ENTRIES; i++)
-        table->at[i] = kd_colour_map_at(map, (double)i / (KD_MAP_ENTRIES - 1));
+        table->at[i] = kd_colour_map_at(map, map == KD_MAP_CATEGORICAL ? (double)i : (double)i / (KD_MAP_ENTRIES - 1));
 }
 
 double kd_map_scale_place(const struct kd_map_scale *scale, double value)

@@ -20,7 +20,7 @@ struct kd_map_colour { double r, g, b; };
 /* x is clamped to [0, 1], but for CATEGORICAL: a whole number from 0 on. 2 us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
-/* The same from a table, for many pixels: within 1/150 of a channel. */
+/* The same from a table, for many pixels: within 1/150 of a channel. Of CATEGORICAL, at[i] is that of class i. 2 ms. */
 enum { KD_MAP_ENTRIES = 1024 };
 struct kd_map_table { struct kd_map_colour at[KD_MAP_ENTRIES]; };
 void kd_colour_map_fill(struct kd_map_table *table, enum kd_colour_map map);

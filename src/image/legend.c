@@ -148,8 +148,8 @@ static size_t logarithmic_ticks(const struct kd_map_scale *scale, double room, s
 size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_tick out[KD_LEGEND_TICKS])
 {
     double length = fabs(scale->high - scale->low), step = length > 0 ? pow(10, floor(log10(length)) - 1) : 1;
-    if (!(length > 0) || !isfinite(length))
-        return take(scale, scale->low, out, 0);
+    if (!(length > 0) || !isfinite(length) || (scale->logarithmic && !(fmin(scale->low, scale->high) > 0)))
+        return take(scale, scale->low, out, 0); /* no scale: one number, or none */
     size_t n = scale->logarithmic ? logarithmic_ticks(scale, room, out) : 0;
     if (n > 1 || (n && fmax(scale->low, scale->high) > 10 * fmin(scale->low, scale->high)))
         return n;

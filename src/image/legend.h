@@ -31,7 +31,7 @@ enum { KD_LEGEND_LEAST_WIDTH = 160, KD_LEGEND_LEAST_HEIGHT = 90 };
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend);
 
 /* Where numbers stand on the bar: as many of a row of round numbers as fit `room`, the length of the bar in the widths of a letter,
- * without touching one another. */
+ * without touching one another. Of a scale that is none, logarithmic from 0 on, there is one at most. */
 struct kd_tick { double value; char label[12]; };
 enum { KD_LEGEND_TICKS = 12 };
 size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_tick out[KD_LEGEND_TICKS]);

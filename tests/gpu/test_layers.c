@@ -369,6 +369,36 @@ static void test_false_colour(void **state)
     }
 }
 
+/* Whatever layer, whatever numbers it holds: a picture with a legend comes of it, from a hole that does not turn as well. */
+static void test_each_is_a_picture(void **state)
+{
+    (void)state;
+    for (int turns = 0; turns < 2; turns++)
+        for (int kind = 1; kind < KD_LAYER_COUNT; kind++) {
+            uint8_t *with = NULL;
+            for (int legend = 1; legend >= 0; legend--) {
+                struct kd_scene scene = scene_of(turns ? 0.9 : 0, 75, INFINITY, kd_layer_kinds[kind].name);
+                scene.image.width = 200;
+                scene.image.height = 120;
+                scene.image.legend = legend;
+                struct kd_frame frame = frame_of(&scene);
+                size_t bytes = 3u * 200 * 120, lit = 0, differ = 0;
+                const uint8_t *pixels = kd_frame_pixels(&frame);
+                for (size_t i = 0; i < bytes; i++) {
+                    lit += pixels[i] > 0;
+                    differ += with && with[i] != pixels[i];
+                }
+                assert_true(lit > bytes / 50);
+                if (with && !(differ > 500 && differ < bytes / 2))
+                    fail_msg("%s: a legend changes %zu bytes", kd_layer_kinds[kind].name, differ);
+                if (legend && (with = malloc(bytes)))
+                    memcpy(with, pixels, bytes);
+                kd_frame_finish(&frame);
+            }
+            free(with);
+        }
+}
+
 int main(void)
 {
     int status = open_renderer();
@@ -377,6 +407,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crossings), cmocka_unit_test(test_ends),  cmocka_unit_test(test_light),       cmocka_unit_test(test_temperature),
         cmocka_unit_test(test_plunge),    cmocka_unit_test(test_bands), cmocka_unit_test(test_false_colour),
+        cmocka_unit_test(test_each_is_a_picture),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

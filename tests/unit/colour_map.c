@@ -106,6 +106,10 @@ static void a_table_is_the_map(void **state)
         }
         assert_true(kd_map_table_at(&table, NAN).r == table.at[0].r);
     }
+    struct kd_map_table classes;
+    kd_colour_map_fill(&classes, KD_MAP_CATEGORICAL);
+    for (int i = 0; i < 9; i++)
+        assert_near(classes.at[i].g, kd_colour_map_at(KD_MAP_CATEGORICAL, i).g, 0);
 }
 
 static void scales_place_numbers(void **state)

@@ -57,6 +57,9 @@ static void numbers_are_round(void **state)
     check_labels(&(struct kd_map_scale) { 1e-3, 10, true }, 24, "0.001 0.01 0.1 1 10");
     check_labels(&(struct kd_map_scale) { 1.03, 1.05, true }, 18, "1.03 1.04 1.05");
     check_labels(&(struct kd_map_scale) { 4, 4, false }, 18, "4");
+    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* none, and at once: it is no scale */
+    check_labels(&(struct kd_map_scale) { -1, 2, true }, 18, "");
+    check_labels(&(struct kd_map_scale) { 1, INFINITY, true }, 18, "1");
 }
 
 /* Whatever the scale: two numbers or more, in their places, and none touches its neighbour. */

@@ -50,24 +50,24 @@ static enum kd_status read_all(struct kd_frame_job *j)
     return status;
 }
 
-/* Least and largest of the numbers; 0 and 1 where there are none. */
-static struct kd_map_scale extent_of(const float *values, size_t n)
+/* Least and largest of the numbers, of a logarithmic scale those above 0; 0 and 1, or 1 and 10, where there are none. */
+static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };
     for (size_t i = 0; i < n; i++) {
-        if (isinf(values[i]))
+        if (isinf(values[i]) || (logarithmic && values[i] <= 0))
             continue;
         extent.low = values[i] < extent.low ? values[i] : extent.low; /* false of NaN */
         extent.high = values[i] > extent.high ? values[i] : extent.high;
     }
-    return extent.low <= extent.high ? extent : (struct kd_map_scale) { 0, 1, false };
+    return extent.low <= extent.high ? extent : (struct kd_map_scale) { logarithmic, logarithmic ? 10 : 1, false };
 }
 
 /* What the field table has says, else the kind, else the picture. A diverging map has its middle at 1 where it is logarithmic, so that
  * its ends are as far from there. */
 static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values, size_t n)
 {
-    const struct kd_map_scale extent = extent_of(values, n);
+    const struct kd_map_scale extent = extent_of(values, n, kind->scale.logarithmic);
     struct kd_map_scale scale = kind->scale;
     double most = fmax(extent.high, 1 / fmax(extent.low, 1e-3));
     bool about_one = kind->map == KD_MAP_DIVERGING && scale.logarithmic;
@@ -85,7 +85,7 @@ static void paint(const struct kd_canvas *to, uint32_t rows, const float *values
             double value = values[(size_t)y * to->width + x];
             struct kd_map_colour c = { 0, 0, 0 };
             if (!isnan(value))
-                c = legend->map == KD_MAP_CATEGORICAL ? kd_colour_map_at(KD_MAP_CATEGORICAL, value)
+                c = legend->map == KD_MAP_CATEGORICAL ? table->at[(size_t)fmin(value, KD_MAP_ENTRIES - 1)]
                                                       : kd_map_table_at(table, kd_map_scale_place(&legend->scale, value));
             kd_canvas_put(to, x, y, c);
         }
@@ -104,10 +104,9 @@ static enum kd_status show(struct kd_frame_job *j)
     snprintf(title, sizeof title, *kind->unit ? "%s (%s)" : "%s", layer->name, kind->unit);
     const struct kd_legend legend = {
         .title = title, .map = kind->map, .scale = scale_of(j->scene, kind, layer->data, n), .names = kind->classes,
-        .classes = kind->n_classes ? kind->n_classes : (uint32_t)extent_of(layer->data, n).high + 1,
+        .classes = kind->n_classes ? kind->n_classes : (uint32_t)extent_of(layer->data, n, false).high + 1,
     };
-    if (kind->map != KD_MAP_CATEGORICAL)
-        kd_colour_map_fill(table, kind->map);
+    kd_colour_map_fill(table, kind->map);
     paint(&canvas, j->lit, layer->data, &legend, table);
     if (j->scene->image.legend)
         kd_legend_draw(&canvas, &legend);
