@@ -1,5 +1,7 @@
 """Pictures from the command line, on a real device."""
+import ast
 import json
+import math
 import os
 import pty
 import signal
@@ -62,6 +64,28 @@ class Pictures(Case):
         self.assertEqual(self.good("render", "--from", "-", "-o", "-", stdin=self.read("a.png")), self.read("a.png"))
         other = self.good("render", "--from", self.path("a.png"), "--set", "spacetime.spin=0.1", "-o", "-")
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
+
+    def test_layers_are_numbers(self):
+        """NumPy's header and records, read by hand: NaN where there is no disk, and the picture's light is the layer's."""
+        self.good("render", *SMALL, "--set", "image.layers=r,rgb,intensity", "-o", self.path("a.npy"))
+        file = self.read("a.npy")
+        length, = struct.unpack("<H", file[8:10])
+        header = ast.literal_eval(file[10:10 + length].decode())
+        self.assertEqual((file[:8], header["shape"], header["fortran_order"]), (b"\x93NUMPY\x01\x00", (36, 64), False))
+        self.assertEqual(header["descr"], [("r", "<f4"), ("rgb", "<f4", (3,)), ("intensity", "<f4")])
+        rows = list(struct.iter_unpack("<5f", file[10 + length:]))
+        self.assertEqual(len(rows), 36 * 64)
+        on = [row for row in rows if not math.isnan(row[0])]
+        self.assertTrue(len(rows) / 5 < len(on) < len(rows) * 0.9 and all(1 < r < 22.001 for r, *_ in on))
+        most = max(row[4] for row in rows)
+        self.assertTrue(most > 0.5 and all(abs(0.2126 * r + 0.7152 * g + 0.0722 * b - i) < 1e-5 * most for _, r, g, b, i in rows))
+
+    def test_a_picture_of_a_layer(self):
+        self.good("render", *SMALL, "--set", "image.layers=r", "-o", self.path("a.png"))
+        self.good("render", *SMALL, "--set", "image.layers=g", "-o", self.path("b.png"))
+        self.assertNotEqual(self.read("a.png"), self.read("b.png"))
+        self.assertIn(b'"layers":["r"]', text(self.read("a.png"))[b"kerrd:scene"])
+        self.bad(2, "image.layers holds 2, allowed in a file of the format png is one", "render", *SMALL, "--set", "image.layers=g,r", "-o", self.path("c.png"))
 
     def test_no_picture_under_a_false_name(self):
         self.bad(2, "allowed is a PNG or NPY file", "render", *SMALL, "-o", self.path("a.JPG"))

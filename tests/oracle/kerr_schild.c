@@ -177,6 +177,9 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
             if (hr <= horizon)
                 break;
             path.r[path.crossings] = hr;
+            state way;
+            derivative(&s, hit, way);
+            path.falls[path.crossings] = hit[0] * way[0] + hit[1] * way[1] > 0;
             path.momentum[path.crossings] = hit[0] * hit[4] - hit[1] * hit[3];
             path.delay[path.crossings] = hit[6] - slow(s.a, hr);
             path.p_z[path.crossings] = fabs(hit[5]);

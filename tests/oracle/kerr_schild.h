@@ -22,6 +22,7 @@ struct ks_path {
     int crossings;
     double r[16], phi[16], delay[16]; /* of each crossing of the equatorial plane after the start */
     double momentum[16]; /* there, about the axis, as it was integrated */
+    bool falls[16];      /* whether the light comes inwards there: the path, traced back, goes out */
     double p_z[16]; /* and |p_z| there, by a unit vector normal to the plane: at z = 0, where l_z = 0, the metric's zz is 1 */
     enum ks_fate fate;
     double u, sky_phi; /* direction of escape */
