@@ -82,7 +82,7 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
 {
     (void)state;
     const struct kd_capacity c = device();
-    bool seen[KD_PASS_COUNT] = { false }, learned[KD_FIGURE_COUNT + 1] = { false };
+    bool seen[KD_PASS_COUNT] = { false }, learned[KD_NS_NONE + 1] = { false };
     for (int k = 0; k <= SCENES; k++) {
         const struct kd_plan plan = k < SCENES ? planned(scenes[k], &c) : with_footprints(&c);
         double sum = 0;
