@@ -123,7 +123,7 @@ float kd_gas_excess(kd_sample s)
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
     for (uint octave = 0u; octave < KD_GAS_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
-        if (left <= 0.0)
+        if (!(left > 0.0)) /* a footprint without end may make it no number */
             break;
         vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
         sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;

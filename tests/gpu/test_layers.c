@@ -369,6 +369,25 @@ static void test_false_colour(void **state)
     }
 }
 
+/* One end of the scale may be set beyond all numbers: they are all at the near end of the colours. */
+static void test_ends_beyond(void **state)
+{
+    (void)state;
+    struct kd_map_table table;
+    kd_colour_map_fill(&table, KD_MAP_SEQUENTIAL);
+    for (int above = 0; above < 2; above++) {
+        struct kd_scene scene = scene_of(0.9, 75, INFINITY, "r");
+        *(above ? &scene.image.layer_max : &scene.image.layer_min) = above ? -1e9 : 1e9;
+        struct kd_frame frame = frame_of(&scene);
+        const struct kd_map_colour c = kd_map_table_at(&table, above);
+        const float *r = layer(&frame, "r");
+        for (int k = 0; k < PIXELS; k++)
+            if (!isnan(r[k]))
+                assert_int_equal(((uint8_t *)kd_frame_pixels(&frame))[3 * k + 1], lround(255 * c.g));
+        kd_frame_finish(&frame);
+    }
+}
+
 /* Whatever layer, whatever numbers it holds: a picture with a legend comes of it, from a hole that does not turn as well. */
 static void test_each_is_a_picture(void **state)
 {
@@ -407,7 +426,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crossings), cmocka_unit_test(test_ends),  cmocka_unit_test(test_light),       cmocka_unit_test(test_temperature),
         cmocka_unit_test(test_plunge),    cmocka_unit_test(test_bands), cmocka_unit_test(test_false_colour),
-        cmocka_unit_test(test_each_is_a_picture),
+        cmocka_unit_test(test_ends_beyond), cmocka_unit_test(test_each_is_a_picture),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

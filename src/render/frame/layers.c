@@ -75,6 +75,11 @@ static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct k
     scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : extent.high;
     scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
     scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
+    /* One end that was set may lie beyond all numbers: then they are all at that end of the colours, which do not turn round. */
+    if (scale.low > scale.high && isfinite(scene->image.layer_min))
+        scale.high = scale.low + fabs(scale.low) + 1;
+    else if (scale.low > scale.high)
+        scale.low = scale.logarithmic ? scale.high / 2 : scale.high - fabs(scale.high) - 1;
     return scale;
 }
 

@@ -24,7 +24,7 @@ struct kd_scene;
     F(PARTICLE, "particle", 40)
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
-enum kd_figure_id { KD_FIGURES(KD_FIGURE_ID_) KD_FIGURE_COUNT, KD_NS_NONE };
+enum kd_figure_id { KD_FIGURES(KD_FIGURE_ID_) KD_FIGURE_COUNT, KD_NS_NONE = KD_FIGURE_COUNT };
 extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_FIGURE_COUNT];
 
 /* Passes, in the order in which a plan names them. P(id, name, invocations, cost, scale, when):
