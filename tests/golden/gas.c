@@ -17,20 +17,6 @@
 
 #include <cmocka.h>
 
-/* Brightness of a pixel: the weights of linear sRGB. -1 where a colour may be clipped. */
-static double luminance(const struct kd_frame *f, uint32_t x, uint32_t y)
-{
-    static const double weights[] = { 0.2126, 0.7152, 0.0722 };
-    double sum = 0;
-    for (int c = 0; c < 3; c++) {
-        double light = studio_light(f, x, y, c);
-        if (light > 0.98)
-            return -1;
-        sum += weights[c] * light;
-    }
-    return sum;
-}
-
 /* -1/g^2 of u^t = 1 at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane; and Omega where its slope in r
  * vanishes, which is a circular geodesic. */
 static double line(double a, double r, double omega)
@@ -92,7 +78,7 @@ static void emission_angle(void **state)
         int looked_at = 0;
         for (uint32_t i = 0; i < thin.width * thin.height; i++) {
             uint32_t x = i % thin.width, y = i / thin.width;
-            double all = luminance(&opaque, x, y), seen = luminance(&thin, x, y);
+            double all = studio_luminance(&opaque, x, y), seen = studio_luminance(&thin, x, y);
             if (all < 0.02)
                 continue;
             struct ks_photon photon = photon_of(&scene, x, y);
@@ -121,7 +107,7 @@ static double sum_of(const struct kd_scene *scene)
     struct kd_frame f = studio_render(scene);
     double sum = 0;
     for (uint32_t i = 0; i < f.width * f.height; i++) {
-        double light = luminance(&f, i % f.width, i / f.width);
+        double light = studio_luminance(&f, i % f.width, i / f.width);
         assert_true(light >= 0); /* nothing is clipped */
         sum += light;
     }
@@ -197,7 +183,7 @@ static struct map pattern(struct kd_scene scene)
     struct kd_frame smooth = studio_render(&scene);
     for (int i = 0; i < SIDE * SIDE; i++) {
         uint32_t x = (uint32_t)(i % SIDE), y = (uint32_t)(i / SIDE);
-        double light = luminance(&gas, x, y), of = luminance(&smooth, x, y);
+        double light = studio_luminance(&gas, x, y), of = studio_luminance(&smooth, x, y);
         assert_true(light >= 0);
         out.at[y][x] = of > 1e-3 ? light / of - 1 : 0;
     }
@@ -351,7 +337,7 @@ static void one_ray_varies_as_many(void **state)
         for (scene.gas.seed = 1; scene.gas.seed <= SEEDS; scene.gas.seed++) {
             struct kd_frame f = studio_render(&scene);
             for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
-                double light = luminance(&f, i % WIDTH, i / WIDTH);
+                double light = studio_luminance(&f, i % WIDTH, i / WIDTH);
                 assert_true(light >= 0);
                 sum[i] += light / SEEDS;
                 square[i] += light * light / SEEDS;

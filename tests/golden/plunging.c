@@ -18,20 +18,6 @@
 
 #include <cmocka.h>
 
-/* Brightness of a pixel: the weights of linear sRGB. -1 where a colour may be clipped. */
-static double luminance(const struct kd_frame *f, uint32_t x, uint32_t y)
-{
-    static const double weights[] = { 0.2126, 0.7152, 0.0722 };
-    double sum = 0;
-    for (int c = 0; c < 3; c++) {
-        double light = studio_light(f, x, y, c);
-        if (light > 0.98)
-            return -1;
-        sum += weights[c] * light;
-    }
-    return sum;
-}
-
 struct ray { struct kd_camera_label label; double lambda, eta; struct kd_null_path path; };
 
 static struct ray ray_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
@@ -103,8 +89,8 @@ static void redshift_of_light(void **state)
         for (uint32_t y = 0; y < 120; y++)
             for (uint32_t x = 0; x < 160; x++) {
                 struct ray ray = ray_of(&scene, x, y);
-                double base = luminance(&plain, x, y);
-                const double light[] = { luminance(&slowed, x, y), luminance(&full, x, y), luminance(&moved, x, y) };
+                double base = studio_luminance(&plain, x, y);
+                const double light[] = { studio_luminance(&slowed, x, y), studio_luminance(&full, x, y), studio_luminance(&moved, x, y) };
                 if (!meets_the_plunge(&scene, &ray) || base < 0.01)
                     continue;
                 double r = ray.path.crossing[0].r; /* the near observer's own redshift is in every picture */
@@ -170,7 +156,7 @@ static void surface_density(void **state)
                 int ring = (int)(RINGS * phase);
                 if (depth > 0.05)
                     continue;
-                got[ring] += luminance(&frame, x, y) / 2;
+                got[ring] += studio_luminance(&frame, x, y) / 2;
                 want[ring] += 1 - exp(-depth);
             }
         kd_frame_finish(&frame);

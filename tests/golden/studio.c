@@ -100,6 +100,19 @@ double studio_light(const struct kd_frame *f, uint32_t x, uint32_t y, int c)
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
+double studio_luminance(const struct kd_frame *f, uint32_t x, uint32_t y)
+{
+    static const double weights[] = { 0.2126, 0.7152, 0.0722 };
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        double light = studio_light(f, x, y, c);
+        if (light > 0.98)
+            return -1;
+        sum += weights[c] * light;
+    }
+    return sum;
+}
+
 bool studio_black(const struct kd_frame *f, uint32_t x, uint32_t y)
 {
     return studio_value(f, x, y, 0) == 0 && studio_value(f, x, y, 1) == 0 && studio_value(f, x, y, 2) == 0;

@@ -28,6 +28,8 @@ struct kd_frame studio_shoot(const char *json, ...) __attribute__((format(printf
 /* One sample, c = 0, 1, 2, as a fraction of full scale; as linear light (the inverse of the sRGB curve). */
 double studio_value(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
 double studio_light(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
+/* Brightness of a pixel: the weights of linear sRGB. -1 where a colour may be clipped. */
+double studio_luminance(const struct kd_frame *frame, uint32_t x, uint32_t y);
 bool studio_black(const struct kd_frame *frame, uint32_t x, uint32_t y); /* exactly */
 
 #endif

@@ -33,6 +33,19 @@ static inline bool has_float64(const char *what)
     return capacity.float64;
 }
 
+/* The frame of a scene, by a plan for this device. */
+static inline struct kd_frame rendered(const struct kd_scene *scene)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
 /* The exit status of a group of which so many tests failed. */
 static inline int close_renderer(int failed)
 {

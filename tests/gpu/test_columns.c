@@ -12,18 +12,6 @@ static double linear(uint16_t word)
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
-static struct kd_frame render(const struct kd_scene *scene)
-{
-    struct kd_capacity c;
-    struct kd_plan plan;
-    struct kd_frame frame;
-    kd_renderer_capacity(renderer, &c);
-    OK(kd_scene_validate(scene, &error));
-    OK(kd_plan_make(scene, &c, &plan, &error));
-    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
-    return frame;
-}
-
 /* Pixels of 2 x 2 rays against those of one ray of a picture twice as wide and high. */
 static void assert_same_light(struct kd_scene scene)
 {
@@ -36,11 +24,11 @@ static void assert_same_light(struct kd_scene scene)
     scene.style.tone_map = KD_TONE_SRGB;
     scene.style.exposure = -4;
     scene.style.dither = false;
-    struct kd_frame coarse = render(&scene);
+    struct kd_frame coarse = rendered(&scene);
     scene.image.width = 2 * w;
     scene.image.height = 2 * h;
     scene.image.samples = 1;
-    struct kd_frame fine = render(&scene);
+    struct kd_frame fine = rendered(&scene);
     const uint16_t *a = (const uint16_t *)kd_frame_pixels(&coarse), *b = (const uint16_t *)kd_frame_pixels(&fine);
     double lit = 0;
     for (int y = 0; y < h; y++)

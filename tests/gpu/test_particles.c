@@ -137,18 +137,6 @@ static void test_periods(void **state)
     assert_true(judged > 3 * N);
 }
 
-static struct kd_frame render(const struct kd_scene *scene)
-{
-    struct kd_capacity c;
-    struct kd_plan plan;
-    struct kd_frame frame;
-    kd_renderer_capacity(renderer, &c);
-    OK(kd_scene_validate(scene, &error));
-    OK(kd_plan_make(scene, &c, &plan, &error));
-    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
-    return frame;
-}
-
 static bool ran(const struct kd_frame *frame, const char *pass)
 {
     for (size_t i = 0; i < frame->n_timings; i++)
@@ -174,7 +162,7 @@ static void test_frames(void **state)
     scene.camera.inclination_deg = 57.25;
     scene.style.exposure = 0;
     scene.top.time = 1e6;
-    struct kd_frame first = render(&scene);
+    struct kd_frame first = rendered(&scene);
     assert_true(!first.lens_reused && ran(&first, "trace") && ran(&first, "particles"));
     struct kd_scene others[5] = { scene, scene, scene, scene, scene };
     others[0].top.time = -300;
@@ -183,12 +171,12 @@ static void test_frames(void **state)
     others[3].camera.azimuth_deg = 90;
     others[4].disk.epicycles = 0;
     for (int i = 0; i < 5; i++) {
-        struct kd_frame other = render(&others[i]);
+        struct kd_frame other = rendered(&others[i]);
         assert_true(other.lens_reused && !ran(&other, "trace") && ran(&other, "particles"));
         assert_true(difference(&first, &other) > 1);
         kd_frame_finish(&other);
     }
-    struct kd_frame again = render(&scene);
+    struct kd_frame again = rendered(&scene);
     assert_true(again.lens_reused);
     assert_memory_equal(kd_frame_pixels(&first), kd_frame_pixels(&again), 3 * 160 * 90);
     kd_frame_finish(&first);
@@ -205,11 +193,11 @@ static void test_lists_between_frames(void **state)
     scene.camera.r = 40;
     places_at(&scene, 500, before);
     scene.top.time = 0;
-    struct kd_frame other = render(&scene);
+    struct kd_frame other = rendered(&scene);
     scene.top.time = 500;
-    struct kd_frame first = render(&scene);
+    struct kd_frame first = rendered(&scene);
     places_at(&scene, 500, after);
-    struct kd_frame again = render(&scene);
+    struct kd_frame again = rendered(&scene);
     for (int i = 0; i < N; i++)
         assert_true(before[i].r == after[i].r && before[i].phi == after[i].phi && before[i].latitude == after[i].latitude &&
                     before[i].plunging == after[i].plunging);
@@ -233,14 +221,14 @@ static void test_turning(void **state)
     scene.disk.particles = 1000; /* coarse: the shear from edge to edge is half a cell */
     scene.disk.doppler = false;
     scene.style.exposure = 0;
-    struct kd_frame start = render(&scene);
+    struct kd_frame start = rendered(&scene);
     double rate = 180 / M_PI / (pow(10.2, 1.5) + 0.5);
     scene.top.time = 8;
-    struct kd_frame later = render(&scene);
+    struct kd_frame later = rendered(&scene);
     scene.camera.azimuth_deg = 8 * rate;
-    struct kd_frame along = render(&scene);
+    struct kd_frame along = rendered(&scene);
     scene.camera.azimuth_deg = -8 * rate;
-    struct kd_frame against = render(&scene);
+    struct kd_frame against = rendered(&scene);
     double stood = difference(&start, &along);
     printf("%g %g %g\n", stood, difference(&start, &later), difference(&start, &against));
     assert_true(difference(&start, &later) > 4 * stood && difference(&start, &against) > 4 * stood);
@@ -268,9 +256,9 @@ static void test_slow_light(void **state)
         scene.camera.inclination_deg = 70;
         if (near)
             scene.camera.r = 40;
-        struct kd_frame fast = render(&scene);
+        struct kd_frame fast = rendered(&scene);
         scene.disk.slow_light = true;
-        struct kd_frame slow = render(&scene), again = render(&scene);
+        struct kd_frame slow = rendered(&scene), again = rendered(&scene);
         assert_true(!slow.lens_reused && again.lens_reused);
         kd_frame_finish(&again);
         struct kd_capacity c;
@@ -287,7 +275,7 @@ static void test_slow_light(void **state)
             if (!(w > 1 / 18.0 && w < 1 / 5.0))
                 continue;
             scene.top.time = 700 - planes[2 * plan.orders * plan.rays + at];
-            struct kd_frame then = render(&scene);
+            struct kd_frame then = rendered(&scene);
             const uint8_t *a = kd_frame_pixels(&slow), *b = kd_frame_pixels(&then), *now = kd_frame_pixels(&fast);
             off_then += abs(a[3 * at + 1] - b[3 * at + 1]);
             off_now += abs(a[3 * at + 1] - now[3 * at + 1]);

@@ -28,18 +28,6 @@ static struct kd_scene scene_of(double spin)
     return scene;
 }
 
-static struct kd_frame render(const struct kd_scene *scene)
-{
-    struct kd_capacity c;
-    struct kd_plan plan;
-    struct kd_frame frame;
-    kd_renderer_capacity(renderer, &c);
-    OK(kd_scene_validate(scene, &error));
-    OK(kd_plan_make(scene, &c, &plan, &error));
-    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
-    return frame;
-}
-
 static size_t samples(const struct kd_frame *f) { return (size_t)f->width * f->height * 3; }
 
 static double light(const struct kd_frame *f, size_t i)
@@ -70,9 +58,9 @@ static void follow(const char *name, struct kd_scene scene)
     double worst = 0;
     scene.top.time = STRUCK + 1;
     scene.accuracy.orders = 1;
-    struct kd_frame direct = render(&scene);
+    struct kd_frame direct = rendered(&scene);
     scene.style.ringdown = 1;
-    struct kd_frame rung = render(&scene);
+    struct kd_frame rung = rendered(&scene);
     assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&direct), 2 * samples(&direct));
     kd_frame_finish(&rung);
     for (size_t k = 0; k < 2 * sizeof times / sizeof *times; k++) {
@@ -81,9 +69,9 @@ static void follow(const char *name, struct kd_scene scene)
         scene.accuracy.orders = orders;
         scene.top.time = STRUCK + t;
         scene.style.ringdown = 0;
-        struct kd_frame still = render(&scene);
+        struct kd_frame still = rendered(&scene);
         scene.style.ringdown = amplitude;
-        rung = render(&scene);
+        rung = rendered(&scene);
         assert_true(rung.lens_reused);
         for (size_t i = 0; i < samples(&rung); i++) {
             double first = light(&direct, i), rest = light(&still, i) - first, got = light(&rung, i) - first;
@@ -154,11 +142,11 @@ static void test_lumps(void **state)
         scene.image.height = slow ? 32 : 64;
         scene.top.time = STRUCK + 3;
         scene.style.ringdown = 0;
-        struct kd_frame still = render(&scene);
+        struct kd_frame still = rendered(&scene);
         scene.style.ringdown = 1;
-        struct kd_frame rung = render(&scene);
+        struct kd_frame rung = rendered(&scene);
         scene.accuracy.orders = 1;
-        struct kd_frame direct = render(&scene);
+        struct kd_frame direct = rendered(&scene);
         scene.accuracy.orders = 3;
         for (size_t i = 0; i < samples(&rung); i++) {
             double first = light(&direct, i), rest = light(&still, i) - first;

@@ -135,7 +135,7 @@ static void reach_of_all(const struct kd_scene *scene, double radii[2])
     radii[1] = 0;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         double own[2] = { 0, INFINITY };
-        if (!at_crossings[i] || !kd_emitters[i]->present(scene))
+        if (!at_crossings[i] || !kd_emit_has(scene, kd_emitters[i]))
             continue;
         if (kd_emitters[i]->reach)
             kd_emitters[i]->reach(scene, own);
