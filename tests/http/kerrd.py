@@ -1,6 +1,7 @@
 """The program itself, in front of a Vulkan device; skipped where there is none."""
 import array
 import concurrent.futures
+import io
 import json
 import math
 import random
@@ -12,6 +13,7 @@ import sys
 import threading
 import time
 import unittest
+import zipfile
 import zlib
 
 import daemon
@@ -311,6 +313,26 @@ class Kerrd(unittest.TestCase):
         patch = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/merge-patch+json'}
         self.assertEqual(self.daemon.request('PATCH', '/v1/sessions/' + session['id'], json.dumps({'spot1': None}), headers=patch).status, 200)
         self.assertNotIn('light', self.event(session, b'"revision":2'))
+
+    def test_a_job_of_layers_makes_the_arrays_that_a_render_makes(self):
+        scene = {'image': {'width': 40, 'height': 24, 'layers': ['rgb', 'g', 'r_1']}}
+        refused = self.daemon.post('/v1/jobs', {'scene': scene})
+        self.assertEqual((refused.status, refused.json()['pointer']), (422, '/scene/image/layers'))
+        job = self.daemon.post('/v1/jobs', {'scene': scene, 'keyframes': [{'frame': 2, 'scene': {'camera': {'inclination_deg': 60}}}], 'output': 'layers'}).json()
+        at = '/v1/jobs/' + job['id']
+        while (status := self.daemon.get(at).json())['state'] in ('waiting', 'running'):
+            time.sleep(0.02)
+        self.assertEqual((status['state'], status['output']), ('done', 'layers'), status)
+        with zipfile.ZipFile(io.BytesIO(self.daemon.get(at + '/result').body)) as files:
+            self.assertEqual(files.namelist(), ['000000.npy', '000001.npy', '000002.npy'])
+            last = files.read('000002.npy')
+        one = self.daemon.get(at + '/result?format=npy&frame=2')
+        self.assertEqual((one.header('Content-Type'), one.body == last), ('application/x-npy', True))
+        scene['camera'] = {'inclination_deg': 60}
+        self.assertEqual(self.daemon.post('/v1/render', scene, Accept='application/x-npy').body, last)
+        self.assertEqual(len(self.daemon.get(at + '/result?format=stream').body), 3 * (16 + len(last)))
+        for rest in ('/preview.png', '/result?format=png', '/result?format=csv'):
+            self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_vanished_client_stops_its_render(self):
         scene = {'image': {'width': 4000, 'height': 4000, 'samples': 2}, 'accuracy': {'profile': 'high'}}

@@ -72,6 +72,6 @@ static const struct kd_table_format tables[] = {
 };
 
 const struct kd_series kd_light_curve = {
-    .name = "light-curve", .noun = "light curve", .frame = &one_row, .row_bytes = sizeof(struct kd_curve_row), .tables = tables,
+    .name = "light-curve", .noun = "light curve", .each = "the rows of a light curve", .frame = &one_row, .row_bytes = sizeof(struct kd_curve_row), .tables = tables,
     .n_tables = sizeof tables / sizeof *tables,
 };

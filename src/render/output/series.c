@@ -4,9 +4,10 @@
 
 #include <string.h>
 
-static const struct kd_series pictures = { .name = "pictures", .noun = "picture", .frame = &kd_format_png };
+static const struct kd_series pictures = { .name = "pictures", .noun = "picture", .each = "pictures", .frame = &kd_format_png };
+static const struct kd_series layers = { .name = "layers", .noun = "array", .each = "arrays of numbers", .frame = &kd_format_npy };
 
-const struct kd_series *const kd_series_all[] = { &pictures, &kd_light_curve };
+const struct kd_series *const kd_series_all[] = { &pictures, &layers, &kd_light_curve };
 const size_t kd_n_series = sizeof kd_series_all / sizeof *kd_series_all;
 
 const struct kd_series *kd_series_named(const char *name)

@@ -1,4 +1,4 @@
-/* What a job makes of its frames: the frames themselves, each a file of its own, or one table with a row of each. Any thread.
+/* What a job makes of its frames: pictures or arrays of their layers, each a file of its own, or one table with a row of each. Any thread.
  *
  * A series is one C file that defines it, and its line in the table of series.c. */
 #ifndef KD_RENDER_OUTPUT_SERIES_H
@@ -17,6 +17,7 @@ struct kd_table_format {
 struct kd_series {
     const char *name;              /* "light-curve": a job's "output" */
     const char *noun;              /* "light curve": in sentences */
+    const char *each;              /* "the rows of a light curve": what its frames are, in sentences */
     const struct kd_format *frame; /* what each frame becomes; of a table a row, which is not offered by itself */
     size_t row_bytes;              /* of a row; 0: the frames are files */
     const struct kd_table_format *tables; /* of rows; the first where nobody says otherwise */

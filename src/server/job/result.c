@@ -214,8 +214,8 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
     if (!job)
         return refused;
     kd_job_status(job, &status);
-    if (status.series->row_bytes) {
-        snprintf(detail, sizeof detail, "the frames of this job are the rows of a %s: there is nothing to look at", status.series->noun);
+    if (!(status.series->frame->carries & KD_CARRIES_PICTURE)) {
+        snprintf(detail, sizeof detail, "the frames of this job are %s: there is nothing to look at", status.series->each);
         return bad(request, job, detail);
     }
     if (!kd_job_glimpse(job, &png, &sight))
@@ -297,8 +297,8 @@ static enum MHD_Result table_of(struct kd_request *request, struct kd_job *job, 
     if (!format && !table)
         return not_acceptable(request, job, series);
     if (!table) {
-        snprintf(detail, sizeof detail, "format is %s: the frames of this job are the rows of a %s",
-                 list_tables(series, false, names, sizeof names), series->noun);
+        snprintf(detail, sizeof detail, "format is %s: the frames of this job are %s", list_tables(series, false, names, sizeof names),
+                 series->each);
         return bad(request, job, detail);
     }
     if (kd_target_value(&request->target, "frame")) {
