@@ -31,6 +31,8 @@ function whence(scene) {
     const field = number(scene.get('camera.field_m'));
     return t(`seen from infinity, ${field} M across`, `visto dall’infinito, largo ${field} M`);
   }
+  if (scene.get('camera.projection') === 'equirectangular') return t(`all that is seen from ${number(r)} M`, `tutto ciò che si vede da ${number(r)} M`);
+  if (scene.get('camera.projection') === 'fulldome') return t(`half of what is seen from ${number(r)} M`, `metà di ciò che si vede da ${number(r)} M`);
   const wide = number(scene.get('camera.fov_deg'));
   return t(`seen from ${number(r)} M, ${wide}° across`, `visto da ${number(r)} M, largo ${wide}°`);
 }

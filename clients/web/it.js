@@ -22,6 +22,8 @@ export const values = {
   plane: 'piana',
   pinhole: 'stenopeica',
   ring: 'anello',
+  equirectangular: 'equirettangolare (360°)',
+  fulldome: 'cupola (180°)',
   none: 'nessuno',
   isco: 'all’ISCO',
   peak: 'di picco',
@@ -76,7 +78,7 @@ export const fields = {
   'camera.observer': ['Osservatore', 'Stato di moto a distanza finita: fermo rispetto all’infinito, o con momento angolare nullo'],
   'camera.projection': [
     'Proiezione',
-    'Piana: raggi paralleli, solo all’infinito. Stenopeica: solo a distanza finita. Anello: angolo attorno alla curva critica contro il logaritmo della distanza da essa. Automatica: quella adatta alla distanza',
+    'Piana: raggi paralleli, solo all’infinito. Stenopeica: solo a distanza finita. Anello: angolo attorno alla curva critica contro il logaritmo della distanza da essa. Equirettangolare: tutte le direzioni, longitudine in orizzontale e latitudine in verticale. Cupola: l’angolo dal centro come distanza da esso, 90° ai bordi più vicini. Automatica: quella adatta alla distanza',
   ],
   'camera.field_m': ['Campo', 'Larghezza del piano immagine (proiezione piana)'],
   'camera.fov_deg': ['Campo visivo', 'Angolo orizzontale abbracciato (proiezione stenopeica)'],
@@ -265,7 +267,7 @@ const refusals = [
     '{} is {}, allowed for camera.observer {} at this inclination is more than {}, the ergosphere; camera.observer {} can be inside',
     '{} è {}, ammesso per camera.observer {} a questa inclinazione è più di {}, l’ergosfera; camera.observer {} può stare dentro',
   ],
-  ['{} is {} with {} {}; a pinhole needs a finite {}, at infinity use {}', '{} è {} con {} {}; la proiezione stenopeica vuole un {} finito, all’infinito usa {}'],
+  ['{} is {} with {} {}; it needs a finite {}, at infinity use {}', '{} è {} con {} {}; vuole un {} finito, all’infinito usa {}'],
   ['{} is {} with {} {}; parallel rays need {} {}, at a finite radius use {}', '{} è {} con {} {}; raggi paralleli vogliono {} {}, a un raggio finito usa {}'],
   [
     '{} is {}, allowed is 0 with {} {}: beyond {} the modes of a hole crowd and none of them rings alone',
@@ -372,6 +374,8 @@ export const sentences = {
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
   'projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale':
     'proiezione: distanze dalla curva critica in scala logaritmica; nessun occhio la vede così, e le aree non sono in scala',
+  'projection: angles as distances, over half the sky or all of it; areas are not to scale':
+    'proiezione: angoli come distanze, su metà del cielo o su tutto; le aree non sono in scala',
   'arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate':
     'aritmetica: a 32 bit; ai raggi più vicini di circa 10⁻⁵ alla curva critica può toccare la sorte sbagliata',
   'arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits':

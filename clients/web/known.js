@@ -36,6 +36,8 @@ const with_choice = {
     chosen: scene => (scene.get('camera.projection') !== 'auto' ? scene.get('camera.projection') : scene.get('camera.r') === 'infinity' ? 'plane' : 'pinhole'),
     plane: ['field_m', 'centre_alpha', 'centre_beta'],
     pinhole: ['fov_deg', 'yaw_deg', 'pitch_deg', 'observer'],
+    equirectangular: ['yaw_deg', 'pitch_deg', 'observer'],
+    fulldome: ['yaw_deg', 'pitch_deg', 'observer'],
     ring: ['ring_decades_max', 'ring_decades_min'],
   },
   disk: {

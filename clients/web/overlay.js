@@ -17,6 +17,17 @@ function camera(scene, width, height) {
     width / 2 + (x * Math.cos(roll) - y * Math.sin(roll)) * unit,
     height / 2 - (x * Math.sin(roll) + y * Math.cos(roll)) * unit,
   ];
+  // Where angles are distances; c and s: of the roll, by which the camera's own right and up are turned.
+  function turned(projection, ahead, side, upward) {
+    const [c, s] = [Math.cos(roll), Math.sin(roll)],
+      right = side * c - upward * s,
+      up = side * s + upward * c;
+    if (projection === 'equirectangular')
+      return [width * (0.5 + Math.atan2(right, ahead) / (2 * Math.PI)), height * (0.5 - Math.atan2(up, Math.hypot(right, ahead)) / Math.PI)];
+    const aside = Math.hypot(right, up) || 1,
+      off = ((Math.min(width, height) / 2) * Math.atan2(aside, ahead)) / (Math.PI / 2);
+    return [width / 2 + (off * right) / aside, height / 2 - (off * up) / aside];
+  }
   const yaw = get('yaw_deg') * radians,
     pitch = get('pitch_deg') * radians;
   return {
@@ -26,19 +37,26 @@ function camera(scene, width, height) {
         side = right * Math.cos(yaw) - inwards * Math.sin(yaw);
       const ahead = level * Math.cos(pitch) + up * Math.sin(pitch),
         upward = up * Math.cos(pitch) - level * Math.sin(pitch);
+      const projection = get('projection');
+      if (projection === 'equirectangular' || projection === 'fulldome') return turned(projection, ahead, side, upward);
       return ahead > 0.02 ? rolled(side / ahead, upward / ahead, width / 2 / Math.tan((get('fov_deg') / 2) * radians)) : null;
     },
   };
 }
 
+// Pixels: neighbours that are further apart stand on both sides of where a picture of all directions begins and ends.
+let seam = Infinity;
+const beyondSeam = (a, b) => a && b && Math.abs(a[0] - b[0]) > seam;
+
 const path = (points, closed) => {
   let pen = 'M',
     text = '';
-  for (const point of points) {
+  for (const [i, point] of points.entries()) {
+    if (beyondSeam(point, points[i - 1])) pen = 'M';
     if (point?.every(Number.isFinite)) text += `${pen}${point[0].toFixed(1)} ${point[1].toFixed(1)}`;
     pen = point?.every(Number.isFinite) ? 'L' : 'M';
   }
-  return closed && points.every(Boolean) ? text + 'Z' : text;
+  return closed && points.every(Boolean) && !points.some((point, i) => beyondSeam(point, points.at(i - 1))) ? text + 'Z' : text;
 };
 
 const at_infinity = scene => scene.get('camera.r') === 'infinity';
@@ -195,6 +213,7 @@ export function buildOverlays(root, stage, scene) {
     const { clientWidth: width, clientHeight: height } = stage,
       look = camera(scene, width, height),
       groups = [];
+    seam = scene.get('camera.projection') === 'equirectangular' ? width / 2 : Infinity;
     for (const [name, make] of overlays) {
       tell(notes.get(name), '');
       if (!chosen.has(name)) continue;

@@ -1,7 +1,11 @@
 /* The camera, the rows at hand, and from a ray's place in the picture to its constants of motion. Needs KD_CAMERA_BINDING and the
- * specialisation constant FINITE (observer at a finite radius). */
+ * specialisation constant SIGHT (KD_SIGHT_). */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
+
+#include "shared/math.glsl"
+
+const bool FINITE = SIGHT != KD_SIGHT_PLANE; /* the observer is at a finite radius */
 
 #define F(name) float name;
 #define U(name) uint name;
@@ -19,11 +23,30 @@ void kd_camera_read()
     slice = slice_;
 }
 
+/* What a direction has of c0, and (x, y) of cx and cy. */
+float kd_camera_ahead(inout float x, inout float y)
+{
+    if (SIGHT == KD_SIGHT_SPHERE) {
+        vec2 longitude = kd_quarter_turns(x * cam.turn_x), latitude = kd_quarter_turns(y * cam.turn_y);
+        x = latitude.x * longitude.y;
+        y = latitude.y;
+        return latitude.x * longitude.x;
+    }
+    if (SIGHT == KD_SIGHT_DOME) {
+        float d = sqrt(x * x + y * y);
+        vec2 off = kd_quarter_turns(d * cam.turn_x);
+        x *= off.y / max(d, 0.25); /* no ray is nearer to the middle than half a step, but one in it */
+        y *= off.y / max(d, 0.25);
+        return off.x;
+    }
+    return 1.0;
+}
+
 kd_ray kd_camera_ray(uint px, uint py)
 {
-    float x = float(px) - cam.middle_x, y = cam.middle_y - float(py);
-    float kx = cam.c0x + x * cam.cxx + y * cam.cyx;
-    float ky = cam.c0y + x * cam.cxy + y * cam.cyy;
+    float x = float(px) - cam.middle_x, y = cam.middle_y - float(py), ahead = kd_camera_ahead(x, y);
+    float kx = ahead * cam.c0x + x * cam.cxx + y * cam.cyx;
+    float ky = ahead * cam.c0y + x * cam.cxy + y * cam.cyy;
     kd_ray ray;
     if (!FINITE) { /* (alpha, beta) */
         ray.e = 1.0;
@@ -32,7 +55,7 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.w = 0.0;
         ray.dw = 1.0;
     } else { /* (k_r, k_theta, k_phi); the photon flies along -k */
-        float kz = cam.c0z + x * cam.cxz + y * cam.cyz;
+        float kz = ahead * cam.c0z + x * cam.cxz + y * cam.cyz;
         float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;

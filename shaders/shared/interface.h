@@ -6,10 +6,18 @@
 /* Invocations of a workgroup in every kernel: eight lavapipe vectors, two NVIDIA warps, one AMD wave. */
 #define KD_GROUP_SIZE 64
 
+/* How a camera looks: at infinity over a plane; at a finite radius through a pinhole; all round it, longitude across and latitude
+ * upwards; or over half the sky, the angle from the middle as the distance from it. */
+#define KD_SIGHT_PLANE 0
+#define KD_SIGHT_PINHOLE 1
+#define KD_SIGHT_SPHERE 2
+#define KD_SIGHT_DOME 3
+
 /* Camera and constants of the hole: a uniform block of the tracing and transfer kernels.
  * A ray at (x, y), in steps from the middle of the picture, y upwards, has the direction c0 + x cx + y cy; at infinity its
  * first two components are alpha and beta, at a finite radius it is normalised to the look direction k = (k_r, k_theta, k_phi)
- * in the observer's local frame. A photon that comes from there flies along m = -k, and has E = e_t + m_r e_r + m_theta e_theta +
+ * in the observer's local frame. On a sphere and a dome the steps are angles, and c0, cx and cy ahead, to the right and up: the direction is cos(y)
+ * (cos(x) c0 + sin(x) cx) + sin(y) cy, or cos(d) c0 + sin(d) (x cx + y cy) / d with d^2 = x^2 + y^2. A photon that comes from there flies along m = -k, and has E = e_t + m_r e_r + m_theta e_theta +
  * m_phi e_phi; likewise L/sin(theta) by l_, p_theta by p_ and dw/dtau of the traced ray by dw_: they are the legs of the observer's
  * tetrad (src/physics/tetrad.h). */
 #define KD_CAMERA_FIELDS_(F, U)                                                                                \
@@ -21,7 +29,9 @@
     F(w0)                   /* 1/r of the observer, 0 at infinity */                                           \
     F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi)                                        \
     F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi)                                    \
-    U(width)                /* rays a row */
+    F(turn_x) F(turn_y)     /* quarter turns a step, on a sphere and a dome */                                 \
+    U(width)                /* rays a row */                                                                   \
+    U(sight)                /* KD_SIGHT_, which kernels have as a constant */
 
 /* The rows of rays at hand: the push constants of these kernels. */
 #define KD_SLICE_FIELDS_(F, U)                                                                                 \

@@ -3,13 +3,14 @@
 #ifndef KD_SPEC_H
 #define KD_SPEC_H
 
-/* Rays on listed pixels (ray/place.glsl): how many of each, 0: the picture's grid; the lattice that they are on. */
+/* SIGHT: how the camera looks, KD_SIGHT_ of interface.h. CRITICAL to SHIFT: rays on listed pixels (ray/place.glsl), how many of each, 0: the
+ * picture's grid; the lattice that they are on. */
 #define KD_SPEC_LENS_CLOSED(U, B)                                                                              \
-    U(0, QUANTITIES, 1) U(1, ORDERS, 3) B(2, FINITE, false) U(3, CRITICAL, 0) U(4, GENERATOR, 1) U(5, SHIFT, 0)
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIGHT, 0) U(3, CRITICAL, 0) U(4, GENERATOR, 1) U(5, SHIFT, 0)
 
 /* STEPS: of a half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6. */
 #define KD_SPEC_LENS_MAP(U, B)                                                                                 \
-    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) B(4, FINITE, false)                     \
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) U(4, SIGHT, 0)                          \
     U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0)
 
 /* X1 to Y4: vectors between neighbours of the lattice, as 32-bit integers of either sign. */
@@ -20,7 +21,7 @@
 /* SIDE: rays along each side of a pixel; LAYER, ORDER: of layers.comp, which layer (layers.h), and of which image order, KD_NO_ORDER: of the
  * first crossing that lies on the disk. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \
-    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) B(3, FINITE, false)                                      \
+    U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0)                                           \
     U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) U(7, LAYER, 0) U(8, ORDER, KD_NO_ORDER)
 #define KD_SPEC_TRAITS 9
 #define KD_NO_ORDER 0xffffffffu

@@ -42,14 +42,16 @@
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO,                                                         \
          "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "              \
          "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "            \
-         "only; auto: plane or pinhole, whichever fits camera.r",                                                    \
-         "auto|plane|pinhole|ring")                                                                                  \
+         "only; equirectangular: all directions from a finite radius, longitude across and latitude upwards; fulldome: " \
+         "the angle from the middle as the distance from it, 90 degrees at the nearer edges, from a finite radius; auto: " \
+         "plane or pinhole, whichever fits camera.r",                                                                \
+         "auto|plane|pinhole|ring|equirectangular|fulldome")                                                                                  \
     REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)")          \
     REAL(camera, fov_deg, LOOK, FRONT, 50.0, 1e-6, 179.0, "degrees", "horizontal field of view (pinhole projection)") \
     REAL(camera, centre_alpha, LOOK, REST, 0.0, -1e7, 1e7, "M", "image-plane alpha at the middle of the picture (plane)") \
     REAL(camera, centre_beta, LOOK, REST, 0.0, -1e7, 1e7, "M", "image-plane beta at the middle of the picture (plane)") \
-    REAL(camera, yaw_deg, LOOK, REST, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (pinhole)")      \
-    REAL(camera, pitch_deg, LOOK, REST, 0.0, -90.0, 90.0, "degrees", "look above the hole (pinhole)")                \
+    REAL(camera, yaw_deg, LOOK, REST, 0.0, -180.0, 180.0, "degrees", "look to the right of the hole (from a finite radius)")      \
+    REAL(camera, pitch_deg, LOOK, REST, 0.0, -90.0, 90.0, "degrees", "look above the hole (from a finite radius)")                \
     REAL(camera, roll_deg, LOOK, REST, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis; ring: the angle " \
          "in the middle of the picture, 0 at alpha > 0, rising to the right")                                        \
     REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades",                                           \
@@ -215,7 +217,8 @@
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
-enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING };
+enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING,
+                     KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };

@@ -24,6 +24,12 @@ struct kd_vantage kd_scene_vantage(const struct kd_scene *scene)
     return (struct kd_vantage) { scene->spacetime.spin, scene->camera.r, kd_cos_deg(i), kd_sin_deg(i) };
 }
 
+bool kd_scene_is_flat(const struct kd_scene *scene)
+{
+    const enum kd_projection projection = scene->camera.projection;
+    return projection == KD_PROJECTION_AUTO || projection == KD_PROJECTION_PLANE || projection == KD_PROJECTION_PINHOLE;
+}
+
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS])
 {
     size_t n = 0;

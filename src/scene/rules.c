@@ -22,10 +22,18 @@ static struct shown show_bound(double value)
     return show(ceil(value * 1e9) / 1e9);
 }
 
-static bool is_pinhole(const struct kd_camera *camera)
+#define WORD_OF_NEAR(projection)                                                                                                  \
+    ((projection) == KD_PROJECTION_EQUIRECTANGULAR ? "equirectangular" : (projection) == KD_PROJECTION_FULLDOME ? "fulldome" : "pinhole")
+
+/* Those that a camera at a finite radius may have. */
+static bool is_near(enum kd_projection projection)
 {
-    return camera->projection == KD_PROJECTION_PINHOLE ||
-           (camera->projection == KD_PROJECTION_AUTO && isfinite(camera->r));
+    return projection == KD_PROJECTION_PINHOLE || projection == KD_PROJECTION_EQUIRECTANGULAR || projection == KD_PROJECTION_FULLDOME;
+}
+
+static bool looks_from_near(const struct kd_camera *camera)
+{
+    return is_near(camera->projection) || (camera->projection == KD_PROJECTION_AUTO && isfinite(camera->r));
 }
 
 enum { BITS = 8, STEPS = 4 };
@@ -41,11 +49,10 @@ static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *e
 static enum kd_status projection(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
-    if (camera->projection == KD_PROJECTION_PINHOLE && !isfinite(camera->r))
-        return kd_error_field(
-            error, "/camera/projection",
-            "camera.projection is \"pinhole\" with camera.r \"infinity\"; a pinhole needs a finite "
-            "camera.r, at infinity use \"plane\"");
+    if (is_near(camera->projection) && !isfinite(camera->r))
+        return kd_error_field(error, "/camera/projection",
+                              "camera.projection is \"%s\" with camera.r \"infinity\"; it needs a finite camera.r, at infinity use \"plane\"",
+                              WORD_OF_NEAR(camera->projection));
     if (camera->projection == KD_PROJECTION_PLANE && isfinite(camera->r))
         return kd_error_field(
             error, "/camera/projection",
@@ -62,16 +69,16 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
 static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
-    const bool pinhole = is_pinhole(camera), ring = camera->projection == KD_PROJECTION_RING;
+    const bool near = looks_from_near(camera), ring = camera->projection == KD_PROJECTION_RING;
     const struct {
         const char *pointer;
         double value;
         bool idle;
     } knobs[] = {
-        { "/camera/centre_alpha", camera->centre_alpha, pinhole || ring },
-        { "/camera/centre_beta", camera->centre_beta, pinhole || ring },
-        { "/camera/yaw_deg", camera->yaw_deg, !pinhole },
-        { "/camera/pitch_deg", camera->pitch_deg, !pinhole },
+        { "/camera/centre_alpha", camera->centre_alpha, near || ring },
+        { "/camera/centre_beta", camera->centre_beta, near || ring },
+        { "/camera/yaw_deg", camera->yaw_deg, !near },
+        { "/camera/pitch_deg", camera->pitch_deg, !near },
     };
     for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
         if (knobs[i].idle && knobs[i].value != 0)
@@ -79,8 +86,8 @@ static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
                 error, knobs[i].pointer,
                 "camera.%s is %s, allowed is 0 in the %s projection, which is aimed with %s",
                 knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
-                pinhole ? "pinhole" : ring ? "ring" : "plane",
-                pinhole ? "camera.yaw_deg and camera.pitch_deg"
+                near ? WORD_OF_NEAR(camera->projection) : ring ? "ring" : "plane",
+                near ? "camera.yaw_deg and camera.pitch_deg"
                 : ring  ? "camera.roll_deg and camera.ring_decades_max and _min"
                         : "camera.centre_alpha and camera.centre_beta");
     return KD_OK;
@@ -179,10 +186,10 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
 
 const struct kd_rule kd_rules[] = {
     { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
-    { "`camera.projection` \"pinhole\" needs a finite `camera.r`, \"plane\" and \"ring\" need `camera.r` \"infinity\".",
+    { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and \"ring\" need `camera.r` \"infinity\".",
       projection },
-    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and `camera.pitch_deg` the "
-      "pinhole; each pair is 0 in the other projections.",
+    { "`camera.centre_alpha` and `camera.centre_beta` aim the plane projection, `camera.yaw_deg` and `camera.pitch_deg` "
+      "those from a finite radius; each pair is 0 in the other projections.",
       aim },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2).", horizon },

@@ -91,6 +91,9 @@ enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
 
+/* Says whether areas of the picture are to scale: it is of the plane or the pinhole projection. */
+bool kd_scene_is_flat(const struct kd_scene *scene);
+
 /* Says where the observer is. */
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 

@@ -113,7 +113,7 @@ static void from_infinity(void **state)
 static void from_nearby(void **state)
 {
     (void)state;
-    static const struct { const char *what; double spin, r, inclination, fov, yaw, pitch, roll; int observer; bool some; } views[] = {
+    static const struct { const char *what; double spin, r, inclination, fov, yaw, pitch, roll; int observer; bool some; int projection; } views[] = {
         { "r = 30", 0.9, 30, 60, 30, 0, 0, 0, KD_OBSERVER_STATIC, true },
         { "r = 30, aside", 0.9, 30, 60, 40, 6, -4, 30, KD_OBSERVER_ZAMO, true },
         { "r = 6, wide", 0, 6, 40, 140, 10, 10, 77, KD_OBSERVER_STATIC, true },
@@ -122,6 +122,14 @@ static void from_nearby(void **state)
         { "on the axis", 0.95, 12, 0, 80, 0, 0, 0, KD_OBSERVER_STATIC, true },
         { "r = 1e6", 0.95, 1e6, 80, 0.001, 0, 0, 5, KD_OBSERVER_STATIC, true },
         { "behind one's back", 0.5, 40, 80, 90, 180, 0, 0, KD_OBSERVER_STATIC, false },
+        { "a sphere", 0.9, 8, 60, 50, 0, 0, 0, KD_OBSERVER_STATIC, true, KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, turned", 0.9, 4, 60, 50, 120, 20, 30, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, the hole behind", 0.9, 8, 60, 50, 180, 0, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, the hole at its pole", 0.9, 8, 60, 50, 0, -90, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
+        { "a sphere, much of it black", 0.2, 2.3, 60, 50, 0, 0, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_EQUIRECTANGULAR },
+        { "a dome", 0.9, 5, 60, 50, 0, 0, 0, KD_OBSERVER_ZAMO, true, KD_PROJECTION_FULLDOME },
+        { "a dome, turned", 0.9, 5, 60, 50, 40, 30, 60, KD_OBSERVER_ZAMO, true, KD_PROJECTION_FULLDOME },
+        { "a dome, the hole behind", 0.5, 40, 80, 50, 180, 0, 0, KD_OBSERVER_STATIC, false, KD_PROJECTION_FULLDOME },
     };
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
         struct kd_scene scene = scene_of(views[i].spin, views[i].r, views[i].inclination);
@@ -130,6 +138,7 @@ static void from_nearby(void **state)
         scene.camera.pitch_deg = views[i].pitch;
         scene.camera.roll_deg = views[i].roll;
         scene.camera.observer = views[i].observer;
+        scene.camera.projection = views[i].projection;
         size_t n = judge(&scene, views[i].what);
         assert_true(views[i].some ? n > 50 : !n);
     }

@@ -37,14 +37,14 @@ static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_criti
         return KD_OK;
     if (p->path == KD_LENS_CLOSED) {
         const struct kd_spec_lens_closed spec = {
-            .QUANTITIES = p->quantities, .ORDERS = p->orders, .FINITE = !isinf(j->scene->camera.r),
+            .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIGHT = kd_camera_sight(j->scene),
             .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
         };
         return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
     }
     const struct kd_spec_lens_map spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .STEPS = p->setting.steps,
-        .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6, .FINITE = !isinf(j->scene->camera.r),
+        .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6, .SIGHT = kd_camera_sight(j->scene),
         .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
@@ -58,7 +58,7 @@ static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_cr
     const enum kd_kernel kernel = layer < 0 ? KD_KERNEL_TRANSFER : KD_KERNEL_LAYERS;
     const struct kd_plan *p = j->plan;
     struct kd_spec_transfer spec = {
-        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .FINITE = !isinf(j->scene->camera.r),
+        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .SIGHT = kd_camera_sight(j->scene),
         .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
         .ORDER = KD_NO_ORDER,
     };

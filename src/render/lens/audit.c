@@ -29,12 +29,13 @@ static uint32_t spread(uint32_t k, uint32_t n, uint32_t size) { return (uint32_t
  * picture and no error of the map. */
 static void label_in_single(const struct kd_camera_block *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
 {
-    float x = (float)px - c->middle_x, y = c->middle_y - (float)py;
-    float kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
+    double off_x = (float)px - c->middle_x, off_y = c->middle_y - (float)py;
+    const float ahead = (float)kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &off_x, &off_y), x = (float)off_x, y = (float)off_y;
+    float kx = ahead * c->c0x + x * c->cxx + y * c->cyx, ky = ahead * c->c0y + x * c->cxy + y * c->cyy;
     *out = (struct kd_camera_label) { .alpha = kx, .beta = ky };
     if (!finite)
         return;
-    float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
+    float kz = ahead * c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
     double m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
     kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
                        c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,

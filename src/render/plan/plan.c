@@ -28,6 +28,7 @@ WHEN(bloom, plan->bloom.levels && !kd_plan_is_map(plan))
 WHEN(maps, plan->n_layers > 0)
 WHEN(coloured, kd_plan_is_map(plan))
 WHEN(projected, plan->ring)
+WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
 WHEN(single, plan->setting.precision == KD_PRECISION_F32)
 WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
 WHEN(compared, plan->setting.engine >= KD_ENGINE_KS_EULER)
@@ -46,6 +47,7 @@ static const struct sentence {
     { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
     { "layers: a picture of a map has false colours; NPY has its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
+    { "projection: angles as distances, over half the sky or all of it; areas are not to scale", rounded },
     { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
     { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
@@ -331,10 +333,10 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
     plan.radiance = needs->radiance && plan.picture;
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
-    if (plan.light && plan.ring)
+    if (plan.light && !kd_scene_is_flat(scene))
         return kd_error_field(error, "/camera/projection",
-                              "camera.projection is \"ring\", allowed are \"plane\" and \"pinhole\" where light is measured: "
-                              "areas of the ring projection are not to scale");
+                              "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are \"plane\" and \"pinhole\" where light is "
+                              "measured: areas of the others are not to scale");
     enum kd_status status = kd_layers_check(scene, error);
     if (!status)
         status = choose(&plan, scene, capacity, error);
@@ -371,7 +373,7 @@ struct kd_needs kd_needs_of(const struct kd_scene *scene)
 {
     return (struct kd_needs) {
         .quantities = kd_emit_needs(scene) | kd_layers_needs(scene),
-        .light = kd_emit_apart(scene) && scene->camera.projection != KD_PROJECTION_RING,
+        .light = kd_emit_apart(scene) && kd_scene_is_flat(scene),
     };
 }
 

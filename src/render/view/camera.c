@@ -28,9 +28,9 @@ static void plane(struct kd_camera_exact *o, const struct kd_camera *c, double s
                    (struct vec){ step * sr, step * cr, 0 });
 }
 
-/* Pinhole: look directions in the local frame (e_r, e_theta, e_phi). Unturned, the camera looks along -e_r, with +e_phi to
+/* Look directions in the local frame (e_r, e_theta, e_phi), of any camera that is near. Unturned, it looks along -e_r, with +e_phi to
  * the right and -e_theta up. */
-static void pinhole(struct kd_camera_exact *o, const struct kd_camera *c, double step)
+static void near(struct kd_camera_exact *o, const struct kd_camera *c, double step)
 {
     const struct vec inwards = { -1, 0, 0 }, right = { 0, 0, 1 }, up = { 0, -1, 0 };
     double cy = kd_cos_deg(c->yaw_deg), sy = kd_sin_deg(c->yaw_deg);
@@ -54,6 +54,38 @@ static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const
     o->w0 = 1 / at->r;
 }
 
+uint32_t kd_camera_sight(const struct kd_scene *scene)
+{
+    if (isinf(scene->camera.r))
+        return KD_SIGHT_PLANE;
+    return scene->camera.projection == KD_PROJECTION_EQUIRECTANGULAR ? KD_SIGHT_SPHERE
+           : scene->camera.projection == KD_PROJECTION_FULLDOME      ? KD_SIGHT_DOME
+                                                                     : KD_SIGHT_PINHOLE;
+}
+
+/* A sphere fills the picture, whatever its sides; a dome's circle touches those that are nearer. */
+static void turns(struct kd_camera_exact *o, double width, double height)
+{
+    o->turn_x = o->sight == KD_SIGHT_SPHERE ? 4 / width : o->sight == KD_SIGHT_DOME ? 2 / fmin(width, height) : 0;
+    o->turn_y = o->sight == KD_SIGHT_SPHERE ? 2 / height : o->turn_x;
+}
+
+double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, double *y)
+{
+    const double to_right = 0.5 * M_PI * turn_x * *x, upwards = 0.5 * M_PI * turn_y * *y, off = hypot(to_right, upwards);
+    switch (sight) {
+    case KD_SIGHT_SPHERE:
+        *x = cos(upwards) * sin(to_right);
+        *y = sin(upwards);
+        return cos(upwards) * cos(to_right);
+    case KD_SIGHT_DOME:
+        *x = off > 0 ? sin(off) / off * to_right : 0;
+        *y = off > 0 ? sin(off) / off * upwards : 0;
+        return cos(off);
+    default: return 1;
+    }
+}
+
 double kd_camera_pixel(const struct kd_scene *scene)
 {
     const struct kd_camera *c = &scene->camera;
@@ -71,6 +103,8 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     o.middle_x = 0.5 * width - 0.5;
     o.middle_y = 0.5 * height - 0.5;
     o.width = (uint32_t)width;
+    o.sight = kd_camera_sight(scene);
+    turns(&o, width, height);
     o.spin = scene->spacetime.spin;
     o.u = at.u;
     o.s = at.s;
@@ -79,7 +113,7 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     if (isinf(c->r)) {
         plane(&o, c, kd_camera_pixel(scene) / scene->image.samples);
     } else {
-        pinhole(&o, c, kd_camera_pixel(scene) / scene->image.samples);
+        near(&o, c, o.sight == KD_SIGHT_PINHOLE ? kd_camera_pixel(scene) / scene->image.samples : 1);
         frame(&o, scene, &at);
     }
     return o;
@@ -99,13 +133,13 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
 
 void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, struct kd_camera_label *out)
 {
-    double x = px - c->middle_x, y = c->middle_y - py;
-    double kx = c->c0x + x * c->cxx + y * c->cyx, ky = c->c0y + x * c->cxy + y * c->cyy;
+    double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);
+    double kx = ahead * c->c0x + x * c->cxx + y * c->cyx, ky = ahead * c->c0y + x * c->cxy + y * c->cyy;
     if (c->w0 == 0) {
         *out = (struct kd_camera_label) { .alpha = kx, .beta = ky, .energy = 1 };
         return;
     }
-    double kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
+    double kz = ahead * c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
     double m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
     kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
                        c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,

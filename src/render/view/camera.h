@@ -16,7 +16,13 @@ struct kd_camera_exact { KD_CAMERA_FIELDS_(F, U) };
 struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene);
 struct kd_camera_block kd_camera_block(const struct kd_scene *scene);
 
-/* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. */
+/* KD_SIGHT_ of shaders/shared/interface.h: how it looks. */
+uint32_t kd_camera_sight(const struct kd_scene *scene);
+
+/* What the direction at (x, y), in steps from the middle, has of c0; x and y become what it has of cx and cy. */
+double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, double *y);
+
+/* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. Of these two alone. */
 double kd_camera_pixel(const struct kd_scene *scene);
 
 /* The ray at (x, y) by its labels (render/rays/rays.h), as shaders/ray/camera.glsl makes it, in double. In the ergosphere E may be

@@ -30,6 +30,18 @@ struct spot {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/* Where a direction is seen by a camera whose steps are angles: (to the right, upwards) of unit vectors, and what is ahead. */
+static struct spot turned(const struct kd_camera_exact *c, double right, double up, double ahead)
+{
+    const double quarter = 0.5 * M_PI, aside = hypot(right, up), off = atan2(aside, ahead) / (quarter * c->turn_x);
+    if (c->sight == KD_SIGHT_SPHERE)
+        return (struct spot) { c->middle_x + atan2(right, ahead) / (quarter * c->turn_x),
+                               c->middle_y - atan2(up, hypot(right, ahead)) / (quarter * c->turn_y), true };
+    if (!(aside > 0))
+        return (struct spot) { c->middle_x, c->middle_y, ahead > 0 };
+    return (struct spot) { c->middle_x + off * right / aside, c->middle_y - off * up / aside, true };
+}
+
 /* The inverse of kd_camera_label. half: 1, the upper half, or -1. */
 static struct spot project(const struct work *w, double along, double half)
 {
@@ -44,6 +56,8 @@ static struct spot project(const struct work *w, double along, double half)
     } else {
         const double forward[] = { c->c0x, c->c0y, c->c0z };
         double depth = dot(d, forward);
+        if (c->sight != KD_SIGHT_PINHOLE)
+            return turned(c, dot(d, right), dot(d, up), depth);
         if (!(depth > 1e-6))
             return (struct spot) { .seen = false };
         for (int i = 0; i < 3; i++)
@@ -98,6 +112,8 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     double middle = 0.5 * (from + to);
     struct spot m = project(w, middle, half);
     bool whole = a.seen && m.seen && b.seen;
+    if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->width)
+        return; /* from one edge of a sphere to the other, or past what lies behind a dome */
     if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight && fabs(m.y - 0.5 * (a.y + b.y)) < straight &&
                                        hypot(b.x - a.x, b.y - a.y) < 24))) {
         mark(w, a, m);
