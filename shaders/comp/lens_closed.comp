@@ -61,12 +61,13 @@ bool goes_on(kd_leg leg, bool falls, float limit)
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Without a crossing the time to it means nothing, nor does it where Q nearly vanishes (polar.glsl): the plane is not reached sooner than at the
- * greatest speed, u'^2 = Q + A u^2 - e u^4 at its largest. */
-bool crosses_at_first(kd_geodesic m, kd_polar polar, float u)
+/* Whether polar.first is a time at all. Where A > 0 it is none if Q < 0, and rounding has its way where Q nearly vanishes (polar.glsl): the
+ * plane is not reached sooner than at the greatest speed, u'^2 = Q + A u^2 - e u^4 at its largest. Where A < 0 and Q = 0, in the plane, half periods
+ * are counted as ever, though nothing is crossed. */
+bool first_is_known(kd_geodesic m, kd_polar polar, float u)
 {
-    float pull = max(m.a2, 0.0);
-    return polar.crosses && polar.first > 0.99 * abs(u) * inversesqrt(m.q + 0.25 * pull * pull / max(m.energy2, 1e-30));
+    float pull = max(m.a2, 0.0), fastest2 = m.q + 0.25 * pull * pull / max(m.energy2, 1e-30);
+    return m.a2 <= 0.0 || (m.q > 0.0 && polar.first > 0.99 * abs(u) * inversesqrt(fastest2));
 }
 
 /* Keep crossing n; zeros for none. */
@@ -134,8 +135,8 @@ void main()
     kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_flies_out(barrier, start));
     float edge = cam.horizon * a.scale, limit = time_limit(barrier, start, ray.e, drag.falls);
 
-    const bool crosses = crosses_at_first(m, polar, cam.u);
-    polar.first = crosses ? polar.first : min(limit, polar.half_);
+    const bool known = first_is_known(m, polar, cam.u);
+    polar.first = known ? polar.first : min(limit, polar.half_);
     float z1 = polar.first * a.scale, zh = polar.half_ * a.scale;
     kd_nodes n1 = kd_nodes_of(a.l, z1), nh = kd_nodes_of(a.l, zh);
     kd_arc end1 = kd_arc_twice(a.l, n1.middle), endh = kd_arc_twice(a.l, nh.middle);
@@ -150,10 +151,10 @@ void main()
     leg.psi = azimuth.first;
     leg.chi = FINITE ? -kd_drag_fallen(drag, ray.w) : 0.0;
     leg.drag = kd_drag_between(drag, leg.last, next, n1, z1);
-    leg.alive = crosses && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
+    leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    keep(at, 0, leg.alive, leg, drag);
+    keep(at, 0, leg.alive && polar.crosses, leg, drag);
     uint n = 1;
     for (; n < ORDERS + (SKY ? MORE : 0); n++) {
         if (!leg.alive || (n >= ORDERS && drag.falls))
@@ -168,7 +169,7 @@ void main()
         leg.psi += azimuth.half_;
         leg.alive = leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
         if (n < ORDERS)
-            keep(at, n, leg.alive, leg, drag);
+            keep(at, n, leg.alive && polar.crosses, leg, drag);
     }
     for (; n < ORDERS; n++)
         keep(at, n, false, leg, drag);
