@@ -63,15 +63,20 @@ class Sessions(daemon.Owned):
         scene = self.patch(session, {'camera': None}).json()['scene']
         self.assertEqual(scene['camera']['inclination_deg'], 82)
         self.assertEqual(scene['image']['width'], 64)
+        usual = scene['disk']['gas']  # a section in a section
+        gas = {**usual, 'amplitude': 0.7, 'seed': 5}
+        for patch, wanted in (({'amplitude': 0.7, 'seed': 5}, gas), ({'seed': None}, {**gas, 'seed': usual['seed']}), (None, usual)):
+            self.assertEqual(self.patch(session, {'disk': {'gas': patch}}).json()['scene']['disk']['gas'], wanted)
         for body, status, pointer in (('{"camera":{"inclination_deg":181}}', 422, '/camera/inclination_deg'), ('{"camera":3}', 422, '/camera'),
-                                      ('{"nothing":null}', 422, '/nothing'), ('{"camera":{"x":null}}', 422, '/camera/x'),
+                                      ('{"nothing":null}', 422, '/nothing'), ('{"disk":{"gas":3}}', 422, '/disk/gas'),
+                                      ('{"disk":{"gas":{"x":null}}}', 422, '/disk/gas/x'), ('{"camera":{"x":null}}', 422, '/camera/x'),
                                       ('{"disk":{"outer":1}}', 422, '/disk/outer'), ('{"accuracy":{"tolerance":1e-15}}', 422, '/accuracy/tolerance'),
                                       ('{', 400, None), ('', 400, None), ('[]', 400, None)):
             with self.subTest(body):
                 problem = self.assertProblem(self.patch(session, body), status)
                 if pointer:
                     self.assertEqual(problem['pointer'], pointer)
-        self.assertEqual(self.status(session)['revision'], 3)
+        self.assertEqual(self.status(session)['revision'], 6)
         self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
 
     def test_what_varies(self):
