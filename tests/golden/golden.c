@@ -47,6 +47,12 @@ static const struct shot {
     { "zamo", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":15,\"observer\":\"zamo\",\"inclination_deg\":70,"
       "\"fov_deg\":100,\"yaw_deg\":-10,\"pitch_deg\":5,\"roll_deg\":20}," SIZE "}" },
+    { "equirectangular", NULL,
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":8,\"observer\":\"zamo\",\"inclination_deg\":75,\"projection\":\"equirectangular\"},"
+      "\"disk\":{\"outer\":7,\"opacity\":0.7,\"gas\":{\"amplitude\":0}},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
+    { "fulldome", NULL,
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":5,\"observer\":\"zamo\",\"inclination_deg\":80,\"projection\":\"fulldome\",\"pitch_deg\":20,"
+      "\"roll_deg\":10},\"disk\":{\"outer\":12,\"gas\":{\"amplitude\":0}},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
     { "grid", NULL,
       "{\"camera\":{\"field_m\":40,\"inclination_deg\":60},\"disk\":{\"model\":\"none\"},"
       "\"sky\":{\"model\":\"grid\",\"brightness\":0.7},\"style\":{\"exposure\":0}," SIZE "}" },
