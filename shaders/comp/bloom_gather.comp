@@ -1,74 +1,87 @@
-/* Light that a lens spreads, as a quadratic B-spline on the finest grid: a pixel gives to its own cell and to the eight round it, by where
- * in its cell it is, so that what is spread moves and widens evenly with it. An invocation adds up what the pixels of its cell give each
- * of the nine, rows from the top; bloom_join.comp adds up what a cell is given.
- *
- * A cell's pixels may lie in several bands: each band adds its rows to what those before it have left, one after the other, so that the sum
- * does not depend on where bands end. */
+/* Light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its own cell and to the eight round it, by where in its
+ * cell its middle is, so that what is spread moves and widens evenly with it. What it would give to cells beyond the edge comes back to
+ * those inside. An invocation makes two cells each way, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #include "shared/interface.h"
+#include "shared/spec.h"
 #include "shared/bloom.glsl"
+KD_SPEC_BLOOM_GATHER(KD_SPEC_U_, KD_SPEC_B_)
 
 layout(local_size_x = KD_GROUP_SIZE) in;
 
 #define F(name) float name;
 #define U(name) uint name;
 layout(push_constant) uniform Push { KD_BLOOM_GATHER_FIELDS_(F, U) } push;
-layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
-layout(set = 0, binding = 1) buffer Parts { vec4 parts[]; };
+#ifdef KD_TEXELS
+layout(set = 0, binding = 0) uniform textureBuffer blocks;
+vec3 light(int at) { return texelFetch(blocks, at).rgb; }
+#else
+layout(set = 0, binding = 0) readonly buffer Blocks { vec4 blocks[]; };
+vec3 light(int at) { return blocks[at].rgb; }
+#endif
+layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* Where cell i of n cells begins, in pixels; the products are integers below 2^31. */
-float edge(uint i, uint pixels, uint n) { return float(i * pixels / n) + float(i * pixels % n) / float(n); }
+/* So many pixels, pixels a block, blocks and cells along an axis. */
+struct kd_axis { uint pixels, block, blocks, cells; };
+/* A block, and its weights for two neighbouring cells. */
+struct kd_tap { int at; float a, b; };
 
-/* Of the part of a pixel from a to b within a cell from `from` to `to`: its share of the cell, as the three cells get it. */
-vec3 shares(float a, float b, float from, float to)
+/* The blocks whose middles are at most 1.5 cells from the middles of cell i and the next one are among these and those that follow. */
+int first_tap(kd_axis axis, int i)
 {
-    a = max(a, from);
-    b = min(b, to);
-    float size = to - from;
-    return bloom_spline((0.5 * (a + b) - from) / size - 0.5) * ((b - a) / size);
+    float step_ = float(axis.cells * axis.block) / float(axis.pixels);
+    return int(ceil((float(i) - 1) / step_ - 0.5));
 }
 
-/* What a row of pixels gives the cell to the left, its own, and the one to the right. */
-mat3 row_of(uint y, float left, float right)
+/* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others: its middle lies before its place,
+ * and what is mirrored in the edge, too. */
+kd_tap tap(kd_axis axis, int i, int k)
 {
-    mat3 sum = mat3(0);
-    uint last = min(uint(ceil(right)), push.pixels_x);
-    for (uint x = uint(left); x < last; x++) {
-        uint at = 3 * ((y - push.row0) * push.pixels_x + x);
-        vec3 light = push.gain * vec3(radiance[at], radiance[at + 1], radiance[at + 2]);
-        sum += outerProduct(bloom_of(light, push.strength), shares(float(x), float(x + 1), left, right));
+    int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;
+    float scale = float(axis.cells) / float(axis.pixels), at = (float(k) + 0.5) * (scale * float(axis.block)) - (float(i) + 0.5);
+    if (RAGGED) {
+        float narrow = 0.5 * scale * float(axis.blocks * axis.block - axis.pixels);
+        at -= behind < -1 ? 0.0 : behind == -1 ? narrow : behind == 0 ? 3 * narrow : 4 * narrow;
     }
-    return sum;
-}
-
-mat3 kept(uint at) { return mat3(parts[at].rgb, parts[at + 1].rgb, parts[at + 2].rgb); }
-void keep(uint at, mat3 sum)
-{
-    parts[at] = vec4(sum[0], 0);
-    parts[at + 1] = vec4(sum[1], 0);
-    parts[at + 2] = vec4(sum[2], 0);
+    return kd_tap(clamp(within, 0, count - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
 }
 
 void main()
 {
-    uint n = gl_GlobalInvocationID.x;
-    if (n >= push.cells_x * push.cell_rows)
+    kd_axis across = kd_axis(push.pixels_x, push.block_x, push.blocks_x, push.cells_x);
+    kd_axis along = kd_axis(push.pixels_y, push.block_y, push.blocks_y, push.cells_y);
+    uvec2 place = bloom_place(gl_GlobalInvocationID.x, (push.cells_x + 1) / 2);
+    int x = 2 * int(place.x), y = 2 * int(place.y);
+    if (y >= int(push.cells_y))
         return;
-    uint i = n % push.cells_x, j = push.cell_row0 + n / push.cells_x, at = 9 * (j * push.cells_x + i);
-    float left = edge(i, push.pixels_x, push.cells_x), right = edge(i + 1, push.pixels_x, push.cells_x);
-    float top = edge(j, push.pixels_y, push.cells_y), bottom = edge(j + 1, push.pixels_y, push.cells_y);
-    uint first = uint(top), last = min(min(uint(ceil(bottom)), push.pixels_y), push.row0 + push.rows);
-    bool begun = first < push.row0;
-    mat3 above = begun ? kept(at) : mat3(0), own = begun ? kept(at + 3) : mat3(0), below = begun ? kept(at + 6) : mat3(0);
-    for (uint y = max(first, push.row0); y < last; y++) {
-        vec3 weight = shares(float(y), float(y + 1), top, bottom);
-        mat3 row = row_of(y, left, right);
-        above += weight.x * row;
-        own += weight.y * row;
-        below += weight.z * row;
+    int first_x = first_tap(across, x), first_y = first_tap(along, y);
+    kd_tap taps[KD_BLOOM_TAPS];
+    for (int i = 0; i < int(TAPS_X); i++)
+        taps[i] = tap(across, x, first_x + i);
+    vec3 upper_left = vec3(0), upper_right = vec3(0), lower_left = vec3(0), lower_right = vec3(0);
+    for (int j = 0; j < int(TAPS_Y); j++) {
+        kd_tap row = tap(along, y, first_y + j);
+        int at = row.at * int(push.blocks_x);
+        vec3 left = vec3(0), right = vec3(0);
+        for (int i = 0; i < int(TAPS_X); i++) {
+            vec3 c = light(at + taps[i].at);
+            left += taps[i].a * c;
+            right += taps[i].b * c;
+        }
+        upper_left += row.a * left;
+        upper_right += row.a * right;
+        lower_left += row.b * left;
+        lower_right += row.b * right;
     }
-    keep(at, above);
-    keep(at + 3, own);
-    keep(at + 6, below);
+    int n = y * int(push.cells_x) + x;
+    bool more = x + 1 < int(push.cells_x), below = y + 1 < int(push.cells_y);
+    cells[n] = vec4(upper_left, 0);
+    if (more)
+        cells[n + 1] = vec4(upper_right, 0);
+    if (below)
+        cells[n + int(push.cells_x)] = vec4(lower_left, 0);
+    if (more && below)
+        cells[n + int(push.cells_x) + 1] = vec4(lower_right, 0);
 }

@@ -24,25 +24,47 @@ vec3 cell(int at) { return light[at].rgb; }
 #endif
 layout(set = 0, binding = 2) writeonly buffer Fine { vec4 fine[]; };
 
-vec3 smoothed(int x, int y, int across, int rows)
+/* Four cells in a row as two: those in the middle smoothed by 1, 2, 1. */
+struct pair { vec3 a, b; };
+
+pair smoothed(int row, ivec4 x)
 {
-    int left = bloom_mirror(x - 1, across), right = bloom_mirror(x + 1, across);
-    vec3 sum = vec3(0);
-    for (int k = -1; k <= 1; k++) {
-        int row = across * bloom_mirror(y + k, rows);
-        sum += (k == 0 ? 2.0 / 16 : 1.0 / 16) * (cell(row + left) + 2 * cell(row + x) + cell(row + right));
-    }
-    return sum;
+    vec3 p = cell(row + x.x), q = cell(row + x.y), r = cell(row + x.z), s = cell(row + x.w);
+    return pair(p + 2 * q + r, q + 2 * r + s);
 }
 
+/* Of three coarse cells, the two fine ones in the middle, times 4. */
+pair finer(int row, ivec3 x)
+{
+    vec3 p = coarse_cell(row + x.x), q = coarse_cell(row + x.y), r = coarse_cell(row + x.z);
+    return pair(p + 3 * q, 3 * q + r);
+}
+
+/* Two cells each way share what they read. */
 void main()
 {
-    int n = int(gl_GlobalInvocationID.x), across = int(push.cells_x), columns = across / 2, rows = int(push.cells_y) / 2;
-    if (n >= across * int(push.cells_y))
+    int across = int(push.cells_x), rows = int(push.cells_y), columns = (across + 1) / 2;
+    uvec2 place = bloom_place(gl_GlobalInvocationID.x, uint(columns));
+    int x = 2 * int(place.x), y = 2 * int(place.y);
+    if (y >= rows)
         return;
-    int x = n % across, y = n / across;
-    int near = x / 2, far = bloom_mirror(near + 2 * (x % 2) - 1, columns);
-    int row = columns * (y / 2), beside = columns * bloom_mirror(y / 2 + 2 * (y % 2) - 1, rows);
-    vec3 sum = (9 * coarse_cell(row + near) + 3 * (coarse_cell(row + far) + coarse_cell(beside + near)) + coarse_cell(beside + far)) / 16;
-    fine[n] = vec4(push.share * smoothed(x, y, across, int(push.cells_y)) + push.coarse_share * sum, 0);
+    ivec4 at = ivec4(bloom_mirror(x - 1, across), x, bloom_mirror(x + 1, across), bloom_mirror(x + 2, across));
+    pair a = smoothed(across * bloom_mirror(y - 1, rows), at), b = smoothed(across * y, at);
+    pair c = smoothed(across * bloom_mirror(y + 1, rows), at), d = smoothed(across * bloom_mirror(y + 2, rows), at);
+    int half_x = across / 2, half_y = rows / 2;
+    ivec3 near = ivec3(bloom_mirror(x / 2 - 1, half_x), bloom_mirror(x / 2, half_x), bloom_mirror(x / 2 + 1, half_x));
+    pair e = finer(half_x * bloom_mirror(y / 2 - 1, half_y), near), f = finer(half_x * bloom_mirror(y / 2, half_y), near);
+    pair g = finer(half_x * bloom_mirror(y / 2 + 1, half_y), near);
+    float own = push.share / 16, above = push.coarse_share / 16;
+    vec3 upper_left = own * (a.a + 2 * b.a + c.a) + above * (e.a + 3 * f.a), upper_right = own * (a.b + 2 * b.b + c.b) + above * (e.b + 3 * f.b);
+    vec3 lower_left = own * (b.a + 2 * c.a + d.a) + above * (3 * f.a + g.a), lower_right = own * (b.b + 2 * c.b + d.b) + above * (3 * f.b + g.b);
+    int n = across * y + x;
+    bool more = x + 1 < across, below = y + 1 < rows;
+    fine[n] = vec4(upper_left, 0);
+    if (more)
+        fine[n + 1] = vec4(upper_right, 0);
+    if (below)
+        fine[n + across] = vec4(lower_left, 0);
+    if (more && below)
+        fine[n + across + 1] = vec4(lower_right, 0);
 }

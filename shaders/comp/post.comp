@@ -103,6 +103,9 @@ place next(place at)
 /* A threshold in [0, 1) that depends on the place alone: interleaved gradient noise (J. Jimenez 2014). */
 float threshold(place at) { return fract(52.9829189 * fract(0.06711056 * at.x + 0.00583715 * at.y)); }
 
+/* What a lens spreads to the four pixels of an invocation. */
+struct spread { vec3 a, b, c, d; };
+
 #ifdef KD_BLOOM
 /* The light that arrives at a pixel. */
 vec3 arriving(place at)
@@ -117,14 +120,39 @@ vec3 arriving(place at)
     }
     return sum;
 }
+
+/* A column of three cells, by the weights of its rows. */
+vec3 column(ivec3 rows, int x, vec3 b)
+{
+    int at = bloom_mirror(x, int(push.cells_x));
+    return b.x * cell(rows.x + at) + b.y * cell(rows.y + at) + b.z * cell(rows.z + at);
+}
+
+/* Where all four lie beside one another and the cells are larger, five columns of cells are all that they see. */
+spread arriving_all(place first, place second, place third, place fourth)
+{
+    if (!TOGETHER)
+        return spread(arriving(first), arriving(second), arriving(third), arriving(fourth));
+    float u = (first.x + 0.5) * push.scale_x, v = (first.y + 0.5) * push.scale_y;
+    int across = int(push.cells_x), x = int(u), y = int(v), rows = int(push.cells_y);
+    ivec3 row = across * ivec3(bloom_mirror(y - 1, rows), y, bloom_mirror(y + 1, rows));
+    vec3 weight = bloom_spline(v - float(y) - 0.5), of[4] = { vec3(0), vec3(0), vec3(0), vec3(0) };
+    for (int k = 0; k < 5; k++) {
+        vec3 light = column(row, x + k - 1, weight);
+        float t = u - float(x) + (0.5 - float(k));
+        for (int i = 0; i < 4; i++)
+            of[i] += bloom_weight(t + float(i) * push.scale_x) * light;
+    }
+    return spread(of[0], of[1], of[2], of[3]);
+}
 #endif
 
-/* Rounded to the next level, or dithered by less than half a level. */
-ivec3 pixel(vec3 c, place at)
+/* Rounded to the next level, or dithered by less than half a level; arrives: what a lens spreads there. */
+ivec3 pixel(vec3 c, place at, vec3 arrives)
 {
     c *= push.gain;
 #ifdef KD_BLOOM
-    c += arriving(at) - bloom_of(c, push.bloom);
+    c += arrives - bloom_of(c, push.bloom);
 #endif
     c = clamp(ACES ? aces(c) : NEUTRAL ? neutral(c) : c, 0.0, 1.0);
     float spread = 0.998 * push.dither;
@@ -137,8 +165,13 @@ void main()
     uint at = 3 * min(block, (push.pixels - 1) / KD_POST_PIXELS);
     vec4 a = four_floats(at), b = four_floats(at + 1), c = four_floats(at + 2);
     place first = place_of(push.first + i), second = next(first), third = next(second), fourth = next(third);
-    ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first), pixel(vec3(a.w, b.xy), second), pixel(vec3(b.zw, c.x), third),
-                                pixel(c.yzw, fourth) };
+#ifdef KD_BLOOM
+    spread to = arriving_all(first, second, third, fourth);
+#else
+    const spread to = spread(vec3(0), vec3(0), vec3(0), vec3(0));
+#endif
+    ivec3 p[KD_POST_PIXELS] = { pixel(a.xyz, first, to.a), pixel(vec3(a.w, b.xy), second, to.b), pixel(vec3(b.zw, c.x), third, to.c),
+                                pixel(c.yzw, fourth, to.d) };
     /* Behind the end a word is 0. It is chosen rather than skipped: a word that is chosen is a finished vector to lavapipe, which else
      * packs it anew for each lane that it stores, at a fifth of the whole kernel. */
     bool inside = i < push.pixels;

@@ -24,6 +24,21 @@ vec3 bloom_of(vec3 c, float strength)
 /* Weights of a quadratic B-spline on three cells, t from the middle of the second in cells. */
 vec3 bloom_spline(float t) { return vec3(0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)); }
 
+/* The weight of a cell by the distance t to its middle: the same three. */
+float bloom_weight(float t)
+{
+    float a = max(1.5 - abs(t), 0.0), b = max(0.5 - abs(t), 0.0);
+    return 0.5 * a * a - 1.5 * b * b;
+}
+
+/* Column and row of invocation n, so many a row. The quotient as a float is wrong by one at most: rows reach 2^15. */
+uvec2 bloom_place(uint n, uint across)
+{
+    int width = int(across), y = int(float(n) * (1 / float(width))), x = int(n) - y * width;
+    int more = x >= width ? 1 : x < 0 ? -1 : 0;
+    return uvec2(x - more * width, y + more);
+}
+
 /* Index of a cell in the mirror image of n cells, for i from -1 to n. */
 int bloom_mirror(int i, int n) { return clamp(i, 0, n - 1); }
 

@@ -86,13 +86,19 @@
  * each (render/plan/bloom.h). */
 #define KD_BLOOM_ROWS 128
 #define KD_BLOOM_LEVELS 5
-#define KD_BLOOM_GATHER_FIELDS_(F, U)                                                                          \
+#define KD_BLOOM_BRIGHT_FIELDS_(F, U)                                                                          \
     F(gain)                  /* 2^exposure */                                                                  \
     F(strength)              /* of light over white, the share that is spread */                               \
-    U(pixels_x) U(pixels_y)  /* of the picture */                                                              \
+    U(pixels_x)                                                                                                \
     U(row0) U(rows)          /* of the band */                                                                 \
-    U(cells_x) U(cells_y)    /* of the grid */                                                                 \
-    U(cell_row0) U(cell_rows) /* those that the band has pixels of */
+    U(blocks_x)              /* of the picture */                                                              \
+    U(block_row0) U(block_rows) /* those that the band has pixels of */                                        \
+    U(across)                /* invocations a row of blocks */
+#define KD_BLOOM_TAPS 16     /* blocks along an axis that two cells may see, at most */
+#define KD_BLOOM_GATHER_FIELDS_(F, U)                                                                          \
+    U(pixels_x) U(pixels_y)  /* of the picture */                                                              \
+    U(blocks_x) U(blocks_y) U(cells_x) U(cells_y)                                                              \
+    U(block_x) U(block_y)    /* pixels of a block along its sides */
 
 /* Of photometry.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */
 #define KD_LIGHT_FIELDS_(F, U)                                                                                 \

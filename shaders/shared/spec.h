@@ -35,8 +35,14 @@
 /* APART: the luminance of some emitter is kept apart as well; FINITE: solid angles from a near observer. */
 #define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false)
 
-/* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is clipped. */
-#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false)
+/* BLOCK_X, BLOCK_Y: pixels along the sides of a block, 1, 2 or a multiple of 4; BEGUN: the first row of blocks has rows in the bands before. TAPS_X, TAPS_Y: blocks along
+ * an axis that two cells may see; RAGGED: the last one is narrower than the others. */
+#define KD_SPEC_BLOOM_BRIGHT(U, B) U(0, BLOCK_X, 2) U(1, BLOCK_Y, 2) B(2, BEGUN, false)
+#define KD_SPEC_BLOOM_GATHER(U, B) U(0, TAPS_X, 7) U(1, TAPS_Y, 7) B(2, RAGGED, false)
+
+/* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is clipped. TOGETHER:
+ * the four pixels of an invocation lie beside one another, within two cells of what a lens spreads. */
+#define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false)
 
 #ifdef VULKAN
 #define KD_SPEC_U_(id, name, value) layout(constant_id = id) const uint name = value;

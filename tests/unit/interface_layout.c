@@ -3,6 +3,7 @@
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 
+#include "bloom_bright.spv.h"
 #include "bloom_gather.spv.h"
 #include "footprint.spv.h"
 #include "lens_closed.spv.h"
@@ -144,9 +145,14 @@ static const struct field slice_fields[] = { KD_SLICE_FIELDS_(F, U) };
 static const struct field post_fields[] = { KD_POST_FIELDS_(F, U) };
 #undef F
 #undef U
-#define F(name) { #name, offsetof(struct kd_bloom_push, name), OP_TYPE_FLOAT },
-#define U(name) { #name, offsetof(struct kd_bloom_push, name), OP_TYPE_INT },
-static const struct field bloom_fields[] = { KD_BLOOM_GATHER_FIELDS_(F, U) };
+#define F(name) { #name, offsetof(struct kd_bloom_bright_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_bloom_bright_push, name), OP_TYPE_INT },
+static const struct field bright_fields[] = { KD_BLOOM_BRIGHT_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_bloom_gather_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_bloom_gather_push, name), OP_TYPE_INT },
+static const struct field gather_fields[] = { KD_BLOOM_GATHER_FIELDS_(F, U) };
 #undef F
 #undef U
 #define F(name) { #name, offsetof(struct kd_light_push, name), OP_TYPE_FLOAT },
@@ -168,7 +174,7 @@ static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
 #define U(name) { #name, offsetof(struct kd_guide, name), OP_TYPE_INT },
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
-static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), bloom_gather = SPIRV(bloom_gather), particles = SPIRV(particles),
+static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), bloom_bright = SPIRV(bloom_bright), bloom_gather = SPIRV(bloom_gather), particles = SPIRV(particles),
                           light = SPIRV(photometry), footprint = SPIRV(footprint);
 
 static void camera(void **state)
@@ -189,8 +195,10 @@ static void post_push(void **state)
     (void)state;
     same(&post, "Push", post_fields, COUNT(post_fields), 0);
     assert_int_equal(sizeof(struct kd_post_push), 4 * COUNT(post_fields));
-    same(&bloom_gather, "Push", bloom_fields, COUNT(bloom_fields), 0);
-    assert_int_equal(sizeof(struct kd_bloom_push), 4 * COUNT(bloom_fields));
+    same(&bloom_bright, "Push", bright_fields, COUNT(bright_fields), 0);
+    same(&bloom_gather, "Push", gather_fields, COUNT(gather_fields), 0);
+    assert_int_equal(sizeof(struct kd_bloom_bright_push), 4 * COUNT(bright_fields));
+    assert_int_equal(sizeof(struct kd_bloom_gather_push), 4 * COUNT(gather_fields));
 }
 
 static void light_push(void **state)

@@ -2,11 +2,12 @@
 
 #include "render/view/layout.h"
 
+#include "bloom_bright.spv.h"
+#include "bloom_bright_texels.spv.h"
 #include "bloom_down.spv.h"
 #include "bloom_down_texels.spv.h"
 #include "bloom_gather.spv.h"
-#include "bloom_join.spv.h"
-#include "bloom_join_texels.spv.h"
+#include "bloom_gather_texels.spv.h"
 #include "bloom_up.spv.h"
 #include "bloom_up_texels.spv.h"
 #include "density.spv.h"
@@ -67,10 +68,12 @@ static const struct {
     [KD_KERNEL_POST_BLOOM] = { "post, bloom", kd_spv_post_bloom, sizeof kd_spv_post_bloom, 3, sizeof(struct kd_post_push) },
     [KD_KERNEL_POST_BLOOM_TEXELS] = { "post, bloom, texels", kd_spv_post_bloom_texels, sizeof kd_spv_post_bloom_texels, 3,
                                       sizeof(struct kd_post_push), { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BLOOM_GATHER] = { "bloom, gather", kd_spv_bloom_gather, sizeof kd_spv_bloom_gather, 2, sizeof(struct kd_bloom_push) },
-    [KD_KERNEL_BLOOM_JOIN] = { "bloom, join", kd_spv_bloom_join, sizeof kd_spv_bloom_join, 2, 16 },
-    [KD_KERNEL_BLOOM_JOIN_TEXELS] = { "bloom, join, texels", kd_spv_bloom_join_texels, sizeof kd_spv_bloom_join_texels, 2, 16,
-                                      { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_BRIGHT] = { "bloom, bright", kd_spv_bloom_bright, sizeof kd_spv_bloom_bright, 2, sizeof(struct kd_bloom_bright_push) },
+    [KD_KERNEL_BLOOM_BRIGHT_TEXELS] = { "bloom, bright, texels", kd_spv_bloom_bright_texels, sizeof kd_spv_bloom_bright_texels, 2,
+                                        sizeof(struct kd_bloom_bright_push), { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BLOOM_GATHER] = { "bloom, gather", kd_spv_bloom_gather, sizeof kd_spv_bloom_gather, 2, sizeof(struct kd_bloom_gather_push) },
+    [KD_KERNEL_BLOOM_GATHER_TEXELS] = { "bloom, gather, texels", kd_spv_bloom_gather_texels, sizeof kd_spv_bloom_gather_texels, 2,
+                                        sizeof(struct kd_bloom_gather_push), { KD_VK_TEXELS_RGBA } },
     [KD_KERNEL_BLOOM_DOWN] = { "bloom, down", kd_spv_bloom_down, sizeof kd_spv_bloom_down, 2, 16 },
     [KD_KERNEL_BLOOM_DOWN_TEXELS] = { "bloom, down, texels", kd_spv_bloom_down_texels, sizeof kd_spv_bloom_down_texels, 2, 16,
                                       { KD_VK_TEXELS_RGBA } },
@@ -136,7 +139,7 @@ bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels)
 
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom)
 {
-    return !bloom->levels || 9ull * kd_bloom_cells(bloom, 0) <= kd_vk_info(vk)->max_texels;
+    return !bloom->levels || kd_bloom_most(bloom) <= kd_vk_info(vk)->max_texels;
 }
 
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk)

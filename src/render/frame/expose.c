@@ -14,7 +14,7 @@ static enum kd_status measure(struct kd_frame_job *j)
     KD_TRY(kd_vk_fill(vk, kd_passes[KD_PASS_EXPOSE].name, s->histogram, 0, 4 * KD_HISTOGRAM_BINS, 0, j->error));
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
         uint32_t pixels = j->plan->width * kd_frame_band_lit(j, band);
-        const uint32_t push[] = { pixels, pixels > 1 << 18 ? 7 : 1 };
+        const uint32_t push[] = { pixels, pixels > 1 << 17 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         const struct kd_vk_dispatch d = {
             kd_passes[KD_PASS_EXPOSE].name, expose, { { s->radiance.buffers[band], 0, 0, false }, { s->histogram, 0, 0, true } }, push, { n },

@@ -17,6 +17,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
     const struct kd_bloom *bloom = &j->plan->bloom;
     const struct kd_spec_post spec = {
         .ACES = scene->style.tone_map == KD_TONE_ACES, .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL, .WIDE = wide,
+        .TOGETHER = kd_bloom_together(bloom, j->plan->width),
     };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
     const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels);

@@ -10,6 +10,7 @@
 
 #include "interface.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct kd_bloom {
@@ -17,15 +18,28 @@ struct kd_bloom {
     uint32_t levels;                 /* grids; 0: nothing is spread */
     double strength;                 /* of light over white, the share that is spread */
     double share;                    /* of that, by each grid: as much in each octave of the angle */
-    /* In one buffer, multiples of 256: where each grid begins, where its sum with the coarser ones does, and where nine cells for each
-     * of the finest grid's do (shaders/comp/bloom_gather.comp); all. */
-    uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], parts, bytes;
+    uint32_t block_x, block_y;       /* pixels along the sides of the blocks whose light is added up first */
+    uint32_t blocks_x, blocks_y;     /* of these */
+    /* In one buffer, multiples of 256: where each grid begins, where its sum with the coarser ones does, and where the blocks do; all. */
+    uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 
 /* Of a picture of so many pixels. strength: style.bloom, 0: none. */
 struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength);
 
 static inline uint32_t kd_bloom_cells(const struct kd_bloom *bloom, uint32_t level) { return (bloom->columns >> level) * (bloom->rows >> level); }
-static inline uint64_t kd_bloom_parts_bytes(const struct kd_bloom *bloom) { return 9 * 16ull * kd_bloom_cells(bloom, 0); }
+static inline uint64_t kd_bloom_blocks(const struct kd_bloom *bloom) { return (uint64_t)bloom->blocks_x * bloom->blocks_y; }
+/* The most vectors that a kernel reads of one binding: there are more blocks than cells, but for rounding. */
+static inline uint64_t kd_bloom_most(const struct kd_bloom *bloom)
+{
+    const uint64_t blocks = kd_bloom_blocks(bloom), cells = kd_bloom_cells(bloom, 0);
+    return blocks > cells ? blocks : cells;
+}
+
+/* Whether four pixels beside one another see five columns of cells at most, all in one row of the picture: the pass post then reads fewer. */
+static inline bool kd_bloom_together(const struct kd_bloom *bloom, uint32_t width)
+{
+    return bloom->levels && width % KD_POST_PIXELS == 0 && 3 * bloom->columns <= 2 * width;
+}
 
 #endif

@@ -26,7 +26,8 @@ struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
 struct kd_light_push { KD_LIGHT_FIELDS_(F, U) };
 struct kd_post_push { KD_POST_FIELDS_(F, U) };
-struct kd_bloom_push { KD_BLOOM_GATHER_FIELDS_(F, U) };
+struct kd_bloom_bright_push { KD_BLOOM_BRIGHT_FIELDS_(F, U) };
+struct kd_bloom_gather_push { KD_BLOOM_GATHER_FIELDS_(F, U) };
 #undef F
 #undef U
 
@@ -64,6 +65,8 @@ _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next came
 #define CHECK_PARTICLES(id, name, value) SPEC_CHECK(kd_spec_particles, id, name)
 #define CHECK_PHOTOMETRY(id, name, value) SPEC_CHECK(kd_spec_photometry, id, name)
 #define CHECK_POST(id, name, value) SPEC_CHECK(kd_spec_post, id, name)
+#define CHECK_BRIGHT(id, name, value) SPEC_CHECK(kd_spec_bloom_bright, id, name)
+#define CHECK_GATHER(id, name, value) SPEC_CHECK(kd_spec_bloom_gather, id, name)
 #define TRAIT(number, name) +1
 SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
@@ -72,6 +75,8 @@ SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMIT
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
 SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
 SPEC(kd_spec_photometry, KD_SPEC_PHOTOMETRY, CHECK_PHOTOMETRY, )
+SPEC(kd_spec_bloom_bright, KD_SPEC_BLOOM_BRIGHT, CHECK_BRIGHT, )
+SPEC(kd_spec_bloom_gather, KD_SPEC_BLOOM_GATHER, CHECK_GATHER, )
 SPEC(kd_spec_post, KD_SPEC_POST, CHECK_POST, )
 _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, "the emitters' words are behind the others");
 #undef SPEC_U
