@@ -11,6 +11,9 @@ export const useful = {
   'camera.centre_alpha': [-50, 50],
   'camera.centre_beta': [-50, 50],
   'camera.roll_deg': [-180, 180],
+  'camera.infall_from': [2.1, 1000],
+  'camera.infall_energy': [0, 10],
+  'camera.infall_momentum': [-5, 5],
   'disk.inner': [1, 50],
   'disk.outer': [3, 200],
   'disk.peak_temperature_k': [1000, 1e5],
@@ -25,7 +28,7 @@ export const useful = {
   'motion.time_rate': [-100, 100],
 };
 
-export const first = { 'camera.r': 60, 'disk.inner': 6, 'style.exposure': 0, 'accuracy.tolerance': 1e-6 }; // when a word is given up
+export const first = { 'camera.r': 60, 'camera.infall_from': 100, 'camera.infall_energy': 1, 'disk.inner': 6, 'style.exposure': 0, 'accuracy.tolerance': 1e-6 }; // when a word is given up
 
 export const left_out = ['image.width', 'image.height']; // the window's
 export const beside_time = ['time', 'motion.time_rate']; // stand beside what starts and stops it
@@ -39,6 +42,11 @@ const with_choice = {
     equirectangular: ['yaw_deg', 'pitch_deg', 'observer'],
     fulldome: ['yaw_deg', 'pitch_deg', 'observer'],
     ring: ['ring_decades_max', 'ring_decades_min'],
+  },
+  'camera, by the observer': {
+    chosen: scene => (scene.get('camera.r') === 'infinity' ? null : scene.get('camera.observer')),
+    velocity: ['velocity_r', 'velocity_theta', 'velocity_phi'],
+    infall: ['infall_from', 'infall_energy', 'infall_momentum'],
   },
   disk: {
     chosen: scene => scene.get('disk.model'),
@@ -62,6 +70,8 @@ export function meansSomething(scene, path, shows) {
     key = home && `${home}.${switched_by[home.replace(/\.\d+$/, '')]}`;
   if (conditions[path]) return conditions[path](shows);
   if (scene.fields.has(key) && key !== path && scene.get(key) === scene.fields.get(key).default) return false;
-  const { chosen, ...choices } = with_choice[home] ?? {};
-  return Object.entries(choices).every(([choice, names]) => !names.includes(name) || choice === chosen(scene));
+  return Object.entries(with_choice).every(
+    ([section, { chosen, ...choices }]) =>
+      section.split(',')[0] !== home || Object.entries(choices).every(([choice, names]) => !names.includes(name) || choice === chosen(scene)),
+  );
 }

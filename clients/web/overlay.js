@@ -60,10 +60,14 @@ const path = (points, closed) => {
 };
 
 const at_infinity = scene => scene.get('camera.r') === 'infinity';
+const motion = scene =>
+  Object.fromEntries(
+    ['velocity_r', 'velocity_theta', 'velocity_phi', 'infall_from', 'infall_energy', 'infall_momentum'].map(name => [name, scene.get('camera.' + name)]),
+  );
 const hole = scene => ({
   spin: scene.get('spacetime.spin'),
   inclination_deg: scene.get('camera.inclination_deg'),
-  ...(at_infinity(scene) ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer') }),
+  ...(at_infinity(scene) ? {} : { observer_r: scene.get('camera.r'), observer: scene.get('camera.observer'), ...motion(scene) }),
 });
 
 async function shadow(scene, look) {
@@ -78,10 +82,14 @@ async function shadow(scene, look) {
   const size = x => (far ? `${number(x)} M` : `${number(x / radians)}°`);
   return {
     lines: [path(points, true)],
-    words: t(
-      `${size(v.width)} wide, ${size(v.height)} high, ${size(v.displacement)} off the middle`,
-      `larga ${size(v.width)}, alta ${size(v.height)}, spostata di ${size(v.displacement)}`,
-    ),
+    // There are no measures for an observer that moves in latitude.
+    words:
+      v.width === null
+        ? ''
+        : t(
+            `${size(v.width)} wide, ${size(v.height)} high, ${size(v.displacement)} off the middle`,
+            `larga ${size(v.width)}, alta ${size(v.height)}, spostata di ${size(v.displacement)}`,
+          ),
   };
 }
 

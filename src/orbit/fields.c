@@ -63,7 +63,7 @@ const char *kd_orbit_field_word(const struct kd_orbit_field *field, int i)
 {
     switch (field->words) {
     case WAY_WORDS: return i < KD_WAYS ? kd_orbit_way_name((enum kd_orbit_way)i) : NULL;
-    case FRAME_WORDS: return i < KD_OBSERVER_COUNT ? kd_observers[i].word : NULL;
+    case FRAME_WORDS: return i < KD_OBSERVER_FRAMES ? kd_observers[i].word : NULL;
     case CASE_WORDS: return i < KD_CASES ? kd_orbit_case_name((enum kd_orbit_case)i) : NULL;
     case NO_WORDS: break;
     }

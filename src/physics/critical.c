@@ -87,7 +87,7 @@ static bool valid(const struct kd_critical_observer *o)
 {
     return fabs(o->spin) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
            o->radius > kd_kerr_horizon(o->spin) &&
-           (unsigned)o->frame < KD_OBSERVER_COUNT;
+           (unsigned)o->motion.observer < KD_OBSERVER_COUNT;
 }
 
 struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
@@ -101,11 +101,16 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     c.shell = kd_shell_of(a);
     if (isfinite(o->radius)) {
         const struct kd_vantage at = { a, o->radius, u, c.sine };
-        if (!kd_observer_exists(o->frame, &at))
+        double bound;
+        if (!kd_observer_exists(o->motion.observer, &at) || kd_observer_check(&o->motion, &at, &bound))
             c.status = KD_CRITICAL_NO_OBSERVER;
-        c.tetrad = kd_observer_tetrad(o->frame, &at);
-        if (!c.status && !kd_tetrad_is_level(&c.tetrad))
-            c.status = KD_CRITICAL_NOT_LEVEL;
+        c.tetrad = kd_observer_tetrad(&o->motion, &at);
+        c.is_skew = !c.status && !kd_tetrad_is_level(&c.tetrad);
+        if (c.is_skew) {
+            const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
+            c.skew = c.tetrad;
+            c.tetrad = kd_observer_tetrad(&zamo, &at);
+        }
     }
     c.low = end(&c, c.shell.prograde);
     c.high = end(&c, c.shell.retrograde);
@@ -147,6 +152,15 @@ static struct place aim_at(const struct kd_critical *c, double angle)
     return see(c, at);
 }
 
+void kd_critical_see(const struct kd_critical *c, struct kd_critical_point *p)
+{
+    if (!c->is_skew)
+        return;
+    const struct kd_covector photon = kd_tetrad_covector(&c->tetrad, (double[]) { 1, p->inwards, p->up, -p->right });
+    const struct kd_look seen = kd_tetrad_look(&c->skew, &photon);
+    p->right = seen.right, p->up = seen.up, p->inwards = seen.inwards;
+}
+
 struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angle)
 {
     double turned = remainder(angle, 2 * M_PI), upper = fabs(turned), s = sin(upper), k = cos(upper);
@@ -166,6 +180,7 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
     q.right = p.right, q.up = below * y, q.inwards = p.inwards;
     q.beta = q.up * c->tetrad.theta.polar / p.energy;
     q.rho = atan2(rho, p.inwards * cos(c->centre) + p.right * sin(c->centre));
+    kd_critical_see(c, &q);
     return q;
 }
 
@@ -227,6 +242,8 @@ struct kd_critical_measures kd_critical_measure(const struct kd_critical *c)
 {
     struct kd_critical_measures m = { .displacement = c->centre, .width = c->right - c->left };
     struct sums s = { 0 };
+    if (c->is_skew)
+        return (struct kd_critical_measures) { NAN, NAN, NAN, NAN, NAN, NAN, 0 };
     add(c, 0, 0.5, &s);
     add(c, M_PI, 0.5, &s);
     int n = 1; /* intervals of the upper half */

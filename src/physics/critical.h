@@ -41,14 +41,13 @@ struct kd_critical_observer {
     double radius;    /* outside the horizon; INFINITY                                   */
     double cos_theta; /* [-1, 1], exact 0 and +-1 included                               */
     double sin_theta; /* 0: taken from cos_theta, as in null_geodesic.h                  */
-    enum kd_observer frame; /* at a finite radius, where there is this observer           */
+    struct kd_observer_motion motion; /* at a finite radius, where there is this observer */
 };
 
 enum kd_critical_status {
     KD_CRITICAL_OK,
     KD_CRITICAL_BAD_INPUT,     /* NaN, or outside the ranges above                  */
     KD_CRITICAL_NO_OBSERVER,   /* there is none such there                          */
-    KD_CRITICAL_NOT_LEVEL,     /* the frame moves along theta: the lower half is not the mirror image of the upper one */
 };
 
 /* The curve of one observer. */
@@ -56,14 +55,20 @@ struct kd_critical {
     enum kd_critical_status status;
     struct kd_critical_observer observer;
     struct kd_shell shell;
-    struct kd_tetrad tetrad; /* at a finite radius                         */
+    struct kd_tetrad tetrad; /* at a finite radius; where the observer moves along theta, of zero angular momentum */
+    struct kd_tetrad skew;   /* the observer's own then; otherwise not set */
+    bool is_skew;
     double sine;             /* of the inclination                          */
     double low, high;        /* places of the orbits at the left and right end, divided by `sine` where that is not 0 */
     double left, right;      /* where the ends are: alpha, or the angle to the right of -e_r */
     double centre;
 };
 
-/* Check `status`: no other function takes a curve without OK. */
+/* For an observer that moves along theta the lower half is not the mirror image of the upper one. `along`, angle, rho, centre, left and
+ * right are then those of an observer of zero angular momentum at the same place, and only right, up and inwards of a point are as seen.
+ * Measures are NaN.
+ *
+ * Check `status`: no other function takes a curve without OK. */
 struct kd_critical kd_critical_of(const struct kd_critical_observer *observer);
 
 struct kd_critical_point {
@@ -76,10 +81,14 @@ struct kd_critical_point {
 /* The point seen at `angle`, any real. Some two microseconds. */
 struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double angle);
 
-/* A point of the upper half; the other half is its mirror image. `along` goes from 0 at the left end to 1 at the right one,
+/* A point of the upper half; the other half is its mirror image, and both are as seen once kd_critical_see has had them. `along` goes from 0 at the left end to 1 at the right one,
  * not evenly in any angle or length. No root is sought: ten times as fast, for drawing the curve. At the ends `up` is good to
  * some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
+
+/* Turns right, up and inwards of a point of kd_critical_upper, or of its mirror image, into those of an observer that moves along theta;
+ * nothing for others. kd_critical_at has done so. */
+void kd_critical_see(const struct kd_critical *curve, struct kd_critical_point *point);
 
 /* Measures by the trapezoidal rule, which converges exponentially. `points` is how many it took to 1e-13, or 8192: near a = 1
  * the curve bends all but suddenly, and some 1e-10 is left. */

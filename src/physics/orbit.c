@@ -207,7 +207,8 @@ enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd
     if (status)
         return status;
     const struct kd_vantage at = { a, r, kd_cos_deg(theta_deg), kd_sin_deg(theta_deg) };
-    const struct kd_tetrad tetrad = kd_observer_tetrad(frame, &at);
+    const struct kd_observer_motion motion = kd_observer_motion_of(frame);
+    const struct kd_tetrad tetrad = kd_observer_tetrad(&motion, &at);
     double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     const struct kd_covector p = kd_tetrad_covector(&tetrad, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
     *o = (struct kd_orbit) { .a = a, .energy = p.energy, .binding = (1 - p.energy) * (1 + p.energy) };

@@ -15,6 +15,23 @@ struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const doubl
     };
 }
 
+struct kd_tetrad kd_tetrad_boosted(const struct kd_tetrad *frame, const double x[4])
+{
+    double legs[4][4] = { { x[0], x[1], x[2], x[3] } };
+    for (int i = 1; i < 4; i++) {
+        legs[i][0] = x[i];
+        for (int j = 1; j < 4; j++)
+            legs[i][j] = (i == j) + x[i] * x[j] / (1 + x[0]);
+    }
+    return (struct kd_tetrad) {
+        .at = frame->at,
+        .t = kd_tetrad_covector(frame, legs[0]),
+        .r = kd_tetrad_covector(frame, legs[1]),
+        .theta = kd_tetrad_covector(frame, legs[2]),
+        .phi = kd_tetrad_covector(frame, legs[3]),
+    };
+}
+
 static void swap(double *a, double *b)
 {
     for (int i = 0; i < 5; i++) {

@@ -28,6 +28,10 @@ struct kd_tetrad {
 struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const double x[4]);
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4]);
 
+/* The frame of one who has the velocity of a body in this one: its components x[0] = gamma, x[i] = gamma v_i. Its legs are those of this
+ * frame by a boost that turns nothing: e'_t = x, e'_i = e_i + x_i e_t + x_i x_j e_j/(1 + gamma). */
+struct kd_tetrad kd_tetrad_boosted(const struct kd_tetrad *frame, const double x[4]);
+
 /* Whether left and right, in and out are alike above and below: only e_theta has a p_theta, and it has nothing else. */
 int kd_tetrad_is_level(const struct kd_tetrad *frame);
 

@@ -48,14 +48,28 @@
 #define KD_PARAMETER_OBSERVER(P)                                                                                      \
     P(observer_r, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",                \
       .help = "radius of the observer")                                                                                \
-    P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, .help = "state of motion at a finite radius" KD_OBSERVER_HELP)
+    P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, .help = "state of motion at a finite radius" KD_OBSERVER_HELP) \
+    P(velocity_r, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "outwards, past one of zero angular momentum (observer velocity)") \
+    P(velocity_theta, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "away from the north pole, likewise") \
+    P(velocity_phi, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "towards +phi, likewise")         \
+    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",               \
+      .help = "radius from which the observer falls, at rest there but for its angular momentum (observer infall)")    \
+    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest",                  \
+      .help = "its energy per mass; rest: as infall_from has it")                                                      \
+    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, .help = "its angular momentum per mass")
+/* The motion that these say. */
+#define KD_QUANTITY_MOTION(p)                                                                                         \
+    (struct kd_observer_motion) {                                                                                     \
+        .observer = (enum kd_observer)(p)->observer, .velocity = { (p)->velocity_r, (p)->velocity_theta, (p)->velocity_phi }, \
+        .fall_from = (p)->infall_from, .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum,      \
+    }
 
 /* KD_EINVAL with "/name": "r is 1.2, " and the reason, which ends in what is allowed. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
 /* r at or outside the horizon of spin a, or that error. */
 enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *error);
-/* Whether there is such an observer, or the error for /observer_r. */
-enum kd_status kd_quantity_observer_exists(enum kd_observer observer, const struct kd_vantage *at, struct kd_error *error);
+/* Whether there is such an observer, or the error for /observer_r or the number that is wrong. */
+enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at, struct kd_error *error);
 
 #endif

@@ -24,7 +24,7 @@
 #include <stddef.h>
 
 enum {
-    KD_QUANTITY_PARAMETERS = 12, /* at most, of one quantity */
+    KD_QUANTITY_PARAMETERS = 16, /* at most, of one quantity */
     KD_QUANTITY_OUTPUTS = 40,
     KD_QUANTITY_POINTS = 100000, /* of one answer */
 };

@@ -39,12 +39,12 @@ struct memory {
 static enum kd_status make_frame(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
     const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
-    const enum kd_observer observer = (enum kd_observer)p->observer;
+    const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
     if (isinf(at.r))
         return KD_OK;
-    if (kd_quantity_observer_exists(observer, &at, error))
+    if (kd_quantity_observer_exists(&motion, &at, error))
         return KD_EINVAL;
-    m->frame = kd_observer_tetrad(observer, &at);
+    m->frame = kd_observer_tetrad(&motion, &at);
     return KD_OK;
 }
 

@@ -40,9 +40,9 @@ static enum kd_status make_curve(const struct parameters *p, struct memory *m, s
 {
     const struct kd_vantage at = { p->spin, p->observer_r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
-        .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .frame = (enum kd_observer)p->observer,
+        .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .motion = KD_QUANTITY_MOTION(p),
     };
-    if (kd_quantity_observer_exists(observer.frame, &at, error))
+    if (kd_quantity_observer_exists(&observer.motion, &at, error))
         return KD_EINVAL;
     m->curve = kd_critical_of(&observer);
     if (m->curve.status)

@@ -39,6 +39,15 @@
     REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer") \
     ENUM(camera, observer, PHYSICS, REST, KD_OBSERVER_STATIC,                                                        \
          "state of motion at a finite radius" KD_OBSERVER_HELP, KD_OBSERVER_WORDS)                                   \
+    REAL(camera, velocity_r, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity outwards, past one of zero angular momentum (observer: velocity)") \
+    REAL(camera, velocity_theta, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity away from the north pole, likewise (observer: velocity)") \
+    REAL(camera, velocity_phi, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity along the disk's rotation, likewise (observer: velocity)") \
+    WORD(camera, infall_from, PHYSICS, REST, INFINITY, 1.0, 1e7, "M",                                                \
+         "radius from which the observer falls, at rest there but for its angular momentum (observer: infall)", "infinity") \
+    WORD(camera, infall_energy, PHYSICS, REST, INFINITY, -100.0, 1e3, "1",                                           \
+         "energy per mass of the falling observer; rest: as infall_from has it (observer: infall)", "rest")          \
+    REAL(camera, infall_momentum, PHYSICS, REST, 0.0, -1e4, 1e4, "M",                                                \
+         "angular momentum per mass of the falling observer, which moves in r and azimuth, not in latitude (observer: infall)") \
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO,                                                         \
          "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; "              \
          "ring: angle round the critical curve against the logarithm of the distance to it, at infinity "            \

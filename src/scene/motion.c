@@ -30,6 +30,18 @@ bool kd_scene_is_flat(const struct kd_scene *scene)
     return projection == KD_PROJECTION_AUTO || projection == KD_PROJECTION_PLANE || projection == KD_PROJECTION_PINHOLE;
 }
 
+struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene)
+{
+    const struct kd_camera *c = &scene->camera;
+    return (struct kd_observer_motion) {
+        .observer = (enum kd_observer)c->observer,
+        .velocity = { c->velocity_r, c->velocity_theta, c->velocity_phi },
+        .fall_from = c->infall_from,
+        .fall_energy = c->infall_energy,
+        .fall_momentum = c->infall_momentum,
+    };
+}
+
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS])
 {
     size_t n = 0;

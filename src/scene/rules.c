@@ -127,6 +127,53 @@ static enum kd_status observer(const struct kd_scene *scene, struct kd_error *er
         show(camera->r).text, row->word, show_bound(row->outside(at.spin, at.u)).text, row->edge, kd_observer_others(&at, others));
 }
 
+/* What the numbers of an observer's own motion are worth. */
+static enum kd_status motion(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *camera = &scene->camera;
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const struct kd_observer_motion m = kd_scene_observer(scene);
+    double bound;
+    switch (isfinite(camera->r) ? kd_observer_check(&m, &at, &bound) : KD_OBSERVER_SOUND) {
+    case KD_OBSERVER_SOUND: return KD_OK;
+    case KD_OBSERVER_TOO_FAST:
+        return kd_error_field(error, "/camera/velocity_r", "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less "
+                              "than 1, that of light", show(hypot(hypot(m.velocity[0], m.velocity[1]), m.velocity[2])).text);
+    case KD_OBSERVER_TWO_ENERGIES:
+        return kd_error_field(error, "/camera/infall_energy", "camera.infall_energy is %s with camera.infall_from %s M, allowed is \"rest\"",
+                              show(m.fall_energy).text, show(m.fall_from).text);
+    case KD_OBSERVER_FROM_INSIDE:
+        return kd_error_field(error, "/camera/infall_from", "camera.infall_from is %s M, allowed is at least camera.r, %s M",
+                              show(m.fall_from).text, show(bound).text);
+    case KD_OBSERVER_TURNS: break;
+    }
+    if (isfinite(m.fall_energy))
+        return kd_error_field(error, "/camera/infall_energy", "camera.infall_energy is %s, allowed at camera.r %s M with this angular momentum is at "
+                              "least %s", show(m.fall_energy).text, show(camera->r).text, show_bound(bound).text);
+    return kd_error_field(error, "/camera/infall_momentum", "camera.infall_momentum is %s M, with which the observer turns outside camera.r %s M; "
+                          "allowed are those nearer to 0", show(m.fall_momentum).text, show(camera->r).text);
+}
+
+/* Silence here, too, would leave the user turning a knob that does nothing. */
+static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *c = &scene->camera;
+    const struct { const char *pointer; double value, idle; int observer; } knobs[] = {
+        { "/camera/velocity_r", c->velocity_r, 0, KD_OBSERVER_VELOCITY },
+        { "/camera/velocity_theta", c->velocity_theta, 0, KD_OBSERVER_VELOCITY },
+        { "/camera/velocity_phi", c->velocity_phi, 0, KD_OBSERVER_VELOCITY },
+        { "/camera/infall_from", c->infall_from, INFINITY, KD_OBSERVER_INFALL },
+        { "/camera/infall_energy", c->infall_energy, INFINITY, KD_OBSERVER_INFALL },
+        { "/camera/infall_momentum", c->infall_momentum, 0, KD_OBSERVER_INFALL },
+    };
+    for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++)
+        if (knobs[i].value != knobs[i].idle && (c->observer != knobs[i].observer || !isfinite(c->r)))
+            return kd_error_field(error, knobs[i].pointer, "camera.%s is %s, allowed is %s unless camera.observer is \"%s\" at a finite camera.r",
+                                  knobs[i].pointer + sizeof "/camera", show(knobs[i].value).text,
+                                  knobs[i].idle == 0 ? "0" : i == 3 ? "\"infinity\"" : "\"rest\"", kd_observers[knobs[i].observer].word);
+    return KD_OK;
+}
+
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
 {
     double least = kd_kerr_isco(scene->spacetime.spin);
@@ -194,6 +241,13 @@ const struct kd_rule kd_rules[] = {
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
     { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2).", horizon },
     { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },
+    { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` are a speed below 1. What falls is outside no turning point: "
+      "`camera.infall_from` is at least `camera.r`, and it does not turn on its way; `camera.infall_energy` is enough to be at "
+      "`camera.r`, and \"rest\" where `camera.infall_from` is not \"infinity\".",
+      motion },
+    { "`camera.velocity_*` and `camera.infall_*` have their defaults unless `camera.observer` is \"velocity\" or \"infall\" at a finite "
+      "`camera.r`.",
+      idle_motion },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

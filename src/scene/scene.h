@@ -5,7 +5,7 @@
 
 #include "base/buffer.h"
 #include "base/error.h"
-#include "physics/tetrad.h"
+#include "physics/observer.h"
 #include "scene/fields.h"
 
 #include <math.h>
@@ -94,8 +94,9 @@ bool kd_scene_time_goes_on(const struct kd_scene *scene);
 /* Says whether areas of the picture are to scale: it is of the plane or the pinhole projection. */
 bool kd_scene_is_flat(const struct kd_scene *scene);
 
-/* Says where the observer is. */
+/* Say where the observer is, and how it moves. */
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
+struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene);
 
 /* Finds the spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);

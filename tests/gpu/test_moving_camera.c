@@ -23,11 +23,11 @@ static void move(double r, double theta, double phi)
 }
 
 /* A boost: e'_t = gamma (e_t + v.e), e'_i = gamma v_i e_t + e_i + gamma^2/(gamma + 1) v_i v.e. */
-struct kd_tetrad __real_kd_observer_tetrad(enum kd_observer observer, const struct kd_vantage *at);
-struct kd_tetrad __wrap_kd_observer_tetrad(enum kd_observer observer, const struct kd_vantage *at);
-struct kd_tetrad __wrap_kd_observer_tetrad(enum kd_observer observer, const struct kd_vantage *at)
+struct kd_tetrad __real_kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at);
+struct kd_tetrad __wrap_kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at);
+struct kd_tetrad __wrap_kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at)
 {
-    const struct kd_tetrad rest = __real_kd_observer_tetrad(observer, at);
+    const struct kd_tetrad rest = __real_kd_observer_tetrad(motion, at);
     double x[4][4] = { { gamma_, gamma_ * v[0], gamma_ * v[1], gamma_ * v[2] } };
     for (int i = 0; i < 3; i++) {
         x[i + 1][0] = gamma_ * v[i];

@@ -99,18 +99,16 @@ static double slow(double a, double r)
     return (plus * log(r - plus) - minus * log(r - minus)) / root;
 }
 
-static void start(const struct ks_photon *p, double *y)
+/* From spherical coordinates and covariant components p_r, p_theta, p_phi to Cartesian ones. */
+static void place(double a, double r, double s, double u, double phi, const double p[3], double *y)
 {
-    double a = p->a, r = p->r, u = p->u, s = sqrt((1 - u) * (1 + u));
-    double delta = r * r - 2 * r + a * a;
-    double p_r = -p->p_r + (2 * r * p->energy - a * p->momentum) / delta, p_t = -p->p_theta, p_f = p->momentum;
-    double phi = -p->phi - twist(a, r), c = cos(phi), d = sin(phi);
+    double c = cos(phi), d = sin(phi);
     double x = (r * c - a * d) * s, yy = (r * d + a * c) * s;
     /* p_i dx^i over (dr, dtheta, dphi): three equations for the Cartesian components. */
     double m[3][4] = {
-        { s * c, s * d, u, p_r },
-        { (r * c - a * d) * u, (r * d + a * c) * u, -r * s, p_t },
-        { -yy, x, 0, p_f },
+        { s * c, s * d, u, p[0] },
+        { (r * c - a * d) * u, (r * d + a * c) * u, -r * s, p[1] },
+        { -yy, x, 0, p[2] },
     };
     if (s == 0) /* on the axis any azimuth does: the third row is empty, momentum along e_phi comes from `phi` */
         m[2][0] = -d, m[2][1] = c, m[2][3] = 0;
@@ -128,9 +126,17 @@ static void start(const struct ks_photon *p, double *y)
             for (int j = 3; k != i && j >= i; j--)
                 m[k][j] -= m[k][i] / m[i][i] * m[i][j];
     }
-    y[0] = x, y[1] = yy, y[2] = r * u, y[6] = p->delay + slow(a, r);
+    y[0] = x, y[1] = yy, y[2] = r * u;
     for (int i = 0; i < 3; i++)
         y[3 + i] = m[i][3] / m[i][i];
+}
+
+static void start(const struct ks_photon *p, double *y)
+{
+    double a = p->a, r = p->r, u = p->u, delta = r * r - 2 * r + a * a;
+    double p_r = -p->p_r + (2 * r * p->energy - a * p->momentum) / delta;
+    place(a, r, sqrt((1 - u) * (1 + u)), u, -p->phi - twist(a, r), (double[]) { p_r, -p->p_theta, p->momentum }, y);
+    y[6] = p->delay + slow(a, r);
 }
 
 /* The step from y that ends on z = 0, given that a step of h crosses it. */
@@ -154,16 +160,16 @@ static void land(const struct system *s, const double *y, double h, double *out)
     }
 }
 
-struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
+/* Follows the Hamiltonian flow from y. mirrored: azimuth and time run the other way, and the horizon is reached in finite parameter.
+ * Otherwise it is that in the past, at which these coordinates stall and momenta grow without end, and the start may lie within the other. */
+static struct ks_path run(const struct system s, state y, bool mirrored, int max_crossings)
 {
     struct ks_path path = { .fate = KS_UNDECIDED };
-    struct system s = { photon.a, photon.energy };
-    double horizon = 1 + sqrt((1 - s.a) * (1 + s.a));
-    state y, next;
-    start(&photon, y);
-    double h = 0.05 * photon.r;
+    const double horizon = 1 + sqrt((1 - s.a) * (1 + s.a)), sign = mirrored ? -1 : 1;
+    state next;
+    double h = 0.05 * radius(s.a, y);
     for (int step = 0; step < 20000; step++) {
-        double r = radius(s.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / r;
+        double r = radius(s.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(s.energy) / r;
         h = fmin(h, 0.25 * r / v); /* short enough that one step does not cross the plane twice */
         double error = extrapolate(&s, y, h, next);
         if (!(error < 1e-12) && h > 1e-9) {
@@ -174,27 +180,28 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
             state hit;
             land(&s, y, h, hit);
             double hr = radius(s.a, hit);
-            if (hr <= horizon)
+            if (mirrored && hr <= horizon)
                 break;
             path.r[path.crossings] = hr;
             state way;
             derivative(&s, hit, way);
             path.falls[path.crossings] = hit[0] * way[0] + hit[1] * way[1] > 0;
-            path.momentum[path.crossings] = hit[0] * hit[4] - hit[1] * hit[3];
-            path.delay[path.crossings] = hit[6] - slow(s.a, hr);
+            path.momentum[path.crossings] = -sign * (hit[0] * hit[4] - hit[1] * hit[3]);
+            path.delay[path.crossings] = mirrored ? hit[6] - slow(s.a, hr) : NAN;
             path.p_z[path.crossings] = fabs(hit[5]);
-            path.phi[path.crossings++] = -azimuth(s.a, hit);
+            path.phi[path.crossings++] = sign * azimuth(s.a, hit);
         }
-        memcpy(y, next, sizeof y);
+        memcpy(y, next, sizeof next);
         r = radius(s.a, y);
-        if (r < horizon * (1 + 1e-9) || path.crossings >= max_crossings) {
-            path.fate = r < horizon * (1 + 1e-9) ? KS_CAPTURED : KS_UNDECIDED;
+        bool falls = mirrored ? r < horizon * (1 + 1e-9) : fabs(r / horizon - 1) < 1e-3 && v > 1e6 * (1 + fabs(s.energy));
+        if (falls || path.crossings >= max_crossings) {
+            path.fate = falls ? KS_CAPTURED : KS_UNDECIDED;
             return path;
         }
         if (r > 1e8 && y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0) {
             path.fate = KS_ESCAPED;
             path.u = y[2] / r;
-            path.sky_phi = -azimuth(s.a, y);
+            path.sky_phi = sign * azimuth(s.a, y);
             return path;
         }
         h *= error < 1e-14 ? 2 : 1;
@@ -202,6 +209,20 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
     if (path.fate == KS_UNDECIDED && radius(s.a, y) < 1.1 * horizon)
         path.fate = KS_CAPTURED;
     return path;
+}
+
+struct ks_path ks_trace(struct ks_photon photon, int max_crossings)
+{
+    state y;
+    start(&photon, y);
+    return run((struct system) { photon.a, photon.energy }, y, true, max_crossings);
+}
+
+struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings)
+{
+    state y = { 0 };
+    place(at->a, at->r, sin(at->theta), cos(at->theta), 0, (double[]) { -p[1], -p[2], -p[3] }, y);
+    return run((struct system) { at->a, p[0] }, y, false, max_crossings);
 }
 
 struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)

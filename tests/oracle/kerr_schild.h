@@ -8,6 +8,8 @@
 #ifndef KD_TESTS_KERR_SCHILD_H
 #define KD_TESTS_KERR_SCHILD_H
 
+#include "kerr_schild_frame.h"
+
 #include <stdbool.h>
 
 struct ks_photon { /* as it arrives at the observer, covariant Boyer-Lindquist components */
@@ -36,5 +38,11 @@ struct ks_photon ks_from_infinity(double a, double u, double alpha, double beta)
 struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, const double k[3]);
 
 struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
+
+/* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a place that may lie within the
+ * horizon; light that comes from outside left it there through the outer horizon, where all is regular. Azimuths are Boyer-Lindquist, of
+ * the source less the place's own in these coordinates, which is the same at infinity. A ray from the horizon in the past
+ * counts as captured. Crossings within the horizon count; their phi means nothing. No delays. */
+struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings);
 
 #endif

@@ -37,8 +37,11 @@ RAYS = [  # set, spin, inclination, radius, alpha, beta
     ("observer nearby", 0.9, 70, 50.0, 6.0, 2.0), ("observer nearby", 0.9999, 17, 6.0, 2.0, 4.0),
     ("observer nearby", -0.9, 90, 12.0, 3.0, -5.0),
 ]
-CAMERAS = [  # spin, inclination, radius, zamo, yaw, pitch
-    (0.9, 75, 20.0, 0, 8.0, -6.0), (0.9, 60, 4.0, 1, -25.0, -40.0), (-0.7, 150, 6.0, 0, 140.0, 10.0),
+CAMERAS = [  # spin, inclination, radius, observer, velocity, yaw, pitch
+    (0.9, 75, 20.0, "static", (0, 0, 0), 8.0, -6.0), (0.9, 60, 4.0, "zamo", (0, 0, 0), -25.0, -40.0),
+    (-0.7, 150, 6.0, "static", (0, 0, 0), 140.0, 10.0), (0.9, 75, 8.0, "keplerian", (0, 0, 0), 30.0, -20.0),
+    (0.9, 70, 6.0, "retrograde", (0, 0, 0), -20.0, -15.0), (0.9, 60, 2.5, "infall", (0, 0, 0), 25.0, -30.0),
+    (-0.5, 110, 5.0, "velocity", (-0.5, 0.25, 0.5), 60.0, 5.0),
 ]
 
 
@@ -126,27 +129,65 @@ def ray_text(job):
     return text + (" }" if rows else " { { 0 } } }")
 
 
-def camera_ray(spin, i, r, zamo, yaw, pitch):
+def contraction(g, p, q):
+    """p.q of two vectors t, r, theta, phi."""
+    tt, tp, pp, rr, hh = g
+    return tt * p[0] * q[0] + tp * (p[0] * q[3] + p[3] * q[0]) + pp * p[3] * q[3] + rr * p[1] * q[1] + hh * p[2] * q[2]
+
+
+def orthonormal(g, vectors):
+    """By Gram and Schmidt, in the order given."""
+    legs = []
+    for v in vectors:
+        for e in legs:
+            part = contraction(g, v, e) / contraction(g, e, e)
+            v = [x - part * y for x, y in zip(v, e)]
+        length = sqrt(abs(contraction(g, v, v)))
+        legs.append([x / length for x in v])
+    return legs
+
+
+def frame(a, r, u, observer, velocity):
+    """The four legs t, r, theta, phi of an observer: at rest, dragged along, or boosted from that."""
+    g = metric(a, r, u)
+    tt, tp, pp, rr, hh = g
+    axes = [[mpf(i == k) for i in range(4)] for k in range(4)]
+    rest = [1, 0, 0, 0 if observer == "static" else -tp / pp]
+    if observer == "infall":  # E = 1, L = 0, theta at rest: the norm gives r
+        det = tt * pp - tp * tp
+        ut, uphi = -pp / det, tp / det
+        rest = [ut, -sqrt((-1 + ut) / rr), 0, uphi]
+    legs = orthonormal(g, [rest, axes[3], axes[2], axes[1]])
+    legs = [legs[0], legs[3], legs[2], legs[1]]
+    if observer in ("keplerian", "retrograde"):  # no force along r on what goes round
+        d = [mp.diff(lambda x: metric(a, x, u)[k], r) for k in range(3)]
+        root = sqrt(d[1]**2 - d[0] * d[2])
+        w = (-d[1] + (root if observer == "keplerian" else -root)) / d[2]
+        goes = orthonormal(g, [[1, 0, 0, w]])[0]
+    elif observer == "velocity":
+        gamma = 1 / sqrt(1 - sum(mpf(v)**2 for v in velocity))
+        goes = [gamma * (legs[0][i] + sum(mpf(v) * legs[k + 1][i] for k, v in enumerate(velocity))) for i in range(4)]
+    else:
+        return legs
+    both = [x + y for x, y in zip(goes, legs[0])]
+    under = 1 - contraction(g, goes, legs[0])
+    return [goes] + [[x + contraction(g, both, e) / under * y for x, y in zip(e, both)] for e in legs[1:]]
+
+
+def camera_ray(spin, i, r, observer, velocity, yaw, pitch):
     """alpha, beta and the sense of the photon that arrives along the look direction."""
     a, r, u = mpf(spin), mpf(r), angles(i)
     s = sqrt(1 - u * u)
     tt, tp, pp, rr, hh = metric(a, r, u)
-    w = -tp / pp if zamo else mpf(0)
-    ut = 1 / sqrt(-(tt + 2 * tp * w + pp * w * w))
-    observer = (ut, w * ut)  # t and phi components
-    u_t, u_phi = tt * observer[0] + tp * observer[1], tp * observer[0] + pp * observer[1]
-    # d/dphi made orthogonal to the observer's velocity, then of unit length
-    e = (u_phi * observer[0], 1 + u_phi * observer[1])
-    length = sqrt(tt * e[0]**2 + 2 * tp * e[0] * e[1] + pp * e[1]**2)
-    e = (e[0] / length, e[1] / length)
+    legs = frame(a, r, u, observer, velocity)
     Y, P = mpf(yaw) * pi / 180, mpf(pitch) * pi / 180
     look = (-cos(P) * cos(Y), -sin(P), cos(P) * sin(Y))  # along e_r, e_theta, e_phi
-    p = (observer[0] - look[2] * e[0], observer[1] - look[2] * e[1])  # contravariant t, phi of a photon of unit energy
-    energy, momentum = -(tt * p[0] + tp * p[1]), tp * p[0] + pp * p[1]
-    p_theta = -look[1] * sqrt(hh)
+    p = [legs[0][i] - sum(look[k] * legs[k + 1][i] for k in range(3)) for i in range(4)]  # of a photon of unit energy
+    energy, momentum = -(tt * p[0] + tp * p[3]), tp * p[0] + pp * p[3]
+    p_theta = p[2] * hh
     alpha, q = -momentum / energy / s, (p_theta**2 + u * u * (momentum**2 / s**2 - a * a * energy**2)) / energy**2
     beta2 = q - (alpha**2 - a * a) * u * u
-    return alpha, (1 if p_theta > 0 else -1) * sqrt(beta2), int(look[0] > 0)
+    return alpha, (1 if p_theta > 0 else -1) * sqrt(beta2), int(p[1] < 0)
 
 
 def in_plane(a, b):
@@ -278,11 +319,12 @@ def main():
     with Pool(2) as pool:
         table("rays", (text + "," for text in pool.imap(ray_text, [(name, ray) for name, *ray in RAYS])))
         jobs = []
-        for spin, i, r, zamo, yaw, pitch in CAMERAS:
-            alpha, beta, outward = camera_ray(spin, i, r, zamo, yaw, pitch)
-            jobs.append((f"{'zamo' if zamo else 'static'} at {r:g}", [spin, i, r, alpha, beta, outward]))
+        for spin, i, r, observer, velocity, yaw, pitch in CAMERAS:
+            alpha, beta, outward = camera_ray(spin, i, r, observer, velocity, yaw, pitch)
+            jobs.append((f"{observer} at {r:g}", [spin, i, r, alpha, beta, outward]))
         texts = pool.imap(ray_text, jobs)
-        table("cameras", (f"      {{ {c[3]}, {c[4]}, {c[5]},\n{text} }}," for c, text in zip(CAMERAS, texts)))
+        table("cameras", (f"      {{ KD_OBSERVER_{c[3].upper()}, {{ {', '.join(map(str, c[4]))} }}, {c[5]}, {c[6]},\n{text} }},"
+                          for c, text in zip(CAMERAS, texts)))
     table("deflections", deflections())
     table("criticals", (f'      {{ "{n}", {a!r}, {number(i)}, {number(x)}, {number(y)} }},' for n, a, i, x, y in critical()))
     table("bounds", bound_rows())

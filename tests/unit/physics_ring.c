@@ -78,7 +78,8 @@ static void with_spin(void **state)
 static void seen_from(double a, double i, double observer_r, bool zamo, double r, int order, const struct kd_ring_image_point *p)
 {
     const struct kd_vantage at = { a, observer_r, cos(i), sin(i) };
-    struct kd_tetrad frame = kd_observer_tetrad(zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC, &at);
+    const struct kd_observer_motion motion = kd_observer_motion_of(zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC);
+    struct kd_tetrad frame = kd_observer_tetrad(&motion, &at);
     struct kd_covector seen = kd_tetrad_outgoing(&at, p->alpha, p->beta);
     struct kd_look look = kd_tetrad_look(&frame, &seen);
     struct ks_photon photon = ks_from_camera(a, observer_r, i, zamo, (double[]) { -look.inwards, -look.up, look.right });

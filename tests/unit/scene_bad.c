@@ -111,7 +111,7 @@ static const struct bad fields[] = {
       "beyond 1e308, allowed are 1 to 10000000 M, and \"infinity\"" },
     { "{\"camera\":{\"r\":\"Infinity\"}}", "/camera/r", "camera.r is \"Infinity\", allowed are" },
     { "{\"camera\":{\"r\":\"50\"}}", "/camera/r", "camera.r is \"50\", a string where a number is wanted" },
-    { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer", "allowed are \"static\" and \"zamo\"" },
+    { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer", "allowed are \"static\", \"zamo\", \"keplerian\", \"retrograde\", \"infall\" and \"velocity\"" },
     { "{\"image\":{\"width\":0}}", "/image/width",
       "image.width is 0, allowed are whole numbers from 1 to 32768 pixels" },
     { "{\"image\":{\"width\":1e9}}", "/image/width", "image.width is 1000000000" },

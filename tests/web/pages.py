@@ -24,7 +24,11 @@ class Pages(Browser):
         page = self.open('lang=it')
         wrong = ('disk.inner=1', 'camera.r=1.5', 'spacetime.spin=2', 'spacetime.spin=abc', 'disk.outer=3', 'disk.model=foo', 'camera.projection=pinhole',
                  'camera.projection=ring&camera.r=50', 'camera.r=40&camera.projection=plane', 'spots.0.brightness=1&spots.0.r=2', 'spots.1.r=9', 'spots.0.r=9&spots.2.r=9', 'disk.particles=1e10',
-                 'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'accuracy.steps=7',
+                 'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'camera.observer=keplerian&camera.r=2.5&spacetime.spin=0',
+                 'camera.observer=velocity&camera.r=9&camera.velocity_r=0.8&camera.velocity_phi=0.8', 'camera.observer=infall&camera.r=9&camera.infall_from=8',
+                 'camera.observer=infall&camera.r=9&camera.infall_from=10&camera.infall_energy=1', 'camera.observer=infall&camera.r=3&camera.infall_momentum=5',
+                 'camera.observer=infall&camera.r=9&camera.infall_energy=0.1', 'camera.velocity_phi=0.1', 'camera.infall_from=10',
+                 'accuracy.steps=7',
                  'disk.mdot_edd=1e9&disk.colour=accretion', 'camera.inclination_deg=200', 'spacetime.mass_msun=0')
         answers = []
         for query in [f'render?{q}' for q in wrong] + ['physics/qnm?l=2&m=3', 'physics/redshift?r=1.2&spin=0.5', 'physics/ring-image?r=1&spin=0.5', 'physics/kerr?spin=2']:

@@ -26,7 +26,10 @@ static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct 
     scene.image.width = scene.image.height = 1;
     scene.accuracy.orders = ORDERS;
     if (camera) {
-        scene.camera.observer = camera->zamo ? KD_OBSERVER_ZAMO : KD_OBSERVER_STATIC;
+        scene.camera.observer = (int32_t)camera->observer;
+        scene.camera.velocity_r = camera->velocity[0];
+        scene.camera.velocity_theta = camera->velocity[1];
+        scene.camera.velocity_phi = camera->velocity[2];
         scene.camera.yaw_deg = camera->yaw_deg;
         scene.camera.pitch_deg = camera->pitch_deg;
     } else {

@@ -6,6 +6,8 @@
 #ifndef KD_RENDER_SELFTEST_REFERENCE_H
 #define KD_RENDER_SELFTEST_REFERENCE_H
 
+#include "physics/observer.h"
+
 #include <stddef.h>
 
 struct kd_selftest_crossing { double r, phi, delay, g, r_gain, phi_gain, delay_gain, g_gain; };
@@ -23,7 +25,8 @@ struct kd_selftest_orbit { double spin, horizon, photon, bound, isco, efficiency
 
 /* The ray in the middle of a camera's picture. */
 struct kd_selftest_camera {
-    int zamo;
+    enum kd_observer observer; /* what falls is rain */
+    double velocity[3];
     double yaw_deg, pitch_deg;
     struct kd_selftest_ray ray; /* its alpha, beta label the constants that the direction was found to have */
 };
@@ -51,7 +54,7 @@ struct kd_selftest_grey { double linear, srgb, film[3]; };
 struct kd_selftest_reference {
     struct kd_selftest_orbit orbits[8];
     struct kd_selftest_ray rays[32];
-    struct kd_selftest_camera cameras[4];
+    struct kd_selftest_camera cameras[8];
     struct kd_selftest_deflection deflections[8];
     struct kd_selftest_critical criticals[8];
     struct kd_selftest_bound bounds[8];

@@ -45,10 +45,12 @@ static struct spot turned(const struct kd_camera_exact *c, double right, double 
 /* The inverse of kd_camera_label. half: 1, the upper half, or -1. */
 static struct spot project(const struct work *w, double along, double half)
 {
-    const struct kd_critical_point p = kd_critical_upper(&w->curve, along);
+    struct kd_critical_point p = kd_critical_upper(&w->curve, along);
     const struct kd_camera_exact *c = &w->camera;
     const double right[] = { c->cxx, c->cxy, c->cxz }, up[] = { c->cyx, c->cyy, c->cyz };
-    double d[3] = { -p.inwards, -half * p.up, p.right };
+    p.up *= half;
+    kd_critical_see(&w->curve, &p);
+    double d[3] = { -p.inwards, -p.up, p.right };
     if (isinf(w->curve.observer.radius)) {
         d[0] = p.alpha - c->c0x;
         d[1] = half * p.beta - c->c0y;
@@ -185,7 +187,7 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     };
     const struct kd_critical_observer observer = {
         .spin = scene->spacetime.spin, .radius = scene->camera.r, .cos_theta = w.camera.u, .sin_theta = w.camera.s,
-        .frame = (enum kd_observer)scene->camera.observer,
+        .motion = kd_scene_observer(scene),
     };
     atomic_fetch_add(&made, 1);
     *out = (struct kd_critical_pixels) { 0 };

@@ -1,0 +1,245 @@
+/* Every kind of observer by what its camera sees: the whole sky in six pictures, judged by frames and rays in Kerr-Schild coordinates. */
+#include "kerr_schild.h"
+#include "physics/kerr.h"
+#include "physics/observer.h"
+#include "render/render.h"
+#include "render/view/camera.h"
+
+#include "render_support.h"
+
+#include <math.h>
+
+enum { GRID = 12, RAYS = GRID * GRID, FACES = 6, ORDERS = 2 };
+#define RADIAN (M_PI / 180)
+#define FALL .fall_from = INFINITY, .fall_energy = INFINITY
+
+static const struct seer {
+    const char *name;
+    double spin, inclination, r;
+    struct kd_observer_motion motion;
+    double energy; /* of what falls, and of what goes round: by Bardeen, Press & Teukolsky or by hand */
+    double momentum;
+} seers[] = {
+    { "zamo", 0.9, 60, 4, { .observer = KD_OBSERVER_ZAMO }, 0, 0 },
+    { "velocity", 0.9, 70, 12, { .observer = KD_OBSERVER_VELOCITY, .velocity = { -0.5, 0.3, 0.6 } }, 0, 0 },
+    { "velocity", -0.6, 120, 2.5, { .observer = KD_OBSERVER_VELOCITY, .velocity = { 0.2, -0.4, -0.3 } }, 0, 0 },
+    { "rain", 0, 75, 20, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, 6, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "from 10 M", 0, 80, 5, { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY }, 0.89442719099991588, 0 }, /* sqrt(0.8) */
+    { "plunge", 0.7, 80, 3, { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.95, .fall_momentum = 1.5 }, 0.95, 1.5 },
+};
+enum { SEERS = sizeof seers / sizeof *seers };
+
+static const struct { double yaw, pitch; } faces[FACES] = { { 0, 0 }, { 90, 0 }, { 180, 0 }, { -90, 0 }, { 0, 90 }, { 0, -90 } };
+
+static struct kd_scene scene_of(const struct seer *seer, int face)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = seer->spin;
+    scene.camera.inclination_deg = seer->inclination;
+    scene.camera.r = seer->r;
+    scene.camera.observer = seer->motion.observer;
+    scene.camera.velocity_r = seer->motion.velocity[0];
+    scene.camera.velocity_theta = seer->motion.velocity[1];
+    scene.camera.velocity_phi = seer->motion.velocity[2];
+    if (seer->motion.observer == KD_OBSERVER_INFALL) {
+        scene.camera.infall_from = seer->motion.fall_from;
+        scene.camera.infall_energy = seer->motion.fall_energy;
+        scene.camera.infall_momentum = seer->motion.fall_momentum;
+    }
+    scene.camera.fov_deg = 90;
+    scene.camera.yaw_deg = faces[face].yaw;
+    scene.camera.pitch_deg = faces[face].pitch;
+    scene.image.width = scene.image.height = GRID;
+    scene.image.critical_factor = 1;
+    scene.accuracy.orders = ORDERS;
+    OK(kd_scene_validate(&scene, &error));
+    return scene;
+}
+
+static struct ks_place place_of(const struct seer *seer) { return (struct ks_place) { seer->spin, seer->r, seer->inclination * RADIAN }; }
+
+static struct ks_frame frame_of(const struct seer *seer)
+{
+    const struct ks_place at = place_of(seer);
+    const double *v = seer->motion.velocity, x[4] = { 1, v[0], v[1], v[2] };
+    const struct ks_frame base = seer->motion.observer == KD_OBSERVER_INFALL ? ks_rain(&at) : ks_zamo(&at);
+    double u[4] = { 0 }, gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    if (seer->motion.observer == KD_OBSERVER_INFALL)
+        ks_inwards(&at, 1, seer->energy, seer->momentum, 0, u);
+    else
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < 4; k++)
+                u[k] += gamma * x[i] * base.e[i][k];
+    return ks_boost(&at, &base, u);
+}
+
+static double step_of(int i) { return (2 * i + 1.0) / GRID - 1; }
+
+/* The direction (k_r, k_theta, k_phi) that a pixel of a face shows. */
+static void direction(int face, double x, double y, double k[3])
+{
+    double n = 1 / sqrt(1 + x * x + y * y);
+    double yaw = faces[face].yaw * RADIAN, pitch = faces[face].pitch * RADIAN;
+    double ahead = cos(pitch) - y * sin(pitch), up = sin(pitch) + y * cos(pitch);
+    double in = ahead * cos(yaw) - x * sin(yaw), right = ahead * sin(yaw) + x * cos(yaw);
+    k[0] = -in * n, k[1] = -up * n, k[2] = right * n;
+}
+
+static void photon(const struct seer *seer, int face, double x, double y, double p[4])
+{
+    const struct ks_frame f = frame_of(seer);
+    double k[3];
+    direction(face, x, y, k);
+    ks_seen(&f, k, p);
+}
+
+/* What the kernels start from, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of the whole sky, over the size
+ * of the legs that they are made of. */
+static double constants(const struct seer *seer)
+{
+    const struct ks_place at = place_of(seer);
+    const double s = sin(at.theta);
+    double worst = 0;
+    for (int n = 0; n < FACES * RAYS; n++) {
+        int face = n / RAYS, i = n % GRID, j = n / GRID % GRID;
+        const struct kd_scene scene = scene_of(seer, face);
+        const struct kd_camera_block c = kd_camera_block(&scene);
+        float x = (float)i - c.middle_x, y = c.middle_y - (float)j;
+        float kx = c.c0x + x * c.cxx + y * c.cyx, ky = c.c0y + x * c.cxy + y * c.cyy, kz = c.c0z + x * c.cxz + y * c.cyz;
+        float norm = 1 / sqrtf(kx * kx + ky * ky + kz * kz), m_r = -kx * norm, m_theta = -ky * norm, m_phi = -kz * norm;
+        double p[4], want[4];
+        photon(seer, face, step_of(i), -step_of(j), p);
+        ks_constants(&at, p, want);
+        const double is[4] = {
+            c.e_t + c.e_r * m_r + c.e_theta * m_theta + c.e_phi * m_phi, s * (c.l_t + c.l_r * m_r + c.l_theta * m_theta + c.l_phi * m_phi),
+            c.p_t + c.p_r * m_r + c.p_theta * m_theta + c.p_phi * m_phi,
+            (c.dw_t + c.dw_r * m_r + c.dw_theta * m_theta + c.dw_phi * m_phi) * seer->r * seer->r,
+        };
+        const double size[4] = {
+            fabsf(c.e_t) + fabsf(c.e_r) + fabsf(c.e_phi), s * (fabsf(c.l_t) + fabsf(c.l_r) + fabsf(c.l_phi)),
+            fabsf(c.p_t) + fabsf(c.p_theta), seer->r * seer->r * (fabsf(c.dw_t) + fabsf(c.dw_r)),
+        };
+        for (int q = 0; q < 4; q++)
+            worst = fmax(worst, fabs(is[q] - want[q]) / size[q]);
+    }
+    return worst;
+}
+
+/* And in double, aberration: where a photon of given constants is seen, by contraction with the oracle's legs. */
+static double aberration(const struct seer *seer)
+{
+    const struct ks_place at = place_of(seer);
+    const struct ks_frame f = frame_of(seer);
+    const struct kd_scene scene = scene_of(seer, 0);
+    const struct kd_observer_motion motion = kd_scene_observer(&scene);
+    const struct kd_vantage where = kd_scene_vantage(&scene);
+    const struct kd_tetrad tetrad = kd_observer_tetrad(&motion, &where);
+    double worst = 0;
+    for (int n = 0; n < FACES * RAYS; n++) {
+        double p[4], c[4], k[3];
+        direction(n / RAYS, step_of(n % GRID), step_of(n / GRID % GRID), k);
+        ks_seen(&f, k, p);
+        ks_constants(&at, p, c);
+        const struct kd_covector light = { c[0], c[1] / where.s, c[2], c[3] };
+        const struct kd_look look = kd_tetrad_look(&tetrad, &light);
+        worst = fmax(worst, fmax(fmax(fabs(look.inwards + k[0]), fabs(look.up + k[1])), fmax(fabs(look.right - k[2]), fabs(look.energy - c[0]))));
+    }
+    return worst;
+}
+
+static void whole_sky(void **state)
+{
+    (void)state;
+    for (int i = 0; i < SEERS; i++) {
+        double single = constants(&seers[i]), twice = aberration(&seers[i]);
+        print_message("%s, a = %g, r = %g: constants of a pixel within %.1e, aberration and redshift within %.1e\n", seers[i].name, seers[i].spin,
+                      seers[i].r, single, twice);
+        assert_true(single < 1e-6 && twice < 1e-9);
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+struct judged { double errors[(ORDERS + 1) * RAYS * FACES]; size_t n, wrong, sky; };
+
+/* Of a place: Boyer-Lindquist less ingoing azimuth, the integral of a/Delta from r to infinity. */
+static double twist(const struct seer *seer)
+{
+    double a = seer->spin, root = sqrt((1 - a) * (1 + a));
+    return a / (2 * root) * log1p(2 * root / (seer->r - 1 - root));
+}
+
+static double turn(double x) { return remainder(x, 2 * M_PI); }
+
+/* Errors over what the map amplifies: a ray that ends elsewhere or crosses more or less often when it is moved is unsure. */
+static void judge(const struct seer *seer, int face, int k, const float *planes, struct judged *o)
+{
+    const struct ks_place at = place_of(seer);
+    double p[4], q[4], x = step_of(k % GRID), y = -step_of(k / GRID), nudge = 1e-6;
+    photon(seer, face, x, y, p);
+    photon(seer, face, x + nudge, y + nudge, q);
+    struct ks_path want = ks_follow(&at, p, 16), beside = ks_follow(&at, q, 16);
+    for (int order = 0; order < ORDERS; order++)
+        want.phi[order] -= twist(seer), beside.phi[order] -= twist(seer);
+    want.sky_phi -= twist(seer), beside.sky_phi -= twist(seer);
+    for (int order = 0; order < ORDERS; order++) {
+        double w = planes[order * RAYS + k], phi = planes[(ORDERS + order) * RAYS + k];
+        bool has = want.crossings > order, sure = has == (beside.crossings > order);
+        if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_kerr_horizon(seer->spin))))
+            continue;
+        o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
+        /* Of what turns outside and comes back towards the horizon the azimuth diverges, and its quadrature with it. */
+        bool back = !want.falls[order];
+        if (w > 0 && has)
+            o->errors[o->n++] = (fabs(1 / w / want.r[order] - 1) + (back ? 0 : fabs(turn(phi - want.phi[order])))) /
+                                (1 + (fabs(log(beside.r[order] / want.r[order])) + fabs(turn(beside.phi[order] - want.phi[order]))) / nudge);
+    }
+    const float *end = planes + 2 * ORDERS * RAYS + k;
+    if (want.fate != beside.fate || want.fate == KS_UNDECIDED)
+        return;
+    o->wrong += (end[2 * RAYS] == (float)KD_FATE_ESCAPED) != (want.fate == KS_ESCAPED);
+    if (want.fate != KS_ESCAPED || end[2 * RAYS] != (float)KD_FATE_ESCAPED)
+        return;
+    double s = sqrt(1 - want.u * want.u), move = hypot(acos(beside.u) - acos(want.u), s * turn(beside.sky_phi - want.sky_phi)) / nudge;
+    o->errors[o->n++] = hypot(acos(end[0]) - acos(want.u), s * turn(end[RAYS] - want.sky_phi)) / (1 + move);
+    o->sky++;
+}
+
+static void maps(void **state)
+{
+    (void)state;
+    static float planes[(2 * ORDERS + 3) * RAYS];
+    static struct judged all;
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    for (int i = 0; i < SEERS; i++) {
+        all = (struct judged) { .n = 0 };
+        struct kd_plan plan;
+        for (int face = 0; face < FACES; face++) {
+            const struct kd_scene scene = scene_of(&seers[i], face);
+            OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity, &plan, &error));
+            OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
+            for (int k = 0; k < RAYS; k++)
+                judge(&seers[i], face, k, planes, &all);
+        }
+        qsort(all.errors, all.n, sizeof *all.errors, by_value);
+        print_message("%s, a = %g, r = %g, %s: %zu crossings and %zu places in the sky, error %.1e in the median, %.1e at most, %zu wrong\n", seers[i].name,
+                      seers[i].spin, seers[i].r, plan.path == KD_LENS_CLOSED ? "closed form" : "steps", all.n - all.sky, all.sky,
+                      all.errors[all.n / 2], all.errors[all.n - 1], all.wrong);
+        assert_true(all.wrong == 0 && all.n > 200);
+        assert_true(all.errors[all.n / 2] < 5e-7 && all.errors[all.n - 1] < 3e-5);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps) };
+    int skip = open_renderer();
+    return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
