@@ -26,6 +26,9 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
 const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
+/* Whether anything shines where rays end. */
+const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
+const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
 /* All emitters of a place are in it together: none hides another's light. */
 void kd_beam_at(inout kd_beam beam, kd_sample s)

@@ -82,7 +82,7 @@ float light(uvec2 place, uint at)
             break;
         kd_beam_at(beam, sample_at(n, w, at, ray));
     }
-    if (ORDER == KD_NO_ORDER && (QUANTITIES & KD_LENS_FATE) != 0u) {
+    if (ORDER == KD_NO_ORDER && KD_ENDS && (QUANTITIES & KD_LENS_FATE) != 0u) {
         float fate = quantity(KD_LENS_FATE, at);
         given_up = given_up || fate == KD_FATE_UNDECIDED;
         if (fate == KD_FATE_ESCAPED)

@@ -24,7 +24,8 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
                                    quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n));
 }
 
-const bool ENDS = (QUANTITIES & KD_LENS_FATE) != 0u;
+/* A map may hold where rays end for the sake of layers alone: then the picture is what it is without them. */
+const bool ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) * (QUANTITIES & KD_LENS_FATE) != 0u;
 
 /* What lies behind all crossings. */
 vec3 background(uint at)

@@ -9,6 +9,8 @@
 #include "physics/disk.h"
 #include "physics/kerr.h"
 #include "render/output/format.h"
+#include "render/device/internal.h"
+#include "render/view/layout.h"
 
 #include "interface.h"
 #include "render_support.h"
@@ -340,6 +342,63 @@ static void test_bands(void **state)
     kd_frame_finish(&other);
 }
 
+/* Fills the plane of fates with those of rays that were given up, in the map that is kept for a plan. */
+static void give_up(const struct kd_plan *plan)
+{
+    const float undecided = KD_FATE_UNDECIDED;
+    uint32_t word;
+    memcpy(&word, &undecided, 4);
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++) {
+        const struct kd_lens_map *map = &renderer->store.maps[i];
+        if (strcmp(map->key, plan->lens_key))
+            continue;
+        uint32_t plane = kd_lens_plane(plan->quantities, plan->orders, KD_LENS_FATE);
+        OK(kd_vk_fill(renderer->vk, "fill", map->bands.buffers[0], 4 * plane * plan->rays, 4 * plan->rays, word, &error));
+        OK(kd_vk_submit(renderer->vk, NULL, &error));
+        return;
+    }
+    fail();
+}
+
+static void assert_same_picture(const char *json, const char *layers)
+{
+    struct kd_scene scene = scene_of(0.9, 75, INFINITY, "rgb");
+    OK(kd_scene_patch(&scene, json, strlen(json), &error));
+    struct kd_frame alone = frame_of(&scene);
+    OK(kd_scene_set(&scene, "image.layers", layers, &error));
+    for (int given_up = 0; given_up < 2; given_up++) {
+        const struct kd_plan plan = plan_of(&scene, 0);
+        if (given_up && (!kd_plan_holds(&plan, KD_LENS_SKY) || scene.sky.model))
+            break;
+        if (given_up)
+            give_up(&plan);
+        struct kd_frame beside = frame_of(&scene);
+        assert_true(beside.lens_reused || !given_up);
+        for (int i = 0; i < 2; i++)
+            if (memcmp(alone.layers[i].data, beside.layers[i].data, PIXELS * kd_layer_pixel_bytes(&alone.layers[i])))
+                fail_msg("%s: another %s beside %s%s", json, alone.layers[i].name, layers, given_up ? ", of rays that are given up" : "");
+        kd_frame_finish(&beside);
+    }
+    kd_frame_finish(&alone);
+    kd_store_empty(&renderer->store); /* with the maps that were changed */
+}
+
+/* The picture is the same to the bit, whatever layers lie beside it: whether they ask for more of the lens map, and rays that are given up
+ * on their way to a sky that is not there. The delay alone is left out: for it rays are followed in another way. */
+static void test_picture_beside(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {
+        "{}", "{\"accuracy\": {\"orders\": 1}, \"image\": {\"critical_factor\": 4}}", "{\"image\": {\"samples\": 2}, \"sky\": {\"model\": \"grid\"}}",
+        "{\"disk\": {\"emission_opacity\": 3, \"gas\": {\"amplitude\": 1}}, \"camera\": {\"r\": 40}}",
+        "{\"disk\": {\"opacity\": 0.5}, \"spots\": [{\"brightness\": 2}]}",
+    };
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+        assert_same_picture(scenes[k], "rgb,fate");
+        assert_same_picture(scenes[k], "rgb,phi,sky_theta,footprint,intensity,optical_depth,order");
+    }
+}
+
 /* One map alone is the picture: each pixel has the colour of its number, none is black; in 8 bits as in 16. */
 static void test_false_colour(void **state)
 {
@@ -426,6 +485,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crossings), cmocka_unit_test(test_ends),  cmocka_unit_test(test_light),       cmocka_unit_test(test_temperature),
         cmocka_unit_test(test_plunge),    cmocka_unit_test(test_bands), cmocka_unit_test(test_false_colour),
+        cmocka_unit_test(test_picture_beside),
         cmocka_unit_test(test_ends_beyond), cmocka_unit_test(test_each_is_a_picture),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

@@ -45,6 +45,11 @@ bool kd_emit_at_crossings(const struct kd_scene *scene)
     return false KD_EMITTERS(OR_PRESENT, ELSEWHERE, ELSEWHERE, ELSEWHERE);
 }
 
+bool kd_emit_at_ends(const struct kd_scene *scene)
+{
+    return false KD_EMITTERS(ELSEWHERE, ELSEWHERE, ELSEWHERE, OR_PRESENT);
+}
+
 bool kd_emit_apart(const struct kd_scene *scene)
 {
     uint32_t traits[KD_EMITTER_COUNT], all = 0;

@@ -61,10 +61,11 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Makes the words of the specialisation constants, 0 for what the scene has not. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* Say what the lens map must hold; whether anything shines at crossings of the plane; whether the luminance of some of it is kept
- * apart. */
+/* Say what the lens map must hold; whether anything shines at crossings of the plane; whether anything does where rays end; whether the
+ * luminance of some of it is kept apart. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
+bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
 /* Counts the bytes of all buffers that the scene's emitters have on the device. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);

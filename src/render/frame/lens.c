@@ -74,7 +74,7 @@ static enum kd_status transfer_kernel(struct kd_frame_job *j, const struct kd_cr
 struct slice { uint32_t band, first, count; };
 
 /* Whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
-static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !kd_plan_holds(p, KD_LENS_FATE); }
+static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !p->ends; }
 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
 {

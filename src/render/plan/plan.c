@@ -192,7 +192,7 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
     uint64_t side = plan->side * (uint64_t)scene->image.critical_factor;
     if (side > KD_CRITICAL_SIDE)
         side = KD_CRITICAL_SIDE;
-    if (plan->ring || side <= plan->side || !(plan->orders > 1 || kd_plan_holds(plan, KD_LENS_SKY))) /* the direct image is nowhere thin */
+    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->ends)) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_kept(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
@@ -330,8 +330,10 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.quantities |= plan.quantities & KD_LENS_SKY_FOOTPRINT ? KD_LENS_SKY : 0;
     /* Without a disk a ray still passes from crossing to crossing in long strides before it escapes. */
     plan.orders = needs->quantities ? (uint32_t)scene->accuracy.orders : 0;
+    plan.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan, KD_LENS_SKY);
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
-    plan.radiance = needs->radiance && plan.picture;
+    plan.n_layers = needs->unseen ? 0 : plan.n_layers;
+    plan.radiance = needs->radiance && plan.picture && !needs->unseen;
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && !kd_scene_is_flat(scene))
         return kd_error_field(error, "/camera/projection",

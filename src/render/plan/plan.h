@@ -57,6 +57,7 @@ struct kd_plan {
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
     bool apart;                     /* the luminance of some is kept beside the radiance */
+    bool ends;                      /* some shine where rays end, and the lens map says where */
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
     bool unseen;                    /* no pixels are made of the radiance */
@@ -141,7 +142,7 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops);
 struct kd_needs {
     uint32_t quantities; /* KD_LENS_... */
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
-    bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layer "rgb" */
+    bool unseen;         /* and that nobody sees the picture: it has no pixels, and no layers, whatever image.layers says */
     bool radiance;       /* and that linear light be among the layers, where the picture is asked for */
 };
 struct kd_needs kd_needs_of(const struct kd_scene *scene);
