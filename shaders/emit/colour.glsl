@@ -13,8 +13,8 @@
 #define KD_COLOUR_MOST_BITS 0x4e7fffff /* below 64 K 2^24 */
 #define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T)                                                                                    \
-    T(colour, 0, KD_COLOUR_ROWS)                  /* red, blue, and their growth */                            \
-    T(luminous, KD_COLOUR_ROWS, KD_COLOUR_ROWS)   /* log2 of the fraction of the radiance that the eye weighs, and its growth */
+    T(colour, KD_COLOUR_ROWS)                     /* red, blue, and their growth */                            \
+    T(luminous, KD_COLOUR_ROWS)                   /* log2 of the fraction of the radiance that the eye weighs, and its growth */
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -32,14 +32,14 @@ kd_colour_place kd_colour_at(float kelvin)
 /* The colour is linear sRGB of luminance 1. */
 vec3 kd_colour_of(kd_colour_place at)
 {
-    vec4 row = kd_table_row(KD_TABLE_colour, at.node);
+    vec4 row = kd_table_row(colour, at.node);
     vec2 c = row.xy + at.part * row.zw;
     return vec3(c.x, max((1.0 - 0.2126 * c.x - 0.0722 * c.y) * (1.0 / 0.7152), 0.0), c.y);
 }
 
 float kd_colour_luminous(kd_colour_place at)
 {
-    vec4 row = kd_table_row(KD_TABLE_luminous, at.node);
+    vec4 row = kd_table_row(luminous, at.node);
     return row.x + at.part * row.y;
 }
 #endif

@@ -11,8 +11,10 @@
     F(peak)                /* largest effective temperature times the hardening, K */                          \
     F(luminous)            /* log2 of the fraction that the eye weighs of a black body of that */
 #define KD_TABLES_disk(T)                                                                                      \
-    T(disk, 2 * KD_COLOUR_ROWS, KD_DISK_TABLE) /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its growth */
+    T(disk, KD_DISK_TABLE) /* (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its growth */
 #define KD_TRAIT_VISIBLE 8u /* brightness as the eye weighs it instead of bolometric */
+#define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE)
+#define KD_BUFFERS_disk(B)
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -34,7 +36,7 @@ float kd_disk_heat(float w)
 {
     float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);
     uint i = min(uint(y), KD_DISK_TABLE - 2);
-    vec4 row = kd_table_row(KD_TABLE_disk, i);
+    vec4 row = kd_table_row(disk, i);
     return row.x + (y - float(i)) * row.y;
 }
 

@@ -31,9 +31,12 @@
     F(depth)               /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 #define KD_TABLES_gas(T)                                                                                       \
-    T(gas, 2 * KD_COLOUR_ROWS + KD_DISK_TABLE + KD_PLUNGE_TABLE, KD_GAS_ROWS) /* a ring: azimuth less the observer's, radians, and Omega; of its octaves: where the lattice has drifted to, part of a cell and whole cells */
+    T(gas, KD_GAS_ROWS) /* a ring: azimuth less the observer's, radians, and Omega; of its octaves: where the lattice has drifted to, part of a cell and whole cells */
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
 #define KD_TRAIT_GAS_SHIFT 8u /* the bits from here on: octaves; 0: no turbulence */
+#define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)
+#define KD_TRAITS_gas(T) KD_TRAITS_disk(T) T(SLOW) T(GAS_DEEP) T(GAS_OCTAVES)
+#define KD_BUFFERS_gas(B)
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -70,7 +73,7 @@ struct kd_gas_ring { vec2 p; uint row; float ahead; };
 kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
 {
     uint row = j * (KD_GAS_OCTAVES + 1u);
-    vec4 ring = kd_table_row(KD_TABLE_gas, row);
+    vec4 ring = kd_table_row(gas, row);
     float ahead = KD_GAS_SLOW ? ring.y * s.ago : 0.0;
     kd_phasor psi = kd_cos_sin(s.phi - ring.x + ahead + emission.gas.shear * off);
     return kd_gas_ring(emission.gas.cells * exp(off) * vec2(psi.c, psi.s), row, ahead);
@@ -79,7 +82,7 @@ kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
 /* Of an octave: where its lattice has drifted to, by then. */
 vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
 {
-    vec4 at = kd_table_row(KD_TABLE_gas, ring.row + 1u + octave);
+    vec4 at = kd_table_row(gas, ring.row + 1u + octave);
     if (KD_GAS_SLOW) {
         float way = -ring.ahead * KD_GAS_DRIFT * pow(KD_GAS_HASTE, float(octave)), angle = 2.4 * float(octave);
         at.xy += way * vec2(cos(angle), sin(angle));

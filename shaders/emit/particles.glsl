@@ -3,7 +3,9 @@
 #define KD_BLOCK_particles(F, U, A)                                                                             \
     U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */                                   \
     F(rows_octave)         /* rows that r doubles in */
-#define KD_TRAIT_SLOW 16u /* what moves is shown as it was when its light left it */
+#define KD_TABLES_particles(T)
+#define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
+#define KD_BUFFERS_particles(B) B(0, float, density) /* on the grid, then on that of plunge.glsl */
 #endif
 
 #ifdef KD_EMIT_CODE

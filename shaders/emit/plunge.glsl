@@ -18,7 +18,9 @@
     U(rows) U(columns)                                                                                         \
     U(lap_rows) U(lead_rows) /* from start to end; before the start */
 #define KD_TABLES_plunge(T)                                                                                    \
-    T(plunge, 2 * KD_COLOUR_ROWS + KD_DISK_TABLE, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
+    T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
+#define KD_TRAITS_plunge(T) KD_TRAITS_disk(T)
+#define KD_BUFFERS_plunge(B)
 #endif
 
 #ifdef KD_EMIT_CODE
@@ -28,7 +30,7 @@ kd_place kd_plunge_place(kd_sample s, float turn)
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
     way = (way - emission.plunge.log_first) * emission.plunge.step_;
     uint k = min(uint(max(way, 0.0)), KD_PLUNGE_TABLE - 2);
-    vec2 at = mix(kd_table_row(KD_TABLE_plunge, k).xy, kd_table_row(KD_TABLE_plunge, k + 1).xy, clamp(way - float(k), 0.0, 1.0));
+    vec2 at = mix(kd_table_row(plunge, k).xy, kd_table_row(plunge, k + 1).xy, clamp(way - float(k), 0.0, 1.0));
     float ago = (TRAITS_particles & KD_TRAIT_SLOW) != 0u ? s.ago : 0.0;
     float row = (at.x + ago * emission.plunge.laps) * float(emission.plunge.lap_rows) + float(emission.plunge.lead_rows);
     turn += ago * emission.plunge.turns - at.y;

@@ -1,6 +1,9 @@
 /* A struck hole, as an illustration: the light of image orders 1 and up rings. */
 #ifndef KD_BLOCK_ringdown
 #define KD_BLOCK_ringdown(F, U, A) F(factor)
+#define KD_TABLES_ringdown(T)
+#define KD_TRAITS_ringdown(T)
+#define KD_BUFFERS_ringdown(B)
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -4,6 +4,9 @@
 #define KD_BLOCK_sky(F, U, A)                                                                                   \
     F(brightness)                                                                                              \
     F(spacing)             /* of the grid, radians */
+#define KD_TABLES_sky(T)
+#define KD_TRAITS_sky(T)
+#define KD_BUFFERS_sky(B)
 #endif
 
 #ifdef KD_EMIT_CODE

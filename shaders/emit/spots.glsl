@@ -13,6 +13,10 @@
     F(temperature)           /* K */
 #define KD_BLOCK_spots(F, U, A) A(kd_spot_block, at, KD_SPOT_MAX)
 #define KD_TRAIT_SPOTS_SHIFT 8u /* the bits from here on: how many there are */
+#define KD_TRAIT_SPOTS (31u << KD_TRAIT_SPOTS_SHIFT)
+#define KD_TABLES_spots(T)
+#define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(APART) T(SPOTS)
+#define KD_BUFFERS_spots(B)
 #endif
 
 #ifdef KD_EMIT_CODE

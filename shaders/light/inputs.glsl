@@ -1,5 +1,5 @@
-/* What kernels read that make light of a lens map: camera, map, numbers and tables of the emitters, their grid. Bindings 0, 1, 2, 4 and 5;
- * 3 is what they write. Needs the specialisation constants of KD_SPEC_TRANSFER. */
+/* Kernels that make light of a lens map read this: the map, numbers and tables of the emitters, the camera, and the emitters' own buffers.
+ * Bindings 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is what they write. Needs the specialisation constants of KD_SPEC_TRANSFER. */
 #ifndef KD_INPUTS_GLSL
 #define KD_INPUTS_GLSL
 
@@ -22,11 +22,23 @@ layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) }
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 layout(set = 0, binding = 2) uniform textureBuffer tables;
-#define TABLE(name, first, rows) const uint KD_TABLE_##name = first;
-KD_EMIT_TABLES(TABLE)
-vec4 kd_table_row(uint table, uint row) { return texelFetch(tables, int(table + row)); }
-layout(set = 0, binding = 4) readonly buffer Density { float density[]; };
-#define KD_CAMERA_BINDING 5
+/* The row of `tables` that each table begins at: counted here, which compilers finish before anything runs. */
+#define KD_T(table, rows) uint table;
+struct kd_table_places { KD_EMIT_TABLES };
+#undef KD_T
+#define KD_T(table, rows) at.table = end; end += rows;
+kd_table_places kd_tables()
+{
+    kd_table_places at;
+    uint end = 0u;
+    KD_EMIT_TABLES
+    return at;
+}
+/* The row of a table, by the table's name. */
+#define kd_table_row(table, row) texelFetch(tables, int(kd_tables().table + (row)))
+#define KD_B(number, type, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { type member[]; };
+KD_EMIT_BUFFERS
+#define KD_CAMERA_BINDING 4
 #include "ray/camera.glsl"
 #include "ray/place.glsl"
 #include "light/compose.glsl"

@@ -6,10 +6,15 @@
  *   OVER          kd_name_over(sample): a factor of all light of a crossing
  *   AT_END        kd_name_end(end): what a ray sees that has come through
  *
- * Of an emitter called name, emit/name.glsl says by KD_BLOCK_name(F, U, A) which numbers it needs (F float, U uint, A(type, member,
- * count) an array of structs), by KD_TABLES_name(T) which tables (T(name, first, rows): rows of four floats behind those of others), by KD_TRAIT_... which
- * variants it has; and it holds the functions, for whoever defines KD_EMIT_CODE. src/render/emit/name.c fills numbers and tables in
- * (src/render/emit/emitter.h). */
+ * An emitter called name has its GLSL in emit/name.glsl, which says
+ *
+ *   KD_BLOCK_name(F, U, A)  which numbers it needs: F float, U uint, A(type, member, count) an array of structs
+ *   KD_TABLES_name(T)       which tables: T(table, rows), rows of four floats
+ *   KD_TRAITS_name(T)       which variants it has: T(trait), bits KD_TRAIT_trait of its word, some of which it may share with others
+ *   KD_BUFFERS_name(B)      which buffers it fills on the device before light is: B(number, type, member), numbered from 0 among all emitters'
+ *
+ * and holds the functions, for whoever defines KD_EMIT_CODE. src/render/emit/name.c fills numbers and tables in (src/render/emit/emitter.h).
+ * Both files are found by the name: the build reads this list (shaders/meson.build). */
 #ifndef KD_EMITTERS_H
 #define KD_EMITTERS_H
 
@@ -22,9 +27,15 @@
     AT_END(5, sky)                                                                                             \
     AT_CROSSING(6, gas)
 
-/* All that has numbers; and tables. */
+/* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B)
-#define KD_EMIT_TABLES(T) KD_TABLES_colour(T) KD_TABLES_disk(T) KD_TABLES_plunge(T) KD_TABLES_gas(T)
+/* All tables, by the KD_T(table, rows) that is defined where this stands; they lie one behind the other in this order. */
+#define KD_TABLES_OF_(number, name) KD_TABLES_##name(KD_T)
+#define KD_EMIT_TABLES KD_TABLES_colour(KD_T) KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
+/* All buffers, by the KD_B(number, type, member) that is defined there: bindings of the kernels of light from KD_OWN_BINDING on. */
+#define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
+#define KD_EMIT_BUFFERS KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
+#define KD_OWN_BINDING 5
 
 /* Bits that each word has: the scene has the emitter; its luminance is kept apart as well, so that its flux and centroid are measured by
  * themselves. There is room for that of one. */
@@ -35,10 +46,4 @@
 #include "emit/frame.glsl"
 #include "emit/colour.glsl"
 #include "emit/orbit.glsl"
-#include "emit/disk.glsl"
-#include "emit/particles.glsl"
-#include "emit/plunge.glsl"
-#include "emit/spots.glsl"
-#include "emit/ringdown.glsl"
-#include "emit/sky.glsl"
-#include "emit/gas.glsl"
+#include "emitter_files.h" /* emit/disk.glsl and so on, in the order of the list */

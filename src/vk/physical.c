@@ -79,7 +79,8 @@ static void read_limits(struct kd_vk_physical *device)
     info->max_groups_x = limits->maxComputeWorkGroupCount[0];
     info->max_groups_y = limits->maxComputeWorkGroupCount[1];
     info->max_workgroup = limits->maxComputeWorkGroupInvocations;
-    if (limits->maxPerStageDescriptorStorageBuffers < KD_VK_MAX_BINDINGS)
+    _Static_assert(KD_VK_MAX_STORAGE == 8, "as the next sentence says");
+    if (limits->maxPerStageDescriptorStorageBuffers < KD_VK_MAX_STORAGE)
         lacks(info, "8 storage buffers a shader");
 }
 

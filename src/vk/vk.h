@@ -84,7 +84,8 @@ enum kd_vk_kind {
     KD_VK_TEXELS_R,    /* uniform textureBuffer of R32_SFLOAT, a texel a float; max_texels */
     KD_VK_TEXELS_RGBA, /* and of R32G32B32A32_SFLOAT, a texel four floats */
 };
-#define KD_VK_MAX_BINDINGS 8
+#define KD_VK_MAX_BINDINGS 12
+#define KD_VK_MAX_STORAGE 8 /* of them, those of storage: what a device must have to be used */
 
 /* Pipelines: one buffer a binding 0..n_buffers-1 in set 0, storage unless `kinds` says otherwise; push constants;
  * specialisation constants of 4 bytes. */

@@ -94,7 +94,7 @@ done:
     return status;
 }
 
-static struct kd_vk_buffer *density(const struct kd_prepared *own) { return own->particles.density; }
+static void buffers(const struct kd_prepared *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_density] = own->particles.density; }
 
 enum kd_status kd_particles_places(struct kd_renderer *r, const struct kd_scene *scene, uint32_t first, uint32_t stride,
                                    size_t n, struct kd_particle_place *out, struct kd_error *error)
@@ -134,4 +134,4 @@ static void finish(struct kd_prepared *own, struct kd_vk *vk)
     memset(p, 0, sizeof *p);
 }
 
-const struct kd_preparation kd_prepare_particles = { prepare, density, forget, finish };
+const struct kd_preparation kd_prepare_particles = { prepare, buffers, forget, finish };

@@ -18,12 +18,13 @@ done:
     return status;
 }
 
-struct kd_vk_buffer *kd_prepared_buffer(const struct kd_prepared *prepared, const struct kd_plan *plan)
+void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan, struct kd_vk_buffer *out[KD_OWN_COUNT])
 {
+    for (int i = 0; i < KD_OWN_COUNT; i++)
+        out[i] = NULL;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kd_preparations[i] && plan->traits[i])
-            return kd_preparations[i]->buffer(prepared);
-    return NULL;
+            kd_preparations[i]->buffers(prepared, out);
 }
 
 void kd_prepared_forget(struct kd_prepared *prepared)

@@ -19,7 +19,7 @@ struct kd_preparation {
     /* Record, and submit, what brings the buffers to what the scene shows now. */
     enum kd_status (*prepare)(struct kd_renderer *r, struct kd_prepared *own, const struct kd_scene *scene, const struct kd_capacity *c,
                               struct kd_error *error);
-    struct kd_vk_buffer *(*buffer)(const struct kd_prepared *own); /* that the transfer pass reads */
+    void (*buffers)(const struct kd_prepared *own, struct kd_vk_buffer *out[KD_OWN_COUNT]); /* sets its own, by KD_OWN_... (emission.h) */
     void (*forget)(struct kd_prepared *own); /* what was recorded may not have come to the device: work was given up */
     void (*finish)(struct kd_prepared *own, struct kd_vk *vk);
 };
@@ -29,8 +29,8 @@ extern const struct kd_preparation *const kd_preparations[KD_EMITTER_COUNT];
 /* Of all emitters that the plan's scene has. */
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);
-/* The buffer for the transfer pass, which can bind one; NULL: the scene's emitters have none. */
-struct kd_vk_buffer *kd_prepared_buffer(const struct kd_prepared *prepared, const struct kd_plan *plan);
+/* Buffers for the kernels of light, by their numbers; NULL: of emitters that the scene has not. */
+void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan *plan, struct kd_vk_buffer *out[KD_OWN_COUNT]);
 void kd_prepared_forget(struct kd_prepared *prepared);
 void kd_prepared_finish(struct kd_prepared *prepared, struct kd_vk *vk);
 

@@ -25,12 +25,33 @@ _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by
 
 /* Tables are read as texels: on lavapipe those come four at the price of one of a storage buffer's words. */
 typedef float kd_table_row[4];
-#define T(name, first, rows) kd_table_row name[rows];
-struct kd_emit_tables { KD_EMIT_TABLES(T) };
-#undef T
-#define T(name, first, rows) _Static_assert(offsetof(struct kd_emit_tables, name) == sizeof(kd_table_row) * (first), "a table's first row");
-KD_EMIT_TABLES(T)
-#undef T
+#define KD_T(table, rows) kd_table_row table[rows];
+struct kd_emit_tables { KD_EMIT_TABLES };
+#undef KD_T
+#define KD_T(table, rows) +(rows)
+_Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMIT_TABLES), "no gaps: the kernels count rows");
+#undef KD_T
+
+/* In no word do two variants share a bit: else the sum of all is more than all of them together. */
+#define ADDED(trait) +(uint64_t)KD_TRAIT_##trait
+#define JOINED(trait) | KD_TRAIT_##trait
+#define DISJOINT(number, name)                                                                                  \
+    _Static_assert(KD_TRAIT_PRESENT KD_TRAITS_##name(ADDED) == (KD_TRAIT_PRESENT KD_TRAITS_##name(JOINED)), "bits of the traits of " #name);
+KD_EMITTERS(DISJOINT, DISJOINT, DISJOINT, DISJOINT)
+#undef ADDED
+#undef JOINED
+#undef DISJOINT
+
+/* Buffers that emitters fill on the device, by their numbers: KD_OWN_density and so on. */
+#define KD_B(number, type, member) KD_OWN_##member = number,
+enum { KD_EMIT_BUFFERS };
+#undef KD_B
+#define KD_B(number, type, member) +1
+enum { KD_OWN_COUNT = 0 KD_EMIT_BUFFERS };
+#undef KD_B
+#define KD_B(number, type, member) +(1 << number)
+_Static_assert((0 KD_EMIT_BUFFERS) == (1 << KD_OWN_COUNT) - 1, "each has a number of its own, from 0 on");
+#undef KD_B
 
 /* Both lie in one buffer, the tables behind the numbers. */
 struct kd_emit_data {

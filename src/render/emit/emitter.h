@@ -1,8 +1,8 @@
 /* Emitters: what sends light along a ray, takes it away or changes it. The table of shaders/shared/emitters.h on the C side, one file
  * each; plan, needs, motion, numbers and tables for the device, and approximations fold over it and know no names.
  *
- * To add one: its line in that list and its file among those included below it, shaders/emit/NAME.glsl, src/render/emit/NAME.c with
- * `const struct kd_emitter kd_emit_NAME`, and its section in the field table; tables of its own go behind the others (KD_EMIT_TABLES). Constant data and pure functions of valid scenes, any thread. */
+ * To add one: its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`, and its
+ * section in the field table. Constant data and pure functions of valid scenes, any thread. */
 #ifndef KD_RENDER_EMIT_EMITTER_H
 #define KD_RENDER_EMIT_EMITTER_H
 

@@ -148,7 +148,7 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
 static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, const struct kd_vk_pipeline *pipeline,
                                                struct kd_vk_buffer *lens, uint32_t band, int camera, int makes)
 {
-    struct kd_vk_buffer *prepared = kd_prepared_buffer(j->prepared, j->plan);
+    struct kd_vk_buffer *own[KD_OWN_COUNT];
     struct kd_vk_dispatch d = {
         kd_passes[makes < 0 ? KD_PASS_TRANSFER : KD_PASS_LAYERS].name,
         pipeline,
@@ -156,11 +156,13 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
           { j->store->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { j->store->radiance.buffers[band], 0, 0, true },
-          { prepared ? prepared : j->store->transfer, 0, 0, false },
           camera_binding(j, camera) },
         NULL,
         { 0 },
     };
+    kd_prepared_buffers(j->prepared, j->plan, own);
+    for (int i = 0; i < KD_OWN_COUNT; i++) /* something must be bound where nothing is read */
+        d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
         d.bindings[3].offset = (uint64_t)makes * kd_plan_layer_bytes(j->plan);
