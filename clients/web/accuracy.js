@@ -1,16 +1,16 @@
 // How wrong the picture is, where its time went, and what of it is modelled: in words.
 import { byId, el } from './dom.js';
-import { number, t, tell, word } from './i18n.js';
+import { number, said, t, tell, word } from './i18n.js';
 
+// A pass of an emitter's own has the emitter's name, and its title.
 const pass_names = {
   queue: ['waiting', 'attesa'],
   trace: ['rays', 'raggi'],
   footprint: ['places that rays stand for', 'luoghi per cui stanno i raggi'],
-  transfer: ['disk and sky', 'disco e cielo'],
+  transfer: ['light', 'luce'],
   fill: ['clearing', 'azzeramento'],
-  light: ['light of spots', 'luce delle macchie'],
-  particles: ['particles', 'particelle'],
-  rays: ['rays for particles', 'raggi per le particelle'],
+  layers: ['maps', 'mappe'],
+  light: ['flux and centroid', 'flusso e centro'],
   upload: ['upload', 'invio'],
   expose: ['exposure', 'esposizione'],
   bloom: ['glare', 'alone'],
@@ -20,6 +20,11 @@ const pass_names = {
   encode: ['PNG', 'PNG'],
   total: ['together', 'in tutto'],
 };
+
+function passName(name, emitters) {
+  if (pass_names[name]) return t(...pass_names[name]);
+  return said(emitters.find(emitter => emitter.name === name)?.title ?? name).text;
+}
 
 export function showAccuracy(frame, scene) {
   const { sampled, rays, median, worst, differ } = frame.accuracy,
@@ -47,7 +52,7 @@ export function showAccuracy(frame, scene) {
       el(
         'tr',
         {},
-        el('th', { scope: 'row' }, pass_names[pass.name] ? t(...pass_names[pass.name]) : pass.name),
+        el('th', { scope: 'row' }, passName(pass.name, scene.emitters)),
         el('td', {}, pass.reused ? t('reused', 'riusato') : number(pass.ms, 3)),
       ),
     ),

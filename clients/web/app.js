@@ -8,7 +8,7 @@ import { describe, entitle, followScene } from './describe.js';
 import { buildFull } from './full.js';
 import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
-import { buildLiving, hasSpots } from './living.js';
+import { apart, buildLiving } from './living.js';
 import { buildOverlays } from './overlay.js';
 import { buildPresets, openPreset, startAgain } from './presets.js';
 import { Scene } from './scene.js';
@@ -126,10 +126,10 @@ async function watch(scene) {
     followLight();
   }
 
-  // The light of spots, once there are any.
+  // The light that the server tells flux and centroid of, once there is any.
   let light = null;
   function followLight() {
-    const wanted = hasSpots(scene);
+    const wanted = Boolean(apart(scene));
     byId('light').hidden = !wanted;
     if (wanted) light ??= import('./light.js').then(({ buildLight }) => buildLight(byId('light'), scene));
     light?.then(follow => follow(source.address(), wanted));

@@ -1,13 +1,12 @@
 // Controls of a scene, made from the schema: a row a field, in the groups of the page.
 import { byId, el } from './dom.js';
 import { element, named, nature, number, section, t, tell, unit, word } from './i18n.js';
-import { beside_time, first, left_out, meansSomething, useful } from './known.js';
-import { shows } from './living.js';
+import { beside_time, left_out, meansSomething } from './known.js';
 import { scale, stepByArrows } from './slider.js';
 
 function numberRow(field, scene, id, hint) {
   const { minimum, maximum, word: special, type } = field;
-  const [low, high] = useful[field.path] ?? [minimum, maximum],
+  const [low, high] = field.span ?? [minimum, maximum],
     range = { ...field, minimum: low, maximum: high },
     s = scale(range),
     whole = type === 'integer';
@@ -33,7 +32,7 @@ function numberRow(field, scene, id, hint) {
   });
   const check =
     special &&
-    el('input', { type: 'checkbox', onchange: () => give(check.checked ? special : (first[field.path] ?? field.minimum)) });
+    el('input', { type: 'checkbox', onchange: () => give(check.checked ? special : (field.first ?? field.minimum)) });
   function show() {
     const value = scene.get(field.path),
       given = value !== special;
@@ -191,8 +190,7 @@ export function buildControls(scene, living_root) {
 
   function show() {
     lists.forEach(grow);
-    const now = shows(scene);
-    for (const r of rows) ((r.node.hidden = !meansSomething(scene, r.path, now)), r.show());
+    for (const r of rows) ((r.node.hidden = !meansSomething(scene, r.path)), r.show());
     showParts();
   }
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);

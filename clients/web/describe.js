@@ -1,7 +1,6 @@
 // What is seen, in words: for titles, and for those who have a picture read to them.
 import { byId } from './dom.js';
-import { number, t } from './i18n.js';
-import { hasSpots, spots } from './living.js';
+import { number, said, t } from './i18n.js';
 
 const views = {
   lensing: t('Lensing', 'Lente'),
@@ -37,27 +36,11 @@ function whence(scene) {
   return t(`seen from ${number(r)} M, ${wide}° across`, `visto da ${number(r)} M, largo ${wide}°`);
 }
 
-function diskOf(scene) {
-  const model = scene.get('disk.model');
-  if (model === 'none') return t('No disk.', 'Nessun disco.');
-  const inner = scene.get('disk.inner'),
-    outer = number(scene.get('disk.outer')),
-    what = model === 'particles' ? t(`disk of ${number(scene.get('disk.particles'))} particles`, `disco di ${number(scene.get('disk.particles'))} particelle`) : scene.get('disk.gas.amplitude') > 0 ? t('thin disk of turbulent gas', 'disco sottile di gas turbolento') : t('thin disk', 'disco sottile');
-  return inner === 'isco'
-    ? t(`A ${what} from the ISCO to ${outer} M.`, `Un ${what} dall’ISCO a ${outer} M.`)
-    : t(`A ${what} from ${number(inner)} to ${outer} M.`, `Un ${what} da ${number(inner)} a ${outer} M.`);
-}
-
+// The server says what shines.
 export function describe(scene) {
-  const lit = spots(scene).map(path => `${number(scene.get(path + '.r'))} M`);
-  return [
-    t(`A black hole, ${nameOf(scene)}, ${whence(scene)}.`, `Un buco nero, ${nameOf(scene)}, ${whence(scene)}.`),
-    diskOf(scene),
-    hasSpots(scene) && t(`Hot spots going round at ${lit.join(', ')}.`, `Macchie calde in orbita a ${lit.join(', ')}.`),
-    scene.get('sky.model') !== 'none' && t('A celestial grid behind.', 'Dietro, un reticolo celeste.'),
-  ]
-    .filter(Boolean)
-    .join(' ');
+  const hole = t(`A black hole, ${nameOf(scene)}, ${whence(scene)}.`, `Un buco nero, ${nameOf(scene)}, ${whence(scene)}.`),
+    told = scene.emitters.filter(({ sentence }) => sentence).map(({ sentence }) => said(sentence).text);
+  return [hole, ...told].join(' ');
 }
 
 // Keeps title, picture and stage at what the scene is.

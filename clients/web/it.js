@@ -251,7 +251,7 @@ export const presets = {
     'Sei anelli di fotoni, uno sopra l’altro: in orizzontale l’angolo attorno al bordo dell’ombra, in verticale la distanza da quel bordo, per nove decadi e mezza',
 };
 
-// What is refused, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
+// What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
 const refusals = [
   ['{} is {}{?}, allowed are whole numbers from {} to {}', '{} è {}{?}, ammessi sono gli interi da {} a {}'],
   ['{} is {}, allowed are multiples of 4 up to {}, and 0', '{} è {}, ammessi sono i multipli di 4 fino a {}, e 0'],
@@ -319,6 +319,14 @@ const refusals = [
   ['there is no {}: the list has {} element, and the next free index is {}', 'non c’è {}: la lista ha {} elemento, e il prossimo indice libero è {}'],
   ['{} sessions are open, as many as may', 'sono aperte {} sessioni, quante se ne possono aprire'],
   ['{} is {}, which follows bound orbits only, and this one is to plunge', '{} è {}, che segue solo orbite legate, e questa deve cadere'],
+  // what is seen of emitters
+  ['A thin disk from the ISCO to {}.', 'Un disco sottile dall’ISCO a {}.'],
+  ['A thin disk from {} to {}.', 'Un disco sottile da {} a {}.'],
+  ['A thin disk of turbulent gas from the ISCO to {}.', 'Un disco sottile di gas turbolento dall’ISCO a {}.'],
+  ['A thin disk of turbulent gas from {} to {}.', 'Un disco sottile di gas turbolento da {} a {}.'],
+  ['A disk of {} particles from the ISCO to {}.', 'Un disco di {} particelle dall’ISCO a {}.'],
+  ['A disk of {} particles from {} to {}.', 'Un disco di {} particelle da {} a {}.'],
+  ['Hot spots going round at {…}.', 'Macchie calde in orbita a {…}.'],
 ].map(([english, italian]) => {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
   const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|GiB|s))?)';
@@ -355,6 +363,16 @@ export function refusal(text) {
 }
 
 export const sentences = {
+  'thin disk': 'disco sottile',
+  particles: 'particelle',
+  'plunging gas': 'gas in caduta',
+  spots: 'macchie',
+  ringdown: 'oscillazione smorzata',
+  sky: 'cielo',
+  gas: 'gas',
+  'Disk of particles': 'Disco di particelle',
+  'Hot spot': 'Macchia calda',
+  'A celestial grid behind.': 'Dietro, un reticolo celeste.',
   'disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge':
     'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',
   'disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light':

@@ -1,6 +1,7 @@
-// The light of a picture with spots, as the session's events tell it frame by frame: its curve, and where its middle goes.
+// The session's events tell, frame by frame, the light of a picture and that part of it which is kept apart: its curve, and where its middle goes.
 import { byId, el, svg } from './dom.js';
-import { number, t } from './i18n.js';
+import { number, said, t } from './i18n.js';
+import { apart } from './living.js';
 import { numbers, plot } from './plot.js';
 
 const kept = 1500; // points, at 20 to 45 a second
@@ -31,7 +32,7 @@ export function buildLight(root, scene) {
     track = el(
       'figure',
       { class: 'plot' },
-      el('figcaption', { id: 'track-caption' }, t('Where the middle of the spots’ light is seen', 'Dove si vede il centro della luce delle macchie')),
+      el('figcaption', { id: 'track-caption' }),
       picture,
       el('p', { class: 'help' }, t('The cross is the hole’s place.', 'La croce è il posto del buco.')),
       list,
@@ -47,6 +48,8 @@ export function buildLight(root, scene) {
   function draw() {
     timer = 0;
     if (!points.length) return;
+    const name = said(apart(scene)?.title ?? '').text;
+    byId('track-caption').textContent = t(`Where the middle of this light is seen: ${name}`, `Dove si vede il centro di questa luce: ${name}`);
     const sorted = points[0].time > points.at(-1).time ? points.toReversed() : points,
       x = sorted.map(p => p.time),
       unit = far(scene) ? 'M' : '°',
@@ -62,7 +65,7 @@ export function buildLight(root, scene) {
       y: { label: t(`flux / ${area}`, `flusso / ${area}`), min: 0 },
       series: [
         { name: t('all', 'tutta'), x, y: sorted.map(p => p.all) },
-        { name: t('spots', 'macchie'), x, y: sorted.map(p => p.spots) },
+        { name, x, y: sorted.map(p => p.spots) },
       ],
     });
     drawTrack(picture, points, unit);

@@ -1,32 +1,44 @@
-// What lives: time that goes on or stands, particles, a hot spot, a struck hole. The session moves it; here is who says so.
-import { byId, latest } from './dom.js';
+// Here is who says what lives, and the session moves it: time that goes on or stands, what buttons set, a struck hole.
+import { byId, el, latest } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
+import { meansSomething } from './known.js';
 import { physics } from './server.js';
 
 const usual_rate = 8; // M a second, where none was chosen
-const toggled = 'spots.0.brightness'; // by the button
 
-// The spots that are on, as paths.
-export const spots = scene => scene.elements('spots').filter(path => scene.get(path + '.brightness') > 0);
-export const hasSpots = scene => spots(scene).length > 0;
-const hasParticles = scene => scene.get('disk.model') === 'particles';
-const canRing = scene => scene.get('accuracy.orders') > 1 && (hasSpots(scene) || scene.get('disk.model') !== 'none');
+// The server says what there is to be seen: light of which flux and centroid are told, light of higher image orders to ring, another
+// time, another azimuth.
+export const apart = scene => scene.emitters.find(emitter => emitter.apart);
+const canRing = scene => scene.get('accuracy.orders') > 1 && scene.emitters.some(({ at }) => at === 'crossing');
+const showsTime = scene => scene.varies.some(word => word.endsWith('_time'));
+const showsAzimuth = scene => scene.varies.includes('moves_with_azimuth');
 
-// Whether another time would be seen, another azimuth, and things at another time's place: the server says so.
-export const shows = ({ varies }) => ({
-  time: varies.some(word => word.endsWith('_time')),
-  azimuth: varies.includes('moves_with_azimuth'),
-  bodies: varies.includes('moves_with_time'),
-});
-const showsTime = scene => shows(scene).time;
+// Fields that have a button, of a list those of its first element; and those that another number makes look otherwise.
+const withButton = scene => [...scene.fields.values()].filter(({ button, path }) => button && !/\.[1-9]/.test(path));
+const seeds = scene => [...scene.fields.keys()].filter(path => path.endsWith('.seed') && meansSomething(scene, path));
+
+// A button gives its field a value, and takes it back; what then could move does.
+function buildButton(scene, { path, button, type, default: usual }, rate) {
+  const isOn = () => (type === 'choice' ? scene.get(path) === button.value : scene.get(path) !== usual);
+  const node = el('button', { type: 'button', id: 'set-' + path.replaceAll('.', '-'), onclick: () => scene.change(isOn() ? { [path]: null } : { [path]: button.value, ...rate() }) }),
+    { group } = scene.sections.find(({ name }) => path.startsWith(name + '.'));
+  tell(node, button.title);
+  const place = byId('group-' + group);
+  if (!place.querySelector(':scope > .row')) place.querySelector('.parts').before(el('p', { class: 'row' }));
+  place.querySelector(':scope > .row').prepend(node, ' ');
+  return () => node.setAttribute('aria-pressed', isOn());
+}
 
 export function buildLiving(stage, scene, source) {
-  const [play, clock, more, spot, seed, strike] = ['play', 'clock', 'as-particles', 'spot', 'new-seed', 'strike'].map(byId),
+  const [play, clock, seed, strike] = ['play', 'clock', 'new-seed', 'strike'].map(byId),
     fault = byId('strike-fault');
   let second = 0; // M as a time, of the hole's mass
 
-  const moves = () => showsTime(scene) || (shows(scene).azimuth && scene.get('motion.azimuth_rate_deg') !== 0);
+  const moves = () => showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
   const rate = () => ({ 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
+  const buttons = withButton(scene)
+    .reverse() // each is put before those that are there
+    .map(field => buildButton(scene, field, rate));
 
   function toggle() {
     if (!moves()) return;
@@ -50,9 +62,8 @@ export function buildLiving(stage, scene, source) {
   function show() {
     play.hidden = !moves();
     play.textContent = scene.goesOn() ? t('Pause', 'Pausa') : t('Play', 'Avvia');
-    more.setAttribute('aria-pressed', hasParticles(scene));
-    seed.hidden = !hasParticles(scene);
-    spot.setAttribute('aria-pressed', scene.get(toggled) > 0);
+    for (const showButton of buttons) showButton();
+    seed.hidden = !seeds(scene).length;
     strike.hidden = !canRing(scene);
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
@@ -62,9 +73,7 @@ export function buildLiving(stage, scene, source) {
   }
 
   play.addEventListener('click', toggle);
-  more.addEventListener('click', () => scene.change(hasParticles(scene) ? { 'disk.model': null } : { 'disk.model': 'particles', ...rate() }));
-  seed.addEventListener('click', () => scene.change({ 'disk.seed': Math.floor(Math.random() * 1000) + 1 }));
-  spot.addEventListener('click', () => scene.change(scene.get(toggled) > 0 ? { [toggled]: null } : { [toggled]: 4, ...rate() }));
+  seed.addEventListener('click', () => scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))));
   // Only in time that goes on does it ring.
   strike.addEventListener('click', () => {
     if (scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });

@@ -17,9 +17,15 @@ function* flatten(schema, prefix = '') {
     if (spec.items?.properties) for (let i = 0; i < spec.maxItems; i++) yield* flatten(spec.items, `${prefix}${name}.${i}.`);
     else if (spec.properties) yield* flatten(spec, `${prefix}${name}.`);
     else if (!('const' in spec))
-      yield { path: prefix + name, ...kind(spec), default: told(spec.default), unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'] };
+      yield { path: prefix + name, ...kind(spec), default: told(spec.default), unit: spec['x-unit'], help: spec.description, nature: spec['x-nature'], front: spec['x-front'], ...control(spec) };
   }
 }
+
+// What its control needs to know (src/scene/control.h).
+const control = spec => Object.fromEntries(['span', 'first', 'switch', 'with', 'varies', 'button'].map(key => [key, spec['x-' + key]]));
+
+// The section or the element that a field stands in, as a path.
+const home = path => path.slice(0, Math.max(0, path.lastIndexOf('.')));
 
 // Those of a member of the document, each with its path; a section may stand in another one: disk.gas.
 function sections([path, spec]) {
@@ -58,6 +64,7 @@ export class Scene extends EventTarget {
   #linked = 0; // when the address last kept up
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody says so
   varies = []; // what another time or azimuth would show, as the server says of the scene (docs/live.md)
+  emitters = []; // what shines in it, likewise
   unknown = []; // what of the link means nothing here
   jumps = 0; // how often somebody set the time
 
@@ -69,6 +76,7 @@ export class Scene extends EventTarget {
       .flatMap(sections)
       .map(([name, spec]) => ({ name, help: spec.description, group: spec['x-group'], most: spec.items && spec.maxItems }));
     scene.fields = new Map([...flatten(schema)].map(field => [field.path, field]));
+    scene.switches = new Map([...scene.fields.values()].filter(field => field.switch).map(({ path }) => [home(path), path]));
     scene.#styles = schema.properties.style.properties.name['x-sets'];
     scene.#renew(schema);
     const style = scene.#styles[link.get('style.name')] ?? {};
@@ -165,9 +173,10 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('settle'));
   }
 
-  tellVaries(varies) {
-    const changed = String(varies) !== String(this.varies);
-    this.varies = varies;
+  // What the server says of the scene as it is.
+  tellSeen({ varies, emitters }) {
+    const changed = JSON.stringify([varies, emitters]) !== JSON.stringify([this.varies, this.emitters]);
+    Object.assign(this, { varies, emitters });
     if (changed) this.dispatchEvent(new Event('settle'));
   }
 

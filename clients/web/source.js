@@ -99,12 +99,12 @@ export function openSource(scene, size, shown, failed) {
       wrong(error.message);
     });
     if (!answer) return;
-    const { revision, scene: now, varies } = await answer.json();
+    const { revision, scene: now, ...told } = await answer.json();
     session.revision = revision;
     const { ringdown, ringdown_time } = now.style;
     document.style = { ...document.style, ringdown, ringdown_time };
     scene.settle({ 'style.ringdown': ringdown, 'style.ringdown_time': ringdown_time });
-    scene.tellVaries(varies);
+    scene.tellSeen(told);
   }
 
   // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not seen has no size.
@@ -120,11 +120,11 @@ export function openSource(scene, size, shown, failed) {
         headers: headers(),
         body: JSON.stringify(patch ?? document),
       });
-      const { id, token, revision, scene: now, varies } = await answer.json();
+      const { id, token, revision, scene: now, ...told } = await answer.json();
       session ??= { url: 'v1/sessions/' + id, token, frame: 0 };
       Object.assign(session, { document, revision, jumps });
       if (scene.jumps === jumps && patch?.motion) follow(document, now);
-      scene.tellVaries(varies);
+      scene.tellSeen(told);
       if (striking) await struck(document);
       if (!pulling) pull();
     } catch (error) {

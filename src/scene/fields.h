@@ -223,6 +223,43 @@
     ROW(style, bloom,       0.5,           0,             0.7)                                                       \
     ROW(style, dither,      1,             0,             1)
 
+/* Controls of a page (scene/control.h), by the fields' paths, of a list's without a number; a section's stand together. */
+#define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                                 \
+    SPAN("spacetime.spin", -0.998, 0.998)                                                                            \
+    SPAN("spacetime.mass_msun", 1, 1e10)                                                                             \
+    SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60)                                                                \
+    SPAN("camera.field_m", 4, 400)                                                                                   \
+    SPAN("camera.fov_deg", 2, 120)                                                                                   \
+    SPAN("camera.azimuth_deg", -180, 180)                                                                            \
+    SPAN("camera.centre_alpha", -50, 50)                                                                             \
+    SPAN("camera.centre_beta", -50, 50)                                                                              \
+    SPAN("camera.roll_deg", -180, 180)                                                                               \
+    SPAN("camera.infall_from", 2.1, 1000) FIRST("camera.infall_from", 100)                                           \
+    SPAN("camera.infall_energy", 0, 10) FIRST("camera.infall_energy", 1)                                             \
+    SPAN("camera.infall_momentum", -5, 5)                                                                            \
+    BUTTON("disk.model", KD_DISK_PARTICLES, "Disk of particles")                                                     \
+    SPAN("disk.inner", 1, 50) FIRST("disk.inner", 6)                                                                 \
+    SPAN("disk.outer", 3, 200)                                                                                       \
+    SPAN("disk.peak_temperature_k", 1000, 1e5)                                                                       \
+    SPAN("disk.mdot_edd", 1e-3, 10)                                                                                  \
+    VARIES("disk.slow_light", "moves_with_time")                                                                     \
+    WITH("disk.particles", "model", KD_DISK_PARTICLES)                                                               \
+    WITH("disk.seed", "model", KD_DISK_PARTICLES) SPAN("disk.seed", 0, 1000)                                         \
+    WITH("disk.density_index", "model", KD_DISK_PARTICLES)                                                           \
+    WITH("disk.plunging", "model", KD_DISK_PARTICLES)                                                                \
+    WITH("disk.plunging_temperature", "model", KD_DISK_PARTICLES)                                                    \
+    WITH("disk.epicycles", "model", KD_DISK_PARTICLES)                                                               \
+    SWITCH("disk.gas.amplitude")                                                                                     \
+    SPAN("disk.gas.seed", 0, 1000)                                                                                   \
+    SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot")                                             \
+    SWITCH("sky.model")                                                                                              \
+    SPAN("sky.brightness", 0, 5)                                                                                     \
+    SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0)                                                       \
+    SPAN("style.ringdown_time", -1000, 1000)                                                                         \
+    SPAN("accuracy.tolerance", 1e-12, 1e-2) FIRST("accuracy.tolerance", 1e-6)                                        \
+    SPAN("motion.time_rate", -100, 100) VARIES("motion.time_rate", "moves_with_time|dims_with_time")                 \
+    SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
+
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 

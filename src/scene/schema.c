@@ -1,5 +1,5 @@
 /* JSON Schema of the scene document, from the table. */
-#include "scene/style.h"
+#include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"
 #include "scene/words.h"
@@ -115,6 +115,58 @@ static void write_styles(struct kd_writer *w, const struct kd_field *names)
     kd_write(w, "}");
 }
 
+/* Writes a text "a|b" as a list. */
+static void write_list(struct kd_writer *w, const char *text)
+{
+    kd_write(w, "[");
+    for (const char *at = text; at;) {
+        int length = (int)strcspn(at, "|");
+        kd_write(w, "%s\"%.*s\"", at == text ? "" : ",", length, at);
+        at = at[length] ? at + length + 1 : NULL;
+    }
+    kd_write(w, "]");
+}
+
+static void write_control(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
+{
+    static const char *const keys[] = {
+        [KD_CONTROL_SPAN] = "span", [KD_CONTROL_FIRST] = "first", [KD_CONTROL_SWITCH] = "switch",
+        [KD_CONTROL_WITH] = "with", [KD_CONTROL_VARIES] = "varies", [KD_CONTROL_BUTTON] = "button",
+    };
+    kd_write(w, ",\"x-%s\":", keys[control->kind]);
+    switch (control->kind) {
+    case KD_CONTROL_SPAN:
+        kd_write(w, "[");
+        kd_write_number(w, control->a);
+        kd_write(w, ",");
+        kd_write_number(w, control->b);
+        kd_write(w, "]");
+        return;
+    case KD_CONTROL_FIRST: kd_write_value(w, field, control->a); return;
+    case KD_CONTROL_SWITCH: kd_write(w, "true"); return;
+    case KD_CONTROL_WITH:
+        kd_write(w, "{\"%s\":", control->text);
+        kd_write_value(w, kd_field_find(field->section, control->text), control->a);
+        kd_write(w, "}");
+        return;
+    case KD_CONTROL_VARIES: write_list(w, control->text); return;
+    case KD_CONTROL_BUTTON:
+        kd_write(w, "{\"title\":\"%s\",\"value\":", control->text);
+        kd_write_value(w, field, control->a);
+        kd_write(w, "}");
+        return;
+    }
+}
+
+static void write_controls(struct kd_writer *w, const struct kd_field *field)
+{
+    for (int kind = KD_CONTROL_SPAN; kind <= KD_CONTROL_BUTTON; kind++) {
+        const struct kd_control *control = kd_control_find(field, (enum kd_control_kind)kind);
+        if (control)
+            write_control(w, field, control);
+    }
+}
+
 static void write_field(struct kd_writer *w, const struct kd_field *field)
 {
     kd_write(w, "\"%s\":{", field->name);
@@ -128,6 +180,7 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
         write_styles(w, field);
     if (field->place == KD_FIELD_FRONT)
         kd_write(w, ",\"x-front\":true");
+    write_controls(w, field);
     if (!*field->section)
         write_group(w, kd_section_find(""));
     if (*field->unit && strcmp(field->unit, "1")) {

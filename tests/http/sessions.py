@@ -90,6 +90,15 @@ class Sessions(daemon.Owned):
                               ({'disk': None}, [])):
             self.assertEqual(self.patch(session, patch).json()['varies'], varies)
 
+    def test_what_shines(self):
+        session = self.open({})
+        seen = lambda answer: [(e['name'], e['at'], e['apart'], e.get('sentence')) for e in answer['emitters']]
+        self.assertEqual(seen(self.status(session)), [('disk', 'crossing', False, 'A thin disk from the ISCO to 22 M.')])
+        patch = {'disk': {'gas': {'amplitude': 1}, 'inner': 8}, 'spots': [{'brightness': 1}, {'brightness': 1, 'r': 12.5}], 'style': {'ringdown': 1}}
+        self.assertEqual(seen(self.patch(session, patch).json()),
+                         [('spots', 'crossing', True, 'Hot spots going round at 9 M, 12.5 M.'), ('ringdown', '', False, None),
+                          ('gas', 'crossing', False, 'A thin disk of turbulent gas from 8 M to 22 M.')])
+
     def test_patch_of_a_style(self):
         session = self.open({'image': {'width': 64, 'height': 36}, 'style': {'bloom': 0.25}})
         scene = self.patch(session, {'style': {'name': 'dngr'}}).json()['scene']

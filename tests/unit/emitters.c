@@ -1,6 +1,7 @@
 /* The table of emitters holds together: none is left out of plan, approximations, motion or numbers. */
 #include "render/emit/emitter.h"
 #include "render/emit/motion.h"
+#include "render/emit/told.h"
 #include "render/plan/plan.h"
 #include "scene/table.h"
 
@@ -17,6 +18,7 @@ static void all_are_there(void **state)
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         assert_non_null(kd_emitters[i]);
         assert_non_null(kd_emitters[i]->name);
+        assert_non_null(kd_emitters[i]->title);
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each approximates something */
         assert_true(!kd_emitters[i]->fill || kd_emitters[i]->depends[0].size); /* or it would be filled once and for all */
@@ -196,6 +198,49 @@ static void gas_replaces_the_disk(void **state)
     assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
+/* An emitter has no variant but those that its GLSL lists, which do not overlap: a check at compile time sees to that. */
+#define LISTED(trait) | KD_TRAIT_##trait
+#define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
+static void traits_are_listed(void **state)
+{
+    (void)state;
+    static const uint32_t listed[KD_EMITTER_COUNT] = { KD_EMITTERS(WORD, WORD, WORD, WORD) };
+    static const char *const documents[] = { "{}", BASE, GAS, "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}" };
+    for (size_t k = 0; k < sizeof documents / sizeof *documents; k++) {
+        struct kd_scene scene;
+        struct kd_error error;
+        uint32_t traits[KD_EMITTER_COUNT];
+        kd_scene_defaults(&scene);
+        assert_int_equal(kd_scene_from_json(&scene, documents[k], strlen(documents[k]), &error), KD_OK);
+        kd_emit_traits(&scene, traits);
+        for (int i = 0; i < KD_EMITTER_COUNT; i++)
+            if (traits[i] & ~listed[i])
+                fail_msg("%s has 0x%x, and lists 0x%x", kd_emitters[i]->name, traits[i], listed[i]);
+    }
+}
+
+static void what_shines_is_told(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    struct kd_error error;
+    struct kd_buffer json = { 0 };
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_scene_from_json(&scene, BASE, strlen(BASE), &error), KD_OK);
+    scene.disk.inner = 8;
+    scene.disk.plunging = 0;
+    assert_int_equal(kd_emit_to_json(&scene, &json), KD_OK);
+    assert_int_equal(kd_buffer_printf(&json, "%c", 0), KD_OK);
+    assert_string_equal((const char *)json.data,
+                        "[{\"name\":\"particles\",\"title\":\"particles\",\"at\":\"crossing\",\"apart\":false,"
+                        "\"sentence\":\"A disk of 300000 particles from 8 M to 22 M.\"},"
+                        "{\"name\":\"spots\",\"title\":\"spots\",\"at\":\"crossing\",\"apart\":true,"
+                        "\"sentence\":\"Hot spots going round at 9 M.\"},"
+                        "{\"name\":\"ringdown\",\"title\":\"ringdown\",\"at\":\"\",\"apart\":false},"
+                        "{\"name\":\"sky\",\"title\":\"sky\",\"at\":\"end\",\"apart\":false,\"sentence\":\"A celestial grid behind.\"}]");
+    kd_buffer_finish(&json);
+}
+
 /* Where so few particles fall that there are none, nothing does. */
 static void none_of_a_thousand(void **state)
 {
@@ -224,6 +269,8 @@ int main(void)
         cmocka_unit_test(numbers_follow_each_field),
         cmocka_unit_test(gas_replaces_the_disk),
         cmocka_unit_test(none_of_a_thousand),
+        cmocka_unit_test(traits_are_listed),
+        cmocka_unit_test(what_shines_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Every field of the scene table: its bounds, its words, kd_scene_set, and the texts generated from it. */
 #include "scene_support.h"
 
+#include "scene/control.h"
 #include "scene/number.h"
 
 #include <cjson/cJSON.h>
@@ -293,6 +294,28 @@ static void natures_and_groups(void **state)
     assert_int_equal(kd_field_find("style", "tone_map")->nature, KD_FIELD_LOOK);
 }
 
+/* Each control is that of one field, which holds what it says. */
+static void controls_are_of_fields(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < kd_control_count; k++) {
+        const struct kd_control *c = &kd_controls[k];
+        const struct kd_field *of = NULL;
+        for (int i = 0; i < KD_FIELD_COUNT; i++)
+            if (kd_control_find(&kd_fields[i], c->kind) == c)
+                of = &kd_fields[i];
+        if (!of)
+            fail_msg("%s is no field, or has two controls of this kind", c->path);
+        if (c->kind == KD_CONTROL_SPAN)
+            assert_true(of->minimum <= c->a && c->a < c->b && c->b <= of->maximum);
+        if (c->kind == KD_CONTROL_FIRST || c->kind == KD_CONTROL_BUTTON)
+            assert_true(kd_field_holds(of, c->a) && c->a != of->initial);
+        if (c->kind == KD_CONTROL_WITH)
+            assert_true(kd_field_find(of->section, c->text) && kd_field_holds(kd_field_find(of->section, c->text), c->a));
+    }
+    assert_true(kd_control_count > 30);
+}
+
 static void reference_is_current(void **state)
 {
     (void)state;
@@ -317,7 +340,7 @@ int main(void)
         cmocka_unit_test(bounds_are_inclusive),    cmocka_unit_test(words_are_exact),
         cmocka_unit_test(types_are_strict),        cmocka_unit_test(set_reads_numbers),
         cmocka_unit_test(set_names_unknown_paths), cmocka_unit_test(defaults_are_valid),
-        cmocka_unit_test(schema_names_each_field), cmocka_unit_test(natures_and_groups),
+        cmocka_unit_test(schema_names_each_field), cmocka_unit_test(natures_and_groups), cmocka_unit_test(controls_are_of_fields),
         cmocka_unit_test(reference_is_current),
     };
     return cmocka_run_group_tests_name("scene fields", tests, NULL, NULL);

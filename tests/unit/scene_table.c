@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "image/png.h"
 #include "scene/asset.h"
+#include "scene/control.h"
 #include "scene/presets.h"
 #include "scene/rules.h"
 #include "scene/sha256.h"
@@ -257,6 +258,26 @@ static void schema_has_natures_places_and_groups(void **state)
     kd_buffer_finish(&text);
 }
 
+/* What a page needs for its controls stands with each field, of one in a list as well. */
+static void schema_has_controls(void **state)
+{
+    (void)state;
+    static const char *const all[] = { "time", "bodies.r", "bodies.dark", "bodies.moons", "stops.time", "bodies.shape" };
+    struct kd_buffer text = { 0 };
+    assert_int_equal(kd_scene_schema(&text), KD_OK);
+    const char *json = (const char *)text.data;
+    assert_non_null(strstr(json, ",\"x-nature\":\"physics\",\"x-front\":true,\"x-span\":[-1,2]"));
+    assert_non_null(strstr(json, ",\"x-first\":7"));
+    assert_non_null(strstr(json, ",\"x-front\":true,\"x-switch\":true"));
+    assert_non_null(strstr(json, ",\"x-with\":{\"shape\":\"ring\"}"));
+    assert_non_null(strstr(json, ",\"x-varies\":[\"here\",\"there\"]"));
+    assert_non_null(strstr(json, ",\"x-button\":{\"title\":\"A ball\",\"value\":\"ball\"}"));
+    assert_int_equal(kd_control_count, sizeof all / sizeof *all);
+    for (size_t i = 0; i < kd_control_count; i++)
+        assert_string_equal(kd_controls[i].path, all[i]);
+    kd_buffer_finish(&text);
+}
+
 static void schema_and_reference(void **state)
 {
     (void)state;
@@ -298,7 +319,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(canonical_form),    cmocka_unit_test(lists_of_any_kind),    cmocka_unit_test(assets_are_resolved),
         cmocka_unit_test(assets_on_a_command_line), cmocka_unit_test(assets_have_names), cmocka_unit_test(schema_and_reference),
-        cmocka_unit_test(schema_has_natures_places_and_groups), cmocka_unit_test(sha256),
+        cmocka_unit_test(schema_has_natures_places_and_groups), cmocka_unit_test(schema_has_controls), cmocka_unit_test(sha256),
     };
     return cmocka_run_group_tests_name("scene table", tests, NULL, NULL);
 }

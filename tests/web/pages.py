@@ -1,7 +1,7 @@
 """What all views share: two languages, small windows, Back, who reads by ear: pages.py KERRD FOLDER (browser.py)."""
 import json
 
-from browser import AT_REST, FINE, READY, VIEWS, Browser, main
+from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 
 
 class Pages(Browser):
@@ -41,6 +41,22 @@ class Pages(Browser):
             told = page.evaluate('async detail => (await import("./web/it.js")).refusal(detail)', detail)
             self.assertNotRegex(told or 'allowed', r'allowed|\{|undefined| is | of |degrees|masses', detail)
         self.assertEqual(page.evaluate('async () => (await import("./web/it.js")).refusal("what is this, allowed are none")'), None)
+
+    def test_what_shines_is_told_in_italian(self):
+        """Whatever emitter there is: what it is called, what is seen of it, and what a button of its is called."""
+        page, seen = self.open('lang=it'), []
+        buttons = [spec['x-button']['title'] for _, spec, _ in rows(self.schema()) if 'x-button' in spec]
+        for scene in ({'sky': {'model': 'grid'}}, {'disk': {'inner': 8}, 'style': {'ringdown': 1}}, {'disk': {'gas': {'amplitude': 1}}},
+                      {'disk': {'model': 'particles'}, 'spots': [{'brightness': 1}, {'brightness': 1}]}):
+            session = self.daemon.request('POST', '/v1/sessions', json.dumps(scene)).json()
+            seen += [text for emitter in session['emitters'] for text in (emitter['title'], emitter.get('sentence')) if text]
+            self.daemon.request('DELETE', f'/v1/sessions/{session["id"]}?token={session["token"]}')
+        for text in seen + buttons:
+            told = page.evaluate('async text => { const it = await import("./web/it.js"); return it.sentences[text] ?? it.refusal(text); }', text)
+            self.assertTrue(told, text)
+            self.assertNotIn('{', told)
+        self.assertGreater(len(seen), 11)
+        self.assertEqual(len(buttons), 2)
 
     def test_phone(self):
         phone = {'viewport': {'width': 390, 'height': 844}, 'device_scale_factor': 2, 'has_touch': True, 'is_mobile': True}

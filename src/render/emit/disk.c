@@ -6,6 +6,7 @@
 #include "physics/kerr.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static bool present(const struct kd_scene *scene)
 {
@@ -53,6 +54,16 @@ void kd_disk_reach(const struct kd_scene *scene, double radii[2])
     radii[0] = kd_disk_inner(scene);
     radii[1] = scene->disk.outer;
 }
+
+void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD])
+{
+    if (isinf(scene->disk.inner))
+        snprintf(out, KD_EMIT_TOLD, "A %s from the ISCO to %.6g M.", noun, scene->disk.outer);
+    else
+        snprintf(out, KD_EMIT_TOLD, "A %s from %.6g M to %.6g M.", noun, scene->disk.inner, scene->disk.outer);
+}
+
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD]) { kd_disk_tell(scene, "thin disk", out); }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
@@ -106,6 +117,8 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_disk = {
     .name = "disk",
+    .title = "thin disk",
+    .tell = tell,
     .present = present,
     .traits = kd_disk_traits,
     .needs = needs,

@@ -27,8 +27,13 @@ struct kd_scene_part { size_t at, size; };
 #define KD_SCENE_PART(section) { offsetof(struct kd_scene, section), sizeof(((struct kd_scene *)0)->section) }
 #define KD_EMITTER_PARTS 6
 
+#define KD_EMIT_TOLD 256
+
 struct kd_emitter {
     const char *name;
+    const char *title; /* what people call it, with the article left out: "spots" */
+    /* Writes what is seen of it, a sentence without quotation marks; NULL: nothing that is worth one. */
+    void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
@@ -90,8 +95,9 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
 extern const struct kd_emitter kd_emit_disk;
 /* Emitters that shine by the smooth disk's numbers and tables have its traits. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
-/* Radii of its edges. */
+/* Gives the radii of its edges; and writes "A thin disk from the ISCO to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
+void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
 /* Emitters that go round have these in common: Doppler shift and redshift as KD_TRAIT_..., needs, and how they vary. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);

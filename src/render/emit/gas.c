@@ -52,6 +52,11 @@ static double loudness(const struct kd_scene *scene)
     return scene->gas.amplitude / sqrt(sum);
 }
 
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    kd_disk_tell(scene, stirs(scene) ? "thin disk of turbulent gas" : "thin disk", out);
+}
+
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     out->gas = (struct kd_gas_block) {
@@ -119,6 +124,8 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_gas = {
     .name = "gas",
+    .title = "gas",
+    .tell = tell,
     .present = present,
     .traits = traits,
     .needs = needs,

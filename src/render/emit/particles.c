@@ -8,6 +8,7 @@
 #include "render/emit/plunging.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define PER_CELL 5.0 /* particles: the density scatters by a third, in spots some pixels wide */
 
@@ -298,6 +299,13 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    char noun[64];
+    snprintf(noun, sizeof noun, "disk of %d particles", scene->disk.particles);
+    kd_disk_tell(scene, noun, out);
+}
+
 static uint64_t device_bytes(const struct kd_scene *scene) { return kd_particle_grid(scene).bytes; }
 static uint64_t invocations(const struct kd_scene *scene) { return kd_particle_grid(scene).count; }
 
@@ -313,6 +321,8 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_particles = {
     .name = "particles",
+    .title = "particles",
+    .tell = tell,
     .present = present,
     .traits = traits,
     .needs = kd_orbit_needs,

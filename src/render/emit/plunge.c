@@ -72,6 +72,7 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_plunge = {
     .name = "plunge",
+    .title = "plunging gas",
     .present = present,
     .traits = kd_disk_traits,
     .needs = needs,

@@ -36,6 +36,7 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_ringdown = {
     .name = "ringdown",
+    .title = "ringdown",
     .present = present,
     .varies = varies,
     .fill = fill,

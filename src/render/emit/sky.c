@@ -4,6 +4,7 @@
 #include "render/emit/sky_noise.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static bool present(const struct kd_scene *scene) { return scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0; }
 
@@ -17,6 +18,12 @@ static unsigned varies(const struct kd_scene *scene)
 {
     (void)scene;
     return KD_MOVES_WITH_AZIMUTH;
+}
+
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    (void)scene;
+    snprintf(out, KD_EMIT_TOLD, "A celestial grid behind.");
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -37,6 +44,8 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_sky = {
     .name = "sky",
+    .title = "sky",
+    .tell = tell,
     .present = present,
     .needs = needs,
     .varies = varies,

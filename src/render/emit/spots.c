@@ -5,6 +5,7 @@
 #include "render/emit/particles.h"
 
 #include <math.h>
+#include <stdio.h>
 
 _Static_assert(KD_SPOT_MAX == KD_SPOTS, "those of a scene");
 
@@ -45,6 +46,14 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     }
 }
 
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    const struct kd_spot *on[KD_SPOTS];
+    size_t n = kd_scene_spots(scene, on), used = (size_t)snprintf(out, KD_EMIT_TOLD, "Hot spots going round at ");
+    for (size_t i = 0; i < n && used < KD_EMIT_TOLD; i++)
+        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r, i + 1 == n ? "." : "");
+}
+
 static void reach(const struct kd_scene *scene, double radii[2])
 {
     const struct kd_spot *on[KD_SPOTS];
@@ -73,6 +82,8 @@ static const struct kd_sentence sentences[] = {
 
 const struct kd_emitter kd_emit_spots = {
     .name = "spots",
+    .title = "spots",
+    .tell = tell,
     .present = present,
     .traits = traits,
     .needs = kd_orbit_needs,

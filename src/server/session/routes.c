@@ -1,5 +1,6 @@
 /* POST /v1/sessions; GET, PATCH and DELETE of one. */
 #include "render/emit/motion.h"
+#include "render/emit/told.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
@@ -43,7 +44,7 @@ done:
     return status;
 }
 
-/* {"id", "revision", "frame", "viewers", "scene", "varies"}, and for who has just made it the token. */
+/* {"id", "revision", "frame", "viewers", "scene", "varies", "emitters"}, and for who has just made it the token. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -54,6 +55,8 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
                             (unsigned long long)state->frame, state->viewers));
     KD_TRY(kd_scene_to_json(&state->scene, out));
     KD_TRY(add_varies(&state->scene, out));
+    KD_TRY(kd_buffer_printf(out, ",\"emitters\":"));
+    KD_TRY(kd_emit_to_json(&state->scene, out));
     KD_TRY(kd_buffer_printf(out, "}\n"));
 done:
     return status;

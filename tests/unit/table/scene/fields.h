@@ -27,6 +27,9 @@
 #define KD_SCENE_PARTS(PART, s)
 #define KD_STYLES 1
 #define KD_SCENE_STYLES(ROW)
+#define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                         \
+    SPAN("time", -1, 2) FIRST("bodies.r", 7) SWITCH("bodies.dark") WITH("bodies.moons", "shape", 2)          \
+    VARIES("stops.time", "here|there") BUTTON("bodies.shape", 0, "A ball")
 #define KD_SCENE_OLD_NAMES(OLD) OLD(finish, stops, 2) OLD(start, stops, 0)
 
 struct kd_spot;

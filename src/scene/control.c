@@ -1,0 +1,28 @@
+#include "scene/control.h"
+
+#include <string.h>
+
+#define SPAN(of, low, high) { .path = of, .kind = KD_CONTROL_SPAN, .a = low, .b = high },
+#define FIRST(of, value) { .path = of, .kind = KD_CONTROL_FIRST, .a = value },
+#define SWITCH(of) { .path = of, .kind = KD_CONTROL_SWITCH },
+#define WITH(of, other, value) { .path = of, .kind = KD_CONTROL_WITH, .a = value, .text = other },
+#define VARIES(of, ways) { .path = of, .kind = KD_CONTROL_VARIES, .text = ways },
+#define BUTTON(of, value, title) { .path = of, .kind = KD_CONTROL_BUTTON, .a = value, .text = title },
+const struct kd_control kd_controls[] = { KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) { .path = "" } };
+const size_t kd_control_count = sizeof kd_controls / sizeof *kd_controls - 1;
+
+static bool is_of(const struct kd_control *control, const struct kd_field *field)
+{
+    size_t n = strlen(field->section);
+    if (!n)
+        return !strcmp(control->path, field->name);
+    return !strncmp(control->path, field->section, n) && control->path[n] == '.' && !strcmp(control->path + n + 1, field->name);
+}
+
+const struct kd_control *kd_control_find(const struct kd_field *field, enum kd_control_kind kind)
+{
+    for (size_t i = 0; i < kd_control_count; i++)
+        if (kd_controls[i].kind == kind && is_of(&kd_controls[i], field))
+            return &kd_controls[i];
+    return NULL;
+}
