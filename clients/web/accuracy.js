@@ -12,6 +12,7 @@ const pass_names = {
   layers: ['maps', 'mappe'],
   light: ['flux and centroid', 'flusso e centro'],
   upload: ['upload', 'invio'],
+  beam: ['beam', 'fascio'],
   expose: ['exposure', 'esposizione'],
   bloom: ['glare', 'alone'],
   post: ['tone and colour', 'toni e colore'],

@@ -52,6 +52,7 @@ export function unit(name) {
 
 // Where the name of a field is too short to be a label.
 const labels = {
+  'spacetime.distance_pc': 'Distance from Earth',
   'camera.r': 'Distance',
   'camera.field_m': 'Field',
   'camera.fov_deg': 'Field of view',

@@ -74,6 +74,10 @@ export const fields = {
   motion: ['Moto'],
   'spacetime.spin': ['Spin', 'Parametro di rotazione a; se a < 0 il disco gira in verso opposto al buco'],
   'spacetime.mass_msun': ['Massa', 'Massa del buco; fissa la temperatura quando i colori vengono dall’accrescimento'],
+  'spacetime.distance_pc': [
+    'Distanza dalla Terra',
+    'Distanza (di diametro angolare) del buco: con la massa dice quanto un’immagine è larga in cielo, per un fascio e una scala',
+  ],
   'camera.r': ['Distanza', 'Raggio di Boyer–Lindquist dell’osservatore'],
   'camera.inclination_deg': [
     'Inclinazione',
@@ -192,6 +196,18 @@ export const fields = {
     'Alone',
     'Frazione della luce viva che un obiettivo sparge attorno al suo posto: tutta quella oltre 0,6 del bianco, con un ginocchio da 0,2 in su; 0: nessuna',
   ],
+  'style.beam_uas': [
+    'Fascio',
+    'Larghezza a metà altezza del fascio gaussiano e rotondo di un telescopio che vede l’immagine da spacetime.distance_pc; 0: nessuno',
+  ],
+  'style.palette': [
+    'Tavolozza',
+    'colour: i colori della luce; heat: luminosità in falsi colori, nero, rosso, arancio, bianco, con chiarezza proporzionale a essa',
+  ],
+  'style.colour_bar': [
+    'Scala dei colori',
+    'Una scala di luminosità (tavolozza heat, curva srgb) in basso a sinistra, una scala del cielo e il fascio in alto a destra',
+  ],
   'style.dither': ['Dithering', 'Mezzo gradino di rumore ordinato prima dell’arrotondamento, contro le bande'],
   'style.ringdown': [
     'Oscillazione smorzata',
@@ -237,6 +253,8 @@ export const presets = {
   gargantua:
     'Il buco e la camera di James et al. 2015: spin quasi massimo, da 74 M, un disco da 9,26 a 18,7 M di circa 4500 K; con il Doppler e il redshift che il film tralasciò',
   m87: 'Il buco di M87, con lo spin rivolto lontano da noi; un disco sottile sta per il flusso caldo',
+  'm87-eht':
+    'Lo stesso come lo mostrò l’Event Horizon Telescope, il nord in alto: attraverso un fascio di 20 microsecondi d’arco, luminosità in falsi colori',
   sgra: 'Il buco al centro della nostra Galassia; un disco sottile sta per il flusso caldo',
   luminet1979: 'La prima immagine di un buco nero con un disco: senza spin, da 10 gradi sopra, luminosità bolometrica',
   'edge-on': 'Il disco visto lungo il suo piano: ciò che se ne vede è luce piegata',
@@ -253,6 +271,15 @@ export const presets = {
 
 // What is refused, and seen, by the shape of the sentence; {} stands for a value with its unit, {…} for a list.
 const refusals = [
+  ['{} is {}, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle', '{} è {}, ammesso è 0 tranne che nelle proiezioni piana e stenopeica: nelle altre i pixel non hanno tutti lo stesso angolo'],
+  [
+    '{} is {}, allowed are up to {}, {} times the width of the picture at this spacetime.mass_msun and spacetime.distance_pc',
+    '{} è {}, ammessi sono fino a {}, {} volte la larghezza dell’immagine per questi spacetime.mass_msun e spacetime.distance_pc',
+  ],
+  [
+    '{} is {}, allowed is false unless style.palette is {} and style.tone_map {}: else brightness has no one colour, or no even scale',
+    '{} è {}, ammesso è false a meno che style.palette sia {} e style.tone_map {}: altrimenti la luminosità non ha un solo colore, o non ha scala uniforme',
+  ],
   ['{} is {}{?}, allowed are whole numbers from {} to {}', '{} è {}{?}, ammessi sono gli interi da {} a {}'],
   ['{} is {}, allowed are multiples of 4 up to {}, and 0', '{} è {}, ammessi sono i multipli di 4 fino a {}, e 0'],
   ['{} is {}{?}, allowed are {} to {}, or a range first:last:count of {} to {} of these', '{} è {}{?}, ammessi sono da {} a {}, o un intervallo primo:ultimo:quanti, da {} a {}'],
@@ -329,7 +356,7 @@ const refusals = [
   ['Hot spots going round at {…}.', 'Macchie calde in orbita a {…}.'],
 ].map(([english, italian]) => {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
-  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|GiB|s))?)';
+  const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
   return [
     new RegExp(`^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`),
     italian.replace('{?}', '{}').replace('{…}', '{}'),
@@ -346,6 +373,7 @@ const amounts = {
   'the device': 'il dispositivo',
   device: 'dispositivo',
   host: 'computer',
+  microarcseconds: 'microsecondi d’arco',
   pixels: 'pixel',
   'degrees per second': 'gradi al secondo',
   degrees: 'gradi',
@@ -425,6 +453,12 @@ export const sentences = {
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
   'post: a film-like tone curve; pixel values are not proportional to radiance':
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
+  "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge":
+    'resa: un fascio gaussiano sta per un telescopio: niente lacune tra le stazioni, niente rumore, niente ricostruzione; nulla giunge da oltre il bordo dell’immagine',
+  "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc":
+    'resa: il fascio di un osservatore vicino ha, alla distanza del buco, la larghezza che avrebbe da spacetime.distance_pc',
+  "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency":
+    'resa: falsi colori; la luminosità è quella della banda del modello, e non una temperatura di brillanza a una frequenza radio',
   'projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale':
     'proiezione: distanze dalla curva critica in scala logaritmica; nessun occhio la vede così, e le aree non sono in scala',
   'projection: angles as distances, over half the sky or all of it; areas are not to scale':

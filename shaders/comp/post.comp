@@ -1,8 +1,8 @@
 /* Exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four pixels as whole words: RGB of 8 bits in
  * three, of 16 bits in six, packed without padding as a PNG encoder wants them. The invocations behind the last pixel write zeros.
  *
- * Four kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels; KD_BLOOM
- * takes away the light that a lens spreads, and adds what arrives. */
+ * Eight kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels; KD_BLOOM
+ * takes away the light that a lens spreads, and adds what arrives; KD_HEAT shows luminance, behind the tone curve, in false colour. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -35,6 +35,13 @@ vec3 cell(int i) { return cells[i].rgb; }
 #endif
 #endif
 layout(set = 0, binding = 1) writeonly buffer Pixels { uint words[]; };
+#ifdef KD_HEAT
+#ifdef KD_BLOOM
+layout(set = 0, binding = 3) uniform textureBuffer colours;
+#else
+layout(set = 0, binding = 2) uniform textureBuffer colours;
+#endif
+#endif
 
 #define LEVELS (WIDE ? 65535 : 255)
 
@@ -80,6 +87,16 @@ vec3 srgb(vec3 c)
     p = p * s - 0.0584709979785 * unit;
     return mix(p, 12.92 * unit * c, lessThanEqual(c, vec3(0.0031308)));
 }
+
+#ifdef KD_HEAT
+/* LEVELS times the colour of a luminance in [0, 1], linear between the entries of the table, which are encoded. */
+vec3 heat(float y)
+{
+    float at = clamp(y, 0.0, 1.0) * float(textureSize(colours) - 1);
+    int i = clamp(int(at), 0, textureSize(colours) - 2);
+    return float(LEVELS) * mix(texelFetch(colours, i).rgb, texelFetch(colours, i + 1).rgb, at - float(i));
+}
+#endif
 
 /* Where a pixel is in the picture, as floats: both are exact. */
 struct place {
@@ -154,9 +171,14 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
 #ifdef KD_BLOOM
     c += arrives - bloom_of(c, push.bloom);
 #endif
-    c = clamp(ACES ? aces(c) : NEUTRAL ? neutral(c) : c, 0.0, 1.0);
+    c = ACES ? aces(c) : NEUTRAL ? neutral(c) : c;
+#ifdef KD_HEAT
+    c = heat(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b);
+#else
+    c = srgb(clamp(c, 0.0, 1.0));
+#endif
     float spread = 0.998 * push.dither;
-    return min(ivec3(srgb(c) + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS); /* positive: towards 0 is down */
+    return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS); /* positive: towards 0 is down */
 }
 
 void main()

@@ -100,6 +100,24 @@
     U(blocks_x) U(blocks_y) U(cells_x) U(cells_y)                                                              \
     U(block_x) U(block_y)    /* pixels of a block along its sides */
 
+/* A telescope's beam (render/plan/beam.h): of beam_gather.comp and beam_spread.comp, a band of pixels and rows of cells; */
+#define KD_BEAM_BAND_FIELDS_(F, U)                                                                             \
+    U(pixels_x)                                                                                                \
+    U(row0) U(rows)          /* of the band in the picture */                                                  \
+    U(columns)               /* of cells */                                                                    \
+    U(cell)                  /* pixels along the side of one, */                                               \
+    F(cells)                 /* and one over that */
+/* and of beam_along.comp, whose cell i is a sum over `count` cells from i first_times/first_over - before on. */
+#define KD_BEAM_ALONG_FIELDS_(F, U)                                                                            \
+    U(columns)                                                                                                 \
+    U(row0) U(rows)          /* of the slice, of what is made */                                               \
+    U(length_)               /* cells along the axis of what is read */                                        \
+    U(first_times) U(first_over) U(before) U(count)                                                            \
+    F(from_scale)            /* units of the weights a cell that is read, */                                   \
+    F(to_scale) F(shift)     /* and a cell that is made, which are shifted by so much */                       \
+    F(narrow)                /* of a Gaussian, 1/(2 sigma^2) */                                                \
+    F(weight)                /* of the whole sum */
+
 /* Of photometry.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */
 #define KD_LIGHT_FIELDS_(F, U)                                                                                 \
     U(pixels_x) U(pixels)     /* a row, and of the band */                                                     \

@@ -44,6 +44,12 @@
  * the four pixels of an invocation lie beside one another, within two cells of what a lens spreads. */
 #define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false)
 
+/* Of beam_gather.comp and beam_spread.comp: cells are larger than pixels. */
+#define KD_SPEC_BEAM(U, B) B(0, COARSE, true)
+
+/* ROWS: along columns, from row to row; BLUR: a Gaussian, else a spline. */
+#define KD_SPEC_BEAM_ALONG(U, B) B(0, ROWS, false) B(1, BLUR, true)
+
 #ifdef VULKAN
 #define KD_SPEC_U_(id, name, value) layout(constant_id = id) const uint name = value;
 #define KD_SPEC_B_(id, name, value) layout(constant_id = id) const bool name = value;

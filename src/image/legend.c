@@ -14,66 +14,27 @@ enum {
 };
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT, "it fits");
 
-static const struct kd_map_colour ink = { 0.92, 0.92, 0.92 };
-
-void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour)
-{
-    const double c[3] = { colour.r, colour.g, colour.b };
-    size_t at = 3 * ((size_t)y * canvas->width + x);
-    for (int i = 0; i < 3; i++) {
-        if (canvas->bit_depth == 16)
-            ((uint16_t *)canvas->pixels)[at + i] = (uint16_t)lround(65535 * c[i]);
-        else
-            ((uint8_t *)canvas->pixels)[at + i] = (uint8_t)lround(255 * c[i]);
-    }
-}
-
 /* A panel of dots on a canvas: where it begins, and pixels a dot. */
 struct panel {
     const struct kd_canvas *canvas;
     uint32_t left, top, dot;
 };
 
-/* One pixel of what is behind it, darkened. */
-static void darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y)
-{
-    size_t at = 3 * ((size_t)y * canvas->width + x);
-    for (int i = 0; i < 3; i++) {
-        if (canvas->bit_depth == 16)
-            ((uint16_t *)canvas->pixels)[at + i] /= 5;
-        else
-            ((uint8_t *)canvas->pixels)[at + i] /= 5;
-    }
-}
-
 /* x, y, width and height in pixels of the panel. */
 static void fill(const struct panel *p, uint32_t x, uint32_t y, uint32_t width, uint32_t height, struct kd_map_colour colour)
 {
-    for (uint32_t j = 0; j < height; j++)
-        for (uint32_t i = 0; i < width; i++)
-            kd_canvas_put(p->canvas, p->left + x + i, p->top + y + j, colour);
+    kd_canvas_fill(p->canvas, p->left + x, p->top + y, width, height, colour);
 }
 
 static void write_text(const struct panel *p, uint32_t x, uint32_t y, const char *text)
 {
-    uint32_t room = PANEL_WIDTH * p->dot;
-    for (; *text && x + KD_FONT_WIDTH * p->dot <= room; text++, x += KD_FONT_ADVANCE * p->dot)
-        for (int j = 0; j < KD_FONT_HEIGHT; j++)
-            for (int i = 0; i < KD_FONT_WIDTH; i++)
-                if (kd_font_dot(*text, i, j))
-                    fill(p, x + (uint32_t)i * p->dot, y + (uint32_t)j * p->dot, p->dot, p->dot, ink);
-}
-
-static uint32_t text_width(const struct panel *p, const char *text)
-{
-    size_t n = strlen(text);
-    return n ? (uint32_t)(n * KD_FONT_ADVANCE - 1) * p->dot : 0;
+    kd_canvas_write(p->canvas, p->left + x, p->top + y, p->left + PANEL_WIDTH * p->dot, p->dot, text);
 }
 
 /* Centred at x, as far as the panel goes. */
 static void write_centred(const struct panel *p, double x, uint32_t y, const char *text)
 {
-    double width = text_width(p, text), most = (double)PANEL_WIDTH * p->dot - width - p->dot;
+    double width = kd_canvas_text_width(p->dot, text), most = (double)PANEL_WIDTH * p->dot - width - p->dot;
     write_text(p, (uint32_t)fmax(fmin(x - 0.5 * width, most), p->dot), y, text);
 }
 
@@ -173,7 +134,7 @@ static void draw_bar(const struct panel *p, const struct kd_legend *legend, uint
         fill(p, x + i, y, 1, height, kd_colour_map_at(legend->map, i / (double)(width - 1)));
     for (size_t i = 0; i < n; i++) {
         double at = x + kd_map_scale_place(&legend->scale, ticks[i].value) * (width - 1);
-        fill(p, (uint32_t)lround(at), y + height, p->dot > 1 ? p->dot / 2 : 1, TICK * p->dot, ink);
+        fill(p, (uint32_t)lround(at), y + height, p->dot > 1 ? p->dot / 2 : 1, TICK * p->dot, KD_CANVAS_INK);
         write_centred(p, at + 0.5, below + p->dot, ticks[i].label);
     }
 }
@@ -190,17 +151,17 @@ static void draw_classes(const struct panel *p, const struct kd_legend *legend, 
     }
 }
 
+uint32_t kd_legend_dot(const struct kd_canvas *canvas) { return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT); }
+
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend)
 {
     if (canvas->width < KD_LEGEND_LEAST_WIDTH || canvas->height < KD_LEGEND_LEAST_HEIGHT)
         return false;
-    uint32_t dot = canvas->height / (7 * PANEL_HEIGHT), wide = canvas->width / (PANEL_WIDTH + 2 * MARGIN);
-    dot = dot < wide ? dot : wide;
-    dot = dot ? dot : 1;
+    const uint32_t dot = kd_legend_dot(canvas);
     const struct panel p = { canvas, MARGIN * dot, canvas->height - (PANEL_HEIGHT + MARGIN) * dot, dot };
     for (uint32_t y = 0; y < PANEL_HEIGHT * dot; y++)
         for (uint32_t x = 0; x < PANEL_WIDTH * dot; x++)
-            darken(canvas, p.left + x, p.top + y);
+            kd_canvas_darken(canvas, p.left + x, p.top + y);
     uint32_t left = (PANEL_WIDTH - BAR_WIDTH) / 2 * dot, bar = (PADDING + KD_FONT_HEIGHT + GAP) * dot;
     write_text(&p, left, PADDING * dot, legend->title);
     (legend->map == KD_MAP_CATEGORICAL ? draw_classes : draw_bar)(&p, legend, left, bar);

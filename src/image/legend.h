@@ -2,19 +2,9 @@
 #ifndef KD_IMAGE_LEGEND_H
 #define KD_IMAGE_LEGEND_H
 
-#include "image/colour_map.h"
+#include "image/canvas.h"
 
 #include <stdint.h>
-
-/* RGB without padding, rows from the top; 16 bits are numbers of this machine. */
-struct kd_canvas {
-    void *pixels;
-    uint32_t width, height;
-    int bit_depth; /* 8 or 16 */
-};
-
-/* Encoded sRGB in [0, 1], rounded. */
-void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour);
 
 struct kd_legend {
     const char *title; /* name and unit; ASCII (image/font.h) */
@@ -28,6 +18,7 @@ struct kd_legend {
  * False: the picture is too small for one (narrower than KD_LEGEND_LEAST_WIDTH or lower than KD_LEGEND_LEAST_HEIGHT), and nothing was
  * drawn. */
 enum { KD_LEGEND_LEAST_WIDTH = 160, KD_LEGEND_LEAST_HEIGHT = 90 };
+uint32_t kd_legend_dot(const struct kd_canvas *canvas); /* pixels */
 bool kd_legend_draw(const struct kd_canvas *canvas, const struct kd_legend *legend);
 
 /* Where numbers stand on the bar: as many of a row of round numbers as fit `room`, the length of the bar in the widths of a letter,

@@ -30,7 +30,9 @@
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M",                                 \
          "spin parameter a; a < 0 is a disk retrograde to its hole")                                                 \
     REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses",                                       \
-         "mass of the hole; sets the temperature when disk.colour is \"accretion\"")
+         "mass of the hole; sets the temperature when disk.colour is \"accretion\"")                                  \
+    REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc",                                          \
+         "(angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam and a scale")
 
 #define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     WORD(camera, r, PHYSICS, FRONT, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")   \
@@ -154,7 +156,7 @@
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_NONE,                                                                    \
          "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
-         "none|film|raw|dngr")                                                                                       \
+         "none|film|raw|dngr|eht")                                                                                       \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")               \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
@@ -162,6 +164,13 @@
          "aces|srgb|neutral")                                                                                        \
     REAL(style, bloom, LOOK, FRONT, 0.0, 0.0, 1.0, "1",                                                              \
          "share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee from 0.2 on; 0: none") \
+    REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds",                                             \
+         "full width at half maximum of the round Gaussian beam of a telescope that sees the picture from spacetime.distance_pc; 0: none") \
+    ENUM(style, palette, LOOK, REST, KD_PALETTE_COLOUR,                                                              \
+         "colour: that of light; heat: brightness in false colour, black, red, orange, white, by a lightness that is proportional to it", \
+         "colour|heat")                                                                                              \
+    BOOL(style, colour_bar, LOOK, REST, false,                                                                       \
+         "a bar of brightness (palette: heat; tone_map: srgb) in the lower left corner, a scale of the sky and the beam in the upper right one") \
     BOOL(style, dither, LOOK, REST, true, "half a step of ordered noise before rounding, against banding")           \
     REAL(style, ringdown, LOOK, REST, 0.0, 0.0, 1.0, "1",                                                            \
          "a struck hole, as an illustration: light of image orders 1 and up is multiplied by 1 + this * e^(-t/tau) cos(w t), the " \
@@ -213,20 +222,25 @@
  * word of style.name but "none": ROW(section, name, values as kd_field_put takes them), of fields in sections that are no lists.
  *
  * film: the eye's view of a bright thing through a lens. raw: light, and nothing after it. dngr: as Interstellar had it, whose disk is without
- * the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section 4.3). */
-#define KD_STYLES 3
+ * the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section 4.3). eht: as the Event Horizon Telescope shows its
+ * pictures, at its resolution of about 20 microarcseconds (EHT Collaboration 2019, ApJL 875, L4). */
+#define KD_STYLES 4
 #define KD_SCENE_STYLES(ROW)                                                                                         \
-    /*                      film           raw            dngr */                                                    \
-    ROW(disk, doppler,      1,             1,             0)                                                         \
-    ROW(disk, redshift,     1,             1,             0)                                                         \
-    ROW(style, tone_map,    KD_TONE_ACES,  KD_TONE_SRGB,  KD_TONE_ACES)                                              \
-    ROW(style, bloom,       0.5,           0,             0.7)                                                       \
-    ROW(style, dither,      1,             0,             1)
+    /*                      film               raw                dngr               eht */                        \
+    ROW(disk, doppler,      1,                 1,                 0,                 1)                              \
+    ROW(disk, redshift,     1,                 1,                 0,                 1)                              \
+    ROW(style, tone_map,    KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES,      KD_TONE_SRGB)                   \
+    ROW(style, bloom,       0.5,               0,                 0.7,               0)                              \
+    ROW(style, beam_uas,    0,                 0,                 0,                 20)                             \
+    ROW(style, palette,     KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_HEAT)                \
+    ROW(style, colour_bar,  0,                 0,                 0,                 1)                              \
+    ROW(style, dither,      1,                 0,                 1,                 1)
 
 /* Controls of a page (scene/control.h), by the fields' paths, of a list's without a number; a section's stand together. */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                                 \
     SPAN("spacetime.spin", -0.998, 0.998)                                                                            \
     SPAN("spacetime.mass_msun", 1, 1e10)                                                                             \
+    SPAN("spacetime.distance_pc", 1e3, 1e9)                                                                          \
     SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60)                                                                \
     SPAN("camera.field_m", 4, 400)                                                                                   \
     SPAN("camera.fov_deg", 2, 120)                                                                                   \
@@ -255,6 +269,8 @@
     SWITCH("sky.model")                                                                                              \
     SPAN("sky.brightness", 0, 5)                                                                                     \
     SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0)                                                       \
+    SPAN("style.beam_uas", 0, 50)                                                                                    \
+    WITH("style.colour_bar", "palette", KD_PALETTE_HEAT)                                                             \
     SPAN("style.ringdown_time", -1000, 1000)                                                                         \
     SPAN("accuracy.tolerance", 1e-12, 1e-2) FIRST("accuracy.tolerance", 1e-6)                                        \
     SPAN("motion.time_rate", -100, 100) VARIES("motion.time_rate", "moves_with_time|dims_with_time")                 \
@@ -271,6 +287,7 @@ enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };
 enum { KD_STYLE_NONE };
 enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_NEUTRAL };
+enum kd_palette { KD_PALETTE_COLOUR, KD_PALETTE_HEAT };
 enum kd_profile {
     KD_PROFILE_DRAFT,
     KD_PROFILE_INTERACTIVE,

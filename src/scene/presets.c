@@ -19,12 +19,18 @@ const struct kd_preset kd_presets[] = {
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
     { "m87", "The hole of M87 with its spin pointing away from us; a thin disk stands in for the hot flow",
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9},"
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56},"
       "\"disk\":{\"outer\":15},"
       "\"image\":{\"samples\":2}}" },
+    { "m87-eht", "The same as the Event Horizon Telescope showed it, north up: through a beam of 20 microarcseconds, brightness in false colour",
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},"
+      "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108}," /* the approaching jet at a position angle of 288 degrees */
+      "\"disk\":{\"outer\":15},"
+      "\"style\":{\"name\":\"eht\"},"
+      "\"image\":{\"samples\":2}}" },
     { "sgra", "The hole in the middle of our Galaxy; a thin disk stands in for the hot flow",
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.3e6},"
+      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.3e6,\"distance_pc\":8277},"
       "\"camera\":{\"inclination_deg\":30,\"field_m\":56},"
       "\"disk\":{\"outer\":15},"
       "\"image\":{\"samples\":2}}" },
@@ -55,7 +61,7 @@ const struct kd_preset kd_presets[] = {
       "\"motion\":{\"time_rate\":8}}" },
     { "hot-spot", "A flare as GRAVITY saw them round the hole of our Galaxy: a blob on a circular orbit of an hour, clockwise, seen "
                   "25 degrees from its axis, over a faint disk; in a session its events give the light curve and the track",
-      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6},"
+      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":4.3e6,\"distance_pc\":8277},"
       "\"camera\":{\"inclination_deg\":155,\"field_m\":50},"
       "\"disk\":{\"outer\":16,\"opacity\":0.3,\"peak_temperature_k\":4500},"
       "\"spots\":[{\"brightness\":4,\"r\":9,\"size\":1.2}],"

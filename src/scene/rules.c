@@ -36,7 +36,7 @@ static bool looks_from_near(const struct kd_camera *camera)
     return is_near(camera->projection) || (camera->projection == KD_PROJECTION_AUTO && isfinite(camera->r));
 }
 
-enum { BITS = 8, STEPS = 4 };
+enum { BITS = 8, STEPS = 4, BEAM_WIDTHS = 1000 };
 
 static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -222,6 +222,28 @@ static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *er
                           "them rings alone", show(scene->style.ringdown).text, show(scene->spacetime.spin).text, show(KD_QNM_SPIN_MAX).text);
 }
 
+static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
+{
+    const double width = kd_scene_width_uas(scene), most = BEAM_WIDTHS * width;
+    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most) /* false of NAN */
+        return KD_OK;
+    if (isnan(width))
+        return kd_error_field(error, "/style/beam_uas", "style.beam_uas is %s, allowed is 0 but in the plane and pinhole projections: in the others pixels are not of one angle",
+                              show(scene->style.beam_uas).text);
+    return kd_error_field(error, "/style/beam_uas", "style.beam_uas is %s microarcseconds, allowed are up to %s, %d times the width of the picture at "
+                          "this spacetime.mass_msun and spacetime.distance_pc", show(scene->style.beam_uas).text, show(most).text, BEAM_WIDTHS);
+}
+
+/* A bar would be that of no curve, and of no colour. */
+static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *error)
+{
+    const bool heat = scene->style.palette == KD_PALETTE_HEAT;
+    if (!scene->style.colour_bar || (heat && scene->style.tone_map == KD_TONE_SRGB))
+        return KD_OK;
+    return kd_error_field(error, "/style/colour_bar", "style.colour_bar is true, allowed is false unless style.palette is \"heat\" and style.tone_map "
+                          "\"srgb\": else brightness has no one colour, or no even scale");
+}
+
 /* The rest of what accuracy.* may not say together depends on the device: render/accuracy/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -252,6 +274,8 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
+    { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
+    { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },
     { "`accuracy.steps` is a multiple of 4.", steps, "accuracy", "steps", STEPS },
 };
 const size_t kd_rule_count = sizeof kd_rules / sizeof *kd_rules;

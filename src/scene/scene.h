@@ -98,6 +98,11 @@ bool kd_scene_is_flat(const struct kd_scene *scene);
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene);
 
+/* Says how wide the picture is on the sky, in microarcseconds, from the mass and the distance of the hole; NAN unless it is flat. In pinhole
+ * it is the width of what the middle of the picture shows at the hole's distance, 2 r tan(fov/2), as if that were seen from spacetime.distance_pc:
+ * the same picture as in plane where r is large. */
+double kd_scene_width_uas(const struct kd_scene *scene);
+
 /* Finds the spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 

@@ -50,6 +50,19 @@ class Pictures(Case):
         os.umask(mask)
         self.assertEqual(stat.S_IMODE(os.stat(self.path("a.png")).st_mode), 0o666 & ~mask)
 
+    def test_the_eht_style(self):
+        """False colours, and scales of them where there is room; what is set behind the style is the user's own."""
+        eht = "--preset", "m87", "--set", "style.name=eht", "--set", "image.samples=1"
+        self.good("render", *eht, "--size=320x180", "-o", self.path("a.png"))
+        style = json.loads(text(self.read("a.png"))[b"kerrd:scene"])["style"]
+        self.assertEqual([style[name] for name in ("name", "beam_uas", "palette", "colour_bar", "tone_map", "bloom")],
+                         ["eht", 20, "heat", True, "srgb", 0])
+        bare = self.good("render", *eht, "--size=320x180", "--set", "style.colour_bar=false", "--set", "style.beam_uas=15", "-o", "-")
+        self.assertEqual(json.loads(text(bare)[b"kerrd:scene"])["style"]["beam_uas"], 15)
+        self.assertIn(b"Gaussian beam", text(bare)[b"kerrd:approximations"])
+        self.bad(2, "at /style/beam_uas", "render", *SMALL, "--set", "style.name=eht", "--set", "camera.projection=ring", "-o", self.path("b.png"))
+        self.bad(2, "at /style/colour_bar", "render", *SMALL, "--set", "style.name=eht", "--set", "style.palette=colour", "-o", self.path("b.png"))
+
     def test_pipes_give_the_bytes_of_a_file(self):
         scene = b'{"image":{"width":64,"height":36},"spacetime":{"spin":0.5}}'
         self.good("render", self.write("scene.json", scene), "-o", self.path("a.png"))

@@ -26,6 +26,7 @@ static const struct shot {
     { "schwarzschild", "schwarzschild", "{" SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
     { "m87", "m87", "{" SIZE "}" },
+    { "m87-eht", "m87-eht", "{\"image\":{\"width\":400,\"height\":225}}" }, /* with room for its scales */
     { "sgra", "sgra", "{" SIZE "}" },
     { "luminet1979", "luminet1979", "{" SIZE "}" },
     { "edge-on", "edge-on", "{" SIZE "}" },

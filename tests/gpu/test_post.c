@@ -20,7 +20,7 @@ static void post_by(bool texels, const uint32_t *constants, size_t n, const floa
     OK(kd_vk_buffer_create(vk, kd_post_radiance_bytes(push.pixels), KD_VK_UPLOAD, "light", &in, &error));
     OK(kd_vk_buffer_create(vk, bytes, KD_VK_READBACK, "words", &words, &error));
     memcpy(kd_vk_buffer_map(in), light, 12ull * push.pixels);
-    OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels, false), constants, n, &pipeline, &error));
+    OK(kd_kernels_get(&renderer->kernels, vk, kd_kernel_post(texels, false, false), constants, n, &pipeline, &error));
     const struct kd_vk_dispatch d = { .pass = "post", .pipeline = pipeline,
                                       .bindings = { { .buffer = in }, { .buffer = words, .write = true } },
                                       .push = &push, .groups = { kd_post_groups(push.pixels) } };

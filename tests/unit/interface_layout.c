@@ -3,6 +3,9 @@
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 
+#include "beam_along.spv.h"
+#include "beam_gather.spv.h"
+#include "beam_spread.spv.h"
 #include "bloom_bright.spv.h"
 #include "bloom_gather.spv.h"
 #include "footprint.spv.h"
@@ -155,6 +158,16 @@ static const struct field bright_fields[] = { KD_BLOOM_BRIGHT_FIELDS_(F, U) };
 static const struct field gather_fields[] = { KD_BLOOM_GATHER_FIELDS_(F, U) };
 #undef F
 #undef U
+#define F(name) { #name, offsetof(struct kd_beam_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_beam_push, name), OP_TYPE_INT },
+static const struct field beam_fields[] = { KD_BEAM_BAND_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_beam_along_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_beam_along_push, name), OP_TYPE_INT },
+static const struct field beam_along_fields[] = { KD_BEAM_ALONG_FIELDS_(F, U) };
+#undef F
+#undef U
 #define F(name) { #name, offsetof(struct kd_light_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_light_push, name), OP_TYPE_INT },
 static const struct field light_fields[] = { KD_LIGHT_FIELDS_(F, U) };
@@ -199,6 +212,17 @@ static void post_push(void **state)
     same(&bloom_gather, "Push", gather_fields, COUNT(gather_fields), 0);
     assert_int_equal(sizeof(struct kd_bloom_bright_push), 4 * COUNT(bright_fields));
     assert_int_equal(sizeof(struct kd_bloom_gather_push), 4 * COUNT(gather_fields));
+}
+
+static void beam_push(void **state)
+{
+    (void)state;
+    const struct spirv bands[] = { SPIRV(beam_gather), SPIRV(beam_spread) }, along = SPIRV(beam_along);
+    for (size_t i = 0; i < COUNT(bands); i++)
+        same(&bands[i], "Push", beam_fields, COUNT(beam_fields), 0);
+    same(&along, "Push", beam_along_fields, COUNT(beam_along_fields), 0);
+    assert_int_equal(sizeof(struct kd_beam_push), 4 * COUNT(beam_fields));
+    assert_int_equal(sizeof(struct kd_beam_along_push), 4 * COUNT(beam_along_fields));
 }
 
 static void light_push(void **state)
@@ -262,7 +286,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(camera),
         cmocka_unit_test(post_push),
-        cmocka_unit_test(light_push),
+        cmocka_unit_test(beam_push), cmocka_unit_test(light_push),
         cmocka_unit_test(footprint_push),
         cmocka_unit_test(particles_kernel),
         cmocka_unit_test(emission),

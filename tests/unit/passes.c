@@ -41,6 +41,7 @@ static const char *const scenes[] = {
     "{\"accuracy\": {\"engine\": \"closed\", \"precision\": \"f64\"}}",
     "{\"style\": {\"exposure\": 0, \"bloom\": 0.5}}",
     "{\"image\": {\"layers\": [\"g\"]}}",
+    "{\"style\": {\"beam_uas\": 20}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

@@ -183,6 +183,7 @@ static void old_names_are_read(void **state)
     }
     struct kd_scene preset, picture = of(hot_spot);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
+    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* no field of then */
     assert_memory_equal(&picture, &preset, sizeof picture);
     struct kd_scene scene = of("{\"spots\":[{\"r\":10},{\"r\":11},{\"r\":12},{\"r\":13}]}");
     patched(&scene, "{\"spot2\":{\"r\":20},\"spot3\":null,\"spot1\":{\"size\":2}}");
@@ -278,7 +279,7 @@ static void canonical_form_is_stable(void **state)
     scene.camera.azimuth_deg = -1e-7;
     scene.top.time = 0.1 + 0.2;
     char *text = support_canonical(&scene);
-    const char *start = "{\"version\":1,\"spacetime\":{\"spin\":0.7,\"mass_msun\":100000000},"
+    const char *start = "{\"version\":1,\"spacetime\":{\"spin\":0.7,\"mass_msun\":100000000,\"distance_pc\":260000},"
                         "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":82,\"azimuth_deg\":-1e-7,";
     const char *middle = ",\"spots\":[{\"brightness\":0,\"r\":10,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
                          "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"sky\":{";

@@ -87,6 +87,24 @@ static const struct rule rules[] = {
     { "{\"spacetime\":{\"spin\":-0.99991},\"style\":{\"ringdown\":0}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":-0.99991},\"style\":{\"ringdown\":0.5}}", "/style/ringdown",
       "style.ringdown is 0.5, allowed is 0 with spacetime.spin -0.99991: beyond 0.9999" },
+    /* M is 3.8189932 uas for m87's mass and distance: 10 M are 38.19 */
+    { "{\"style\":{\"name\":\"eht\"}}", NULL, NULL },
+    { "{\"style\":{\"name\":\"eht\"},\"camera\":{\"r\":20}}", NULL, NULL },
+    { "{\"style\":{\"beam_uas\":20},\"camera\":{\"projection\":\"ring\"}}", "/style/beam_uas",
+      "style.beam_uas is 20, allowed is 0 but in the plane and pinhole projections" },
+    { "{\"style\":{\"beam_uas\":20},\"camera\":{\"projection\":\"fulldome\",\"r\":20}}", "/style/beam_uas", "in the others pixels are not of one angle" },
+    { "{\"style\":{\"palette\":\"heat\"},\"camera\":{\"projection\":\"ring\"}}", NULL, NULL },
+    { "{\"style\":{\"beam_uas\":38189},\"spacetime\":{\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},\"camera\":{\"field_m\":10}}", NULL, NULL },
+    { "{\"style\":{\"beam_uas\":38191},\"spacetime\":{\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},\"camera\":{\"field_m\":10}}", "/style/beam_uas",
+      "style.beam_uas is 38191 microarcseconds, allowed are up to 38189.9" },
+    /* 2 10^6 M tan(5e-6) are 10 M, too */
+    { "{\"style\":{\"beam_uas\":38189},\"spacetime\":{\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},\"camera\":{\"r\":1e6,\"fov_deg\":5.729577951e-4}}", NULL, NULL },
+    { "{\"style\":{\"beam_uas\":38191},\"spacetime\":{\"mass_msun\":6.5e9,\"distance_pc\":16.8e6},\"camera\":{\"r\":1e6,\"fov_deg\":5.729577951e-4}}",
+      "/style/beam_uas", "allowed are up to 38189.9" },
+    { "{\"style\":{\"colour_bar\":true,\"palette\":\"heat\",\"tone_map\":\"srgb\"}}", NULL, NULL },
+    { "{\"style\":{\"colour_bar\":true,\"palette\":\"heat\"}}", "/style/colour_bar", "style.colour_bar is true, allowed is false unless" },
+    { "{\"style\":{\"colour_bar\":true,\"tone_map\":\"srgb\"}}", "/style/colour_bar", "style.palette is \"heat\" and style.tone_map \"srgb\"" },
+    { "{\"style\":{\"palette\":\"heat\",\"bloom\":1,\"beam_uas\":5}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"disk\":{\"inner\":6}}", NULL, NULL },
     { "{\"spacetime\":{\"spin\":0},\"disk\":{\"inner\":5.999}}", "/disk/inner",
       "disk.inner is 5.999 M, allowed is at least 6 M, the ISCO of spacetime.spin 0" },
@@ -209,7 +227,7 @@ static void what_moves(void **state)
 static void presets_are_valid(void **state)
 {
     (void)state;
-    static const char *const names[] = { "schwarzschild", "gargantua", "m87",     "sgra",
+    static const char *const names[] = { "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
                                          "hot-spot",      "gas",       "gargantua-gas" };
     char hashes[16][65];

@@ -202,6 +202,30 @@ class Lensing(Browser):
         self.assertEqual(shown(), ['raw', 'aces', 0, True, True])
         self.assertEqual(sent()['style']['tone_map'], 'aces')
 
+    def test_the_style_of_a_radio_telescope(self):
+        """Its fields are there with it; what makes no sense without false colours hides, and is told of where it is in the way."""
+        self.expected = '422'  # of the bar without its colours
+        page = self.open('lang=en&preset=m87')
+        self.open_groups(page)
+        field = lambda path: page.locator(f'[data-path="{path}"]')
+        shown = lambda path: field(path).evaluate('node => !node.hidden')
+        self.assertFalse(shown('style.colour_bar'))
+        self.assertTrue(shown('style.beam_uas'))
+        before = self.pixels(page)
+        field('style.name').locator('select').select_option('eht')
+        page.wait_for_selector(AT_REST)
+        self.assertTrue(daemon.eventually(lambda: self.pixels(page) != before))
+        self.assertEqual((float(self.field(page, 'style.beam_uas')), field('style.palette').locator('select').input_value()), (20, 'heat'))
+        self.assertTrue(shown('style.colour_bar') and field('style.colour_bar').locator('input').is_checked())
+        self.assertIn('Gaussian beam', page.inner_text('#approximations'))
+        self.assertIn('µas', field('style.beam_uas').inner_text())
+        self.shot(page, 'eht')
+        field('style.palette').locator('select').select_option('colour')
+        self.assertTrue(daemon.eventually(lambda: 'style.colour_bar is true' in field('style.colour_bar').inner_text()))
+        field('style.colour_bar').locator('input').uncheck()
+        self.assertTrue(daemon.eventually(lambda: not shown('style.colour_bar')))
+        page.wait_for_selector(AT_REST)
+
     def test_presets_and_refusals(self):
         page = self.open()
         self.open_groups(page)

@@ -3,6 +3,12 @@
 #include "render/emit/emission.h"
 #include "render/view/layout.h"
 
+#include "beam_along.spv.h"
+#include "beam_along_texels.spv.h"
+#include "beam_gather.spv.h"
+#include "beam_gather_texels.spv.h"
+#include "beam_spread.spv.h"
+#include "beam_spread_texels.spv.h"
 #include "bloom_bright.spv.h"
 #include "bloom_bright_texels.spv.h"
 #include "bloom_down.spv.h"
@@ -21,7 +27,11 @@
 #include "particles.spv.h"
 #include "post.spv.h"
 #include "post_bloom.spv.h"
+#include "post_bloom_heat.spv.h"
+#include "post_bloom_heat_texels.spv.h"
 #include "post_bloom_texels.spv.h"
+#include "post_heat.spv.h"
+#include "post_heat_texels.spv.h"
 #include "post_texels.spv.h"
 #include "rays.spv.h"
 #include "rays_f64.spv.h"
@@ -72,6 +82,22 @@ static const struct {
     [KD_KERNEL_POST_BLOOM] = { "post, bloom", kd_spv_post_bloom, sizeof kd_spv_post_bloom, 3, sizeof(struct kd_post_push) },
     [KD_KERNEL_POST_BLOOM_TEXELS] = { "post, bloom, texels", kd_spv_post_bloom_texels, sizeof kd_spv_post_bloom_texels, 3,
                                       sizeof(struct kd_post_push), { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_HEAT] = { "post, heat", kd_spv_post_heat, sizeof kd_spv_post_heat, 3, sizeof(struct kd_post_push), { [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_HEAT_TEXELS] = { "post, heat, texels", kd_spv_post_heat_texels, sizeof kd_spv_post_heat_texels, 3, sizeof(struct kd_post_push),
+                                     { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_BLOOM_HEAT] = { "post, bloom, heat", kd_spv_post_bloom_heat, sizeof kd_spv_post_bloom_heat, 4, sizeof(struct kd_post_push),
+                                    { [3] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_POST_BLOOM_HEAT_TEXELS] = { "post, bloom, heat, texels", kd_spv_post_bloom_heat_texels, sizeof kd_spv_post_bloom_heat_texels, 4,
+                                           sizeof(struct kd_post_push), { KD_VK_TEXELS_RGBA, [2] = KD_VK_TEXELS_RGBA, [3] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_GATHER] = { "beam, gather", kd_spv_beam_gather, sizeof kd_spv_beam_gather, 2, sizeof(struct kd_beam_push) },
+    [KD_KERNEL_BEAM_GATHER_TEXELS] = { "beam, gather, texels", kd_spv_beam_gather_texels, sizeof kd_spv_beam_gather_texels, 2,
+                                       sizeof(struct kd_beam_push), { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_ALONG] = { "beam, along", kd_spv_beam_along, sizeof kd_spv_beam_along, 2, sizeof(struct kd_beam_along_push) },
+    [KD_KERNEL_BEAM_ALONG_TEXELS] = { "beam, along, texels", kd_spv_beam_along_texels, sizeof kd_spv_beam_along_texels, 2,
+                                      sizeof(struct kd_beam_along_push), { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_SPREAD] = { "beam, spread", kd_spv_beam_spread, sizeof kd_spv_beam_spread, 2, sizeof(struct kd_beam_push) },
+    [KD_KERNEL_BEAM_SPREAD_TEXELS] = { "beam, spread, texels", kd_spv_beam_spread_texels, sizeof kd_spv_beam_spread_texels, 2,
+                                       sizeof(struct kd_beam_push), { KD_VK_TEXELS_RGBA } },
     [KD_KERNEL_BLOOM_BRIGHT] = { "bloom, bright", kd_spv_bloom_bright, sizeof kd_spv_bloom_bright, 2, sizeof(struct kd_bloom_bright_push) },
     [KD_KERNEL_BLOOM_BRIGHT_TEXELS] = { "bloom, bright, texels", kd_spv_bloom_bright_texels, sizeof kd_spv_bloom_bright_texels, 2,
                                         sizeof(struct kd_bloom_bright_push), { KD_VK_TEXELS_RGBA } },
@@ -136,10 +162,9 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
     return KD_OK;
 }
 
-bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels)
-{
-    return kd_post_radiance_bytes(pixels) <= 16 * kd_vk_info(vk)->max_texels;
-}
+bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes) { return bytes <= 16 * kd_vk_info(vk)->max_texels; }
+
+bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels) { return kd_kernels_texels_of(vk, kd_post_radiance_bytes(pixels)); }
 
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom)
 {

@@ -31,10 +31,20 @@ enum kd_kernel {
     KD_KERNEL_BLOOM_DOWN_TEXELS,
     KD_KERNEL_BLOOM_UP,
     KD_KERNEL_BLOOM_UP_TEXELS,
+    KD_KERNEL_BEAM_GATHER,
+    KD_KERNEL_BEAM_GATHER_TEXELS,
+    KD_KERNEL_BEAM_ALONG,
+    KD_KERNEL_BEAM_ALONG_TEXELS,
+    KD_KERNEL_BEAM_SPREAD,
+    KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
     KD_KERNEL_POST_TEXELS, /* the same, reading texels; kd_kernel_post tells which */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
+    KD_KERNEL_POST_HEAT,
+    KD_KERNEL_POST_HEAT_TEXELS,
+    KD_KERNEL_POST_BLOOM_HEAT,
+    KD_KERNEL_POST_BLOOM_HEAT_TEXELS,
 };
 
 #define KD_KERNEL_MAX_CONSTANTS 32
@@ -58,10 +68,11 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 /* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the time, but how
  * many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
+bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes); /* and of so many bytes of anything */
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
-static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom)
+static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
 {
-    return (bloom ? KD_KERNEL_POST_BLOOM : KD_KERNEL_POST) + (texels ? 1 : 0);
+    return (heat ? bloom ? KD_KERNEL_POST_BLOOM_HEAT : KD_KERNEL_POST_HEAT : bloom ? KD_KERNEL_POST_BLOOM : KD_KERNEL_POST) + (texels ? 1 : 0);
 }
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);
 

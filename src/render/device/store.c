@@ -149,6 +149,22 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
     return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
+/* Nothing is kept for a beam that is no more: it takes as much as the picture. */
+static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *plan, struct kd_error *error)
+{
+    const struct kd_beam_grid *beam = &plan->beam;
+    enum kd_status status;
+    if (!beam->cell) {
+        bands_finish(&store->beamed, store->vk);
+        return KD_OK;
+    }
+    KD_TRY(bands_init(&store->beamed, store->vk, plan->bands, kd_post_radiance_bytes((uint64_t)plan->width * plan->band_rows), "light by the beam", error));
+    KD_TRY(kd_store_at_least(store->vk, &store->beam_lines, kd_beam_lines_bytes(beam), KD_VK_DEVICE, "rows of cells", error));
+    KD_TRY(kd_store_at_least(store->vk, &store->beam_grids, kd_beam_grids_bytes(beam), KD_VK_DEVICE, "cells", error));
+done:
+    return status;
+}
+
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth, struct kd_error *error)
 {
     struct kd_vk *vk = store->vk;
@@ -178,6 +194,8 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
                                      &store->counts, error);
     if (!status && plan->bloom.levels)
         status = kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error);
+    if (!status)
+        status = make_beam(store, plan, error);
     if (!status && plan->light)
         status = kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error);
     if (!status && plan->light)
@@ -245,6 +263,7 @@ uint64_t kd_store_bytes(const struct kd_store *store)
     uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
+    sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) + bytes_of(store->palette);
     return sum + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
 }
 
@@ -260,6 +279,10 @@ void kd_store_finish(struct kd_store *store)
         map_finish(&store->maps[i], store->vk);
     bands_finish(&store->radiance, store->vk);
     bands_finish(&store->layers, store->vk);
+    bands_finish(&store->beamed, store->vk);
+    kd_vk_buffer_destroy(store->vk, store->beam_lines);
+    kd_vk_buffer_destroy(store->vk, store->beam_grids);
+    kd_vk_buffer_destroy(store->vk, store->palette);
     kd_vk_buffer_destroy(store->vk, store->words);
     kd_vk_buffer_destroy(store->vk, store->readback);
     kd_vk_buffer_destroy(store->vk, store->transfer);

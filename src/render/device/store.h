@@ -46,6 +46,9 @@ struct kd_store {
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* its sums; NULL: never measured */
     struct kd_vk_buffer *bloom;            /* grids of light that a lens spreads; NULL: never was any */
+    struct kd_bands beamed;                /* radiance as a telescope's beam sees it; none: the plan has no beam */
+    struct kd_vk_buffer *beam_lines, *beam_grids; /* rows of cells, and grids of them, on the way there; NULL: never was any */
+    struct kd_vk_buffer *palette;          /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never was any */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
 };
 

@@ -26,7 +26,7 @@ static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
     enum kd_status status = kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BLOOM_BRIGHT + (texels ? 1 : 0), &spec.BLOCK_X, sizeof spec / 4, &pipeline, j->error);
     const struct kd_vk_dispatch d = {
         kd_passes[KD_PASS_BLOOM].name, pipeline,
-        { { j->store->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false }, range(j, b->blocks, kd_bloom_blocks(b), true) }, &push,
+        { { kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false }, range(j, b->blocks, kd_bloom_blocks(b), true) }, &push,
         { kd_frame_groups((uint64_t)push.across * push.block_rows) },
     };
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);

@@ -17,7 +17,7 @@ static enum kd_status measure(struct kd_frame_job *j)
         const uint32_t push[] = { pixels, pixels > 1 << 17 ? 7 : 1 };
         uint32_t n = kd_frame_groups(pixels / push[1] / 64 + 1); /* each invocation counts some 64 pixels */
         const struct kd_vk_dispatch d = {
-            kd_passes[KD_PASS_EXPOSE].name, expose, { { s->radiance.buffers[band], 0, 0, false }, { s->histogram, 0, 0, true } }, push, { n },
+            kd_passes[KD_PASS_EXPOSE].name, expose, { { kd_frame_band_light(j, band), 0, 0, false }, { s->histogram, 0, 0, true } }, push, { n },
         };
         KD_TRY(kd_vk_dispatch(vk, &d, j->error));
     }
@@ -46,10 +46,10 @@ static double luminance_quantile(const uint32_t *counts, double share)
 
 /* sRGB clips at 1: bring the brightest lit pixels (all but four in a thousand) there. The film-like curve has a long
  * shoulder: the wider the range from the median up, the further over white the brightest may go, so that a beamed disk
- * keeps its dim side. */
-static double auto_exposure(const uint32_t *counts, int tone_map)
+ * keeps its dim side. all: what a beam has smoothed has its brightest place there, and nothing is clipped. */
+static double auto_exposure(const uint32_t *counts, int tone_map, bool all)
 {
-    double white = luminance_quantile(counts, 0.004), median = luminance_quantile(counts, 0.5);
+    double white = luminance_quantile(counts, all ? 0 : 0.004), median = luminance_quantile(counts, 0.5);
     double over = tone_map != KD_TONE_SRGB ? fmin(fmax(0.45 * (white - median), 0.75), 4) : 0;
     return over - white;
 }
@@ -63,6 +63,6 @@ enum kd_status kd_frame_expose(struct kd_frame_job *j)
     enum kd_status status = measure(j);
     if (!status)
         j->frame->exposure =
-            kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map));
+            kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->beam.cell));
     return status;
 }

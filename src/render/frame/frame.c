@@ -36,6 +36,8 @@ static enum kd_status run(struct kd_frame_job *j)
     if (!status && j->plan->light)
         status = kd_frame_add_light(j);
     if (!status && !j->plan->unseen)
+        status = kd_frame_beam(j);
+    if (!status && !j->plan->unseen)
         status = kd_frame_expose(j);
     if (!status && !j->plan->unseen)
         status = kd_frame_bloom(j);

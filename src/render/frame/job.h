@@ -48,6 +48,11 @@ static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t 
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
 }
+/* What is shown of a band: its radiance, or that as the beam sees it. */
+static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job *j, uint32_t band)
+{
+    return j->plan->beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
+}
 static inline uint32_t kd_frame_groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
 
 /* Render by job's scene and plan, into *out. */
@@ -75,6 +80,8 @@ enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 /* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and centroid of them. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
+/* Light as a telescope's beam sees what is lit, which the passes behind it take for light; nothing where the plan has no beam. */
+enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* The exposure of what is lit; waits for the device where it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
 /* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no bloom. */

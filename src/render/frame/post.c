@@ -1,8 +1,43 @@
 /* The pass that makes pixels of light, and their way to the host. */
 #include "render/frame/job.h"
 
+#include "image/legend.h"
+#include "image/sky_scale.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* The table of style.palette, which the host keeps. */
+static enum kd_status make_palette(struct kd_frame_job *j)
+{
+    struct kd_map_table *table = malloc(sizeof *table);
+    enum kd_status status = table ? KD_OK : kd_error_set(j->error, KD_ENOMEM, "out of memory for the colours of a palette");
+    if (!status)
+        status = kd_vk_buffer_create(j->r->vk, 16 * KD_MAP_ENTRIES, KD_VK_UPLOAD, "palette", &j->store->palette, j->error);
+    if (!status) {
+        float *to = kd_vk_buffer_map(j->store->palette);
+        kd_colour_map_fill(table, KD_MAP_HEAT);
+        for (size_t i = 0; i < KD_MAP_ENTRIES; i++) {
+            const float colour[] = { (float)table->at[i].r, (float)table->at[i].g, (float)table->at[i].b, 0 };
+            memcpy(to + 4 * i, colour, sizeof colour);
+        }
+    }
+    free(table);
+    return status;
+}
+
+/* How bright what is shown is, and how large on the sky. */
+static void draw_scales(struct kd_frame_job *j)
+{
+    const struct kd_frame *frame = j->frame;
+    const struct kd_canvas canvas = { kd_frame_pixels(frame), frame->width, frame->height, kd_frame_bit_depth(frame) };
+    const struct kd_legend legend = { .title = "I / I_max of the disk", .map = KD_MAP_HEAT, .scale = { 0, exp2(-frame->exposure), false } };
+    const double width = kd_scene_width_uas(j->scene);
+    kd_legend_draw(&canvas, &legend);
+    if (!isnan(width))
+        kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
+}
 
 /* Post and read back what is lit, one band at a time. */
 enum kd_status kd_frame_post(struct kd_frame_job *j)
@@ -19,9 +54,13 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
         .ACES = scene->style.tone_map == KD_TONE_ACES, .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL, .WIDE = wide,
         .TOGETHER = kd_bloom_together(bloom, j->plan->width),
     };
+    const bool heat = scene->style.palette == KD_PALETTE_HEAT;
+    const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
-    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels);
+    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels, heat);
     enum kd_status status = KD_OK;
+    if (heat && !s->palette)
+        KD_TRY(make_palette(j));
     for (uint32_t band = 0; band < j->plan->bands && kd_frame_band_lit(j, band); band++) {
         KD_TRY(kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, &post, j->error));
         uint32_t pixels = frame->width * kd_frame_band_lit(j, band);
@@ -38,11 +77,13 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
             .cells_x = bloom->columns,
             .cells_y = bloom->rows,
         };
+        const struct kd_vk_binding colours = { s->palette, 0, 0, false };
         const struct kd_vk_dispatch d = {
             kd_passes[KD_PASS_POST].name, post,
-            { { s->radiance.buffers[band], 0, kd_post_radiance_bytes(band_pixels), false },
+            { { kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false },
               { s->words, 0, 0, true },
-              { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false } },
+              bloom->levels ? cells : colours,
+              colours },
             &push, { kd_post_groups(pixels) },
         };
         KD_TRY(kd_vk_dispatch(vk, &d, j->error));
@@ -52,6 +93,8 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
         memcpy((char *)kd_frame_pixels(frame) + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
         KD_TRY(kd_frame_report(j, kd_frame_band_rows(j, band)));
     }
+    if (scene->style.colour_bar && !kd_plan_is_map(j->plan))
+        draw_scales(j);
 done:
     return status;
 }

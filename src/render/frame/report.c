@@ -12,7 +12,9 @@ static enum kd_status glance(struct kd_frame_job *j)
     size_t row = j->plan->width * kd_layer_pixel_bytes(&j->frame->layers[0]);
     memset((char *)kd_frame_pixels(j->frame) + row * j->lit, 0, row * (j->plan->height - j->lit));
     j->looking = true;
-    enum kd_status status = kd_frame_expose(j);
+    enum kd_status status = kd_frame_beam(j);
+    if (!status)
+        status = kd_frame_expose(j);
     if (!status)
         status = kd_frame_bloom(j);
     if (!status)

@@ -57,6 +57,14 @@ static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capa
     return (struct kd_pass_cost) { "post.comp", more * c->ns[KD_NS_PIXEL_POST], plan->bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
+/* Rows of cells and back are about a half of post; the rest are the weights of two blurs, and of two more sums where cells are large. */
+static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    const struct kd_beam_grid *b = &plan->beam;
+    const double weights = 2.0 * (2 * b->reach + 1) * b->columns * b->rows + (b->cell > 1 ? 6.0 * b->columns * b->height : 0);
+    return (struct kd_pass_cost) { "beam_gather.comp", (0.5 + 0.05 * weights / ((double)plan->width * plan->height)) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
+}
+
 #define INVOCATIONS(name, n)                                                                                                     \
     static uint64_t name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, n; }
 INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
@@ -69,6 +77,7 @@ INVOCATIONS(layered, plan->n_layers * pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)
 INVOCATIONS(shown, plan->unseen ? 0 : pixels(plan, scene))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
+INVOCATIONS(beamed, plan->beam.cell ? shown(plan, scene) : 0)
 INVOCATIONS(exposed, isinf(scene->style.exposure) ? shown(plan, scene) : 0)
 
 #define FIGURE(id, word, guess) [KD_NS_##id] = { word, guess },

@@ -46,6 +46,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
     P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \
+    P(BEAM, "beam", beamed, BY(beam), PIXELS, FRAME)                                                                             \
     P(EXPOSE, "expose", exposed, PART("expose.comp", PIXEL_POST, 0.25), PIXELS, FRAME)                                           \
     P(BLOOM, "bloom", spread, BY(bloom), PIXELS, FRAME)                                                                          \
     P(POST, "post", shown, BY(post), PIXELS, FRAME)                                                                              \

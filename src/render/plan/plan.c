@@ -25,6 +25,9 @@ WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side 
 WHEN(film, scene->style.tone_map == KD_TONE_ACES && !kd_plan_is_map(plan))
 WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !kd_plan_is_map(plan))
 WHEN(bloom, plan->bloom.levels && !kd_plan_is_map(plan))
+WHEN(beam, plan->beam.cell)
+WHEN(near_beam, plan->beam.cell && isfinite(scene->camera.r))
+WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_plan_is_map(plan))
 WHEN(maps, plan->n_layers > 0)
 WHEN(coloured, kd_plan_is_map(plan))
 WHEN(projected, plan->ring)
@@ -44,6 +47,9 @@ static const struct sentence {
     { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance", neutral },
     { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave the picture stays "
       "at its edge", bloom },
+    { "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge", beam },
+    { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc", near_beam },
+    { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency", heat },
     { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
     { "layers: a picture of a map has false colours; NPY has its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
@@ -154,6 +160,23 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
                         "image.samples", (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
 }
 
+/* Of a picture of a beam, which goes through rows of cells and grids of them. */
+static uint64_t beam_bytes(const struct kd_plan *plan)
+{
+    if (!plan->beam.cell)
+        return 0;
+    return 12ull * plan->width * plan->height + kd_beam_lines_bytes(&plan->beam) + kd_beam_grids_bytes(&plan->beam);
+}
+
+static enum kd_status beam_fits(const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
+{
+    const uint64_t lines = kd_beam_lines_bytes(&plan->beam), grids = kd_beam_grids_bytes(&plan->beam), bytes = lines > grids ? lines : grids;
+    if (!plan->beam.cell || bytes <= buffer_bytes(c))
+        return KD_OK;
+    return kd_error_set(error, KD_ETOOBIG, "a beam as narrow as style.beam_uas is in pixels needs %llu bytes at once, this device binds %llu: lower image.width and "
+                        "image.height, or raise style.beam_uas", (unsigned long long)bytes, (unsigned long long)buffer_bytes(c));
+}
+
 /* Rows of pixels whose lens map, radiance and packed pixels each fit one buffer and one binding, and whose workgroups one
  * dispatch. */
 static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
@@ -178,7 +201,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->lens_bytes = row_lens * plan->height + at_curve;
     plan->host_bytes = (row_out + row_layers + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
     uint64_t fixed = kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
-                     plan->bloom.bytes + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
+                     plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
@@ -334,12 +357,16 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.n_layers = kd_layers_of(scene, plan.layers, &plan.picture);
     plan.n_layers = needs->unseen ? 0 : plan.n_layers;
     plan.radiance = needs->radiance && plan.picture && !needs->unseen;
+    if (!needs->unseen && !kd_plan_is_map(&plan))
+        plan.beam = kd_beam_of(scene);
     plan.quantities |= plan.orders ? KD_LENS_W | (plan.ring ? KD_LENS_ALPHA : 0) : 0;
     if (plan.light && !kd_scene_is_flat(scene))
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are \"plane\" and \"pinhole\" where light is "
                               "measured: areas of the others are not to scale");
     enum kd_status status = kd_layers_check(scene, error);
+    if (!status)
+        status = beam_fits(&plan, capacity, error);
     if (!status)
         status = choose(&plan, scene, capacity, error);
     if (status)

@@ -6,6 +6,7 @@
 #include "base/buffer.h"
 #include "base/error.h"
 #include "render/accuracy/engine.h"
+#include "render/plan/beam.h"
 #include "render/plan/bloom.h"
 #include "render/plan/layer_kinds.h"
 #include "render/plan/pass.h"
@@ -58,6 +59,7 @@ struct kd_plan {
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
     bool apart;                     /* the luminance of some is kept beside the radiance */
     bool ends;                      /* some shine where rays end, and the lens map says where */
+    struct kd_beam_grid beam;       /* of a telescope, that light is convolved with */
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
     bool unseen;                    /* no pixels are made of the radiance */

@@ -87,7 +87,7 @@ static enum kd_status encode(const struct kd_selftest *test, bool film, struct k
     float *at = kd_vk_buffer_map(radiance);
     for (uint32_t i = 0; i < 3 * pixels; i++)
         at[i] = (float)test->reference->greys[i / 12].linear;
-    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(r->vk, pixels), false);
+    const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(r->vk, pixels), false, false);
     enum kd_status status;
     KD_TRY(kd_kernels_get(&r->kernels, r->vk, kernel, (uint32_t[]) { film, true }, 2, &post, test->error));
     const struct kd_vk_dispatch d = {

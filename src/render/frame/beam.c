@@ -1,0 +1,144 @@
+/* The pass that convolves light with a telescope's beam (render/plan/beam.h). */
+#include "render/frame/job.h"
+
+#include <math.h>
+
+/* Weights that one submission adds up at most: some 40 ms of a small device. */
+#define SUBMISSION 2e7
+
+static struct kd_vk_binding lines(struct kd_frame_job *j, bool write) { return (struct kd_vk_binding) { j->store->beam_lines, 0, kd_beam_lines_bytes(&j->plan->beam), write }; }
+
+static struct kd_vk_binding grid(struct kd_frame_job *j, int number, bool write)
+{
+    const uint64_t bytes = kd_beam_cells_bytes(&j->plan->beam);
+    return (struct kd_vk_binding) { j->store->beam_grids, (uint64_t)number * ((bytes + 255) / 256 * 256), bytes, write };
+}
+
+/* A kernel between a band of pixels and rows of cells, or its twin that reads texels, which is the next one. */
+static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kernel kernel, bool texels, uint64_t invocations,
+                           struct kd_vk_binding from, struct kd_vk_binding to)
+{
+    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_spec_beam spec = { .COARSE = b->cell > 1 };
+    const struct kd_beam_push push = {
+        .pixels_x = j->plan->width, .row0 = kd_frame_band_first(j, number), .rows = kd_frame_band_lit(j, number), .columns = b->columns,
+        .cell = b->cell, .cells = (float)(1.0 / b->cell),
+    };
+    const struct kd_vk_pipeline *pipeline;
+    enum kd_status status;
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, kernel + (texels ? 1 : 0), &spec.COARSE, sizeof spec / 4, &pipeline, j->error));
+    const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) } };
+    KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+    if (j->plan->bands == 1)
+        return KD_OK;
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error)); /* short submissions */
+    KD_TRY(kd_frame_report(j, 0));
+done:
+    return status;
+}
+
+/* Light of what is lit, band by band, to rows of cells. */
+static enum kd_status gather(struct kd_frame_job *j)
+{
+    const struct kd_plan *p = j->plan;
+    const uint64_t pixels = (uint64_t)p->width * p->band_rows, bytes = kd_post_radiance_bytes(pixels);
+    enum kd_status status = KD_OK;
+    if (j->lit < p->height) /* rows that nothing is written to */
+        KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0, kd_beam_lines_bytes(&p->beam), 0, j->error));
+    for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
+        KD_TRY(band(j, i, KD_KERNEL_BEAM_GATHER, kd_kernels_texels(j->r->vk, pixels), (uint64_t)p->beam.columns * kd_frame_band_lit(j, i),
+                    (struct kd_vk_binding) { j->store->radiance.buffers[i], 0, bytes, false }, lines(j, true)));
+done:
+    return status;
+}
+
+/* And back, as light of its own. */
+static enum kd_status spread(struct kd_frame_job *j)
+{
+    const struct kd_plan *p = j->plan;
+    const bool texels = kd_kernels_texels_of(j->r->vk, kd_beam_lines_bytes(&p->beam));
+    enum kd_status status = KD_OK;
+    for (uint32_t i = 0; i < p->bands && kd_frame_band_lit(j, i); i++)
+        KD_TRY(band(j, i, KD_KERNEL_BEAM_SPREAD, texels, ((uint64_t)p->width * kd_frame_band_lit(j, i) + 3) / 4, lines(j, false),
+                    (struct kd_vk_binding) { j->store->beamed.buffers[i], 0, 0, true }));
+done:
+    return status;
+}
+
+/* Sums along one axis, in slices of rows. push: but for columns and slice. */
+static enum kd_status along(struct kd_frame_job *j, struct kd_spec_beam_along spec, struct kd_beam_along_push push, uint32_t rows,
+                            struct kd_vk_binding from, struct kd_vk_binding to)
+{
+    const uint32_t columns = j->plan->beam.columns, step = (uint32_t)fmin(fmax(SUBMISSION / ((double)columns * push.count), 1), rows);
+    const struct kd_vk_pipeline *pipeline;
+    enum kd_status status;
+    push.columns = columns;
+    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BEAM_ALONG + (kd_kernels_texels_of(j->r->vk, from.size) ? 1 : 0), &spec.ROWS,
+                          sizeof spec / 4, &pipeline, j->error));
+    for (push.row0 = 0; push.row0 < rows; push.row0 += step) {
+        push.rows = rows - push.row0 < step ? rows - push.row0 : step;
+        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups((uint64_t)columns * push.rows) } };
+        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+        if (step == rows)
+            continue;
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+        KD_TRY(kd_frame_report(j, 0));
+    }
+done:
+    return status;
+}
+
+static enum kd_status blur(struct kd_frame_job *j, bool rows, struct kd_vk_binding from, struct kd_vk_binding to)
+{
+    const struct kd_beam_grid *b = &j->plan->beam;
+    double sum = 0, narrow = 0.5 / (b->sigma * b->sigma);
+    for (int k = -(int)b->reach; k <= (int)b->reach; k++)
+        sum += exp(-narrow * k * k);
+    const struct kd_beam_along_push push = {
+        .length_ = rows ? b->rows : b->columns, .first_times = 1, .first_over = 1, .before = b->reach, .count = 2 * b->reach + 1, .from_scale = 1,
+        .to_scale = 1, .narrow = (float)narrow, .weight = (float)(1 / sum),
+    };
+    return along(j, (struct kd_spec_beam_along) { .ROWS = rows, .BLUR = true }, push, b->rows, from, to);
+}
+
+/* Rows of cells, one for each of pixels, to the grid: cell i of it begins (i - 1) cells below the upper edge of the picture. */
+static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
+{
+    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_beam_along_push push = {
+        .length_ = b->height, .first_times = b->cell, .first_over = 1, .before = 2 * b->cell, .count = 3 * b->cell,
+        .from_scale = (float)(1.0 / b->cell), .to_scale = 1, .shift = -1, .weight = (float)(1.0 / b->cell),
+    };
+    return along(j, (struct kd_spec_beam_along) { .ROWS = true }, push, b->rows, from, to);
+}
+
+static enum kd_status up(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
+{
+    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_beam_along_push push = {
+        .length_ = b->rows, .first_times = 1, .first_over = b->cell, .count = 3, .from_scale = 1, .to_scale = (float)(1.0 / b->cell), .shift = 1,
+        .weight = 1,
+    };
+    return along(j, (struct kd_spec_beam_along) { .ROWS = true }, push, b->height, from, to);
+}
+
+enum kd_status kd_frame_beam(struct kd_frame_job *j)
+{
+    const bool coarse = j->plan->beam.cell > 1;
+    enum kd_status status;
+    if (!j->plan->beam.cell)
+        return KD_OK;
+    KD_TRY(gather(j));
+    if (coarse) {
+        KD_TRY(down(j, lines(j, false), grid(j, 0, true)));
+        KD_TRY(blur(j, false, grid(j, 0, false), grid(j, 1, true)));
+        KD_TRY(blur(j, true, grid(j, 1, false), grid(j, 0, true)));
+        KD_TRY(up(j, grid(j, 0, false), lines(j, true)));
+    } else {
+        KD_TRY(blur(j, false, lines(j, false), grid(j, 0, true)));
+        KD_TRY(blur(j, true, grid(j, 0, false), lines(j, true)));
+    }
+    KD_TRY(spread(j));
+done:
+    return status;
+}
