@@ -19,6 +19,7 @@ static void bands_finish(struct kd_bands *bands, struct kd_vk *vk)
 static enum kd_status bands_init(struct kd_bands *bands, struct kd_vk *vk, uint32_t count, uint64_t bytes,
                                  const char *name, struct kd_error *error)
 {
+    enum kd_status status = KD_OK;
     if (bands->count == count && bands->band_bytes == bytes)
         return KD_OK;
     bands_finish(bands, vk);
@@ -27,14 +28,12 @@ static enum kd_status bands_init(struct kd_bands *bands, struct kd_vk *vk, uint3
         return kd_error_set(error, KD_ENOMEM, "out of memory for %u bands", count);
     bands->count = count;
     bands->band_bytes = bytes;
-    for (uint32_t i = 0; i < count; i++) {
-        enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, name, &bands->buffers[i], error);
-        if (status) {
-            bands_finish(bands, vk);
-            return status;
-        }
-    }
-    return KD_OK;
+    for (uint32_t i = 0; i < count; i++)
+        KD_TRY(kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, name, &bands->buffers[i], error));
+done:
+    if (status)
+        bands_finish(bands, vk);
+    return status;
 }
 
 static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
@@ -104,16 +103,16 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
             oldest = m;
     }
     make_room(store, plan, oldest);
-    enum kd_status status =
-        bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error);
-    if (!status)
-        status = bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(plan), kd_plan_critical_bytes(plan),
-                            "lens map at the critical curve", error);
-    if (!status && !store->undecided)
-        status = kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error);
     oldest->key[0] = 0;
     oldest->used = ++store->clock;
     *out = oldest;
+    enum kd_status status;
+    KD_TRY(bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error));
+    KD_TRY(bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(plan), kd_plan_critical_bytes(plan),
+                      "lens map at the critical curve", error));
+    if (!store->undecided)
+        KD_TRY(kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error));
+done:
     return status;
 }
 
@@ -149,6 +148,26 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
     return kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
+/* *buffer (NULL: none yet) is made once, and stays. */
+static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory, const char *name,
+                           struct kd_error *error)
+{
+    return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
+}
+
+/* What all pictures need, whatever their size. */
+static enum kd_status make_small(struct kd_store *store, struct kd_error *error)
+{
+    struct kd_vk *vk = store->vk;
+    enum kd_status status;
+    KD_TRY(once(vk, &store->transfer, sizeof(struct kd_emit_data), KD_VK_DEVICE, "transfer tables", error));
+    KD_TRY(once(vk, &store->staging, sizeof(struct kd_emit_data), KD_VK_UPLOAD, "transfer tables on the host", error));
+    KD_TRY(once(vk, &store->histogram, 4 * KD_HISTOGRAM_BINS, KD_VK_DEVICE, "histogram", error));
+    KD_TRY(once(vk, &store->counts, 4 * KD_HISTOGRAM_BINS, KD_VK_READBACK, "histogram on the host", error));
+done:
+    return status;
+}
+
 /* Nothing is kept for a beam that is no more: it takes as much as the picture. */
 static enum kd_status make_beam(struct kd_store *store, const struct kd_plan *plan, struct kd_error *error)
 {
@@ -168,38 +187,25 @@ done:
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth, struct kd_error *error)
 {
     struct kd_vk *vk = store->vk;
-    uint64_t pixels = (uint64_t)plan->width * plan->band_rows;
-    uint64_t words = kd_post_bytes(pixels, bit_depth), light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
-    enum kd_status status = bands_init(&store->radiance, vk, plan->bands, light > read ? light : read, "radiance", error);
-    if (!status)
-        status = kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error);
-    if (!status && plan->n_layers)
-        status = bands_init(&store->layers, vk, plan->bands, plan->n_layers * kd_plan_layer_bytes(plan), "layers", error);
-    else
+    const uint64_t pixels = (uint64_t)plan->width * plan->band_rows, layers = kd_plan_readback_bytes(plan);
+    const uint64_t words = kd_post_bytes(pixels, bit_depth), light = kd_plan_pixel_bytes(plan) * pixels, read = kd_post_radiance_bytes(pixels);
+    enum kd_status status;
+    KD_TRY(make_small(store, error));
+    KD_TRY(bands_init(&store->radiance, vk, plan->bands, light > read ? light : read, "radiance", error));
+    KD_TRY(kd_store_at_least(vk, &store->words, words, KD_VK_DEVICE, "pixels", error));
+    KD_TRY(kd_store_at_least(vk, &store->readback, layers > words ? layers : words, KD_VK_READBACK, "pixels on the host", error));
+    if (!plan->n_layers)
         bands_finish(&store->layers, vk);
-    if (kd_plan_readback_bytes(plan) > words)
-        words = kd_plan_readback_bytes(plan);
-    if (!status)
-        status = kd_store_at_least(vk, &store->readback, words, KD_VK_READBACK, "pixels on the host", error);
-    if (!status && !store->transfer)
-        status = kd_vk_buffer_create(vk, sizeof(struct kd_emit_data), KD_VK_DEVICE, "transfer tables",
-                                     &store->transfer, error);
-    if (!status && !store->staging)
-        status = kd_vk_buffer_create(vk, sizeof(struct kd_emit_data), KD_VK_UPLOAD, "transfer tables on the host",
-                                     &store->staging, error);
-    if (!status && !store->histogram)
-        status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_DEVICE, "histogram", &store->histogram, error);
-    if (!status && !store->counts)
-        status = kd_vk_buffer_create(vk, 4 * KD_HISTOGRAM_BINS, KD_VK_READBACK, "histogram on the host",
-                                     &store->counts, error);
-    if (!status && plan->bloom.levels)
-        status = kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error);
-    if (!status)
-        status = make_beam(store, plan, error);
-    if (!status && plan->light)
-        status = kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error);
-    if (!status && plan->light)
-        status = kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error);
+    else
+        KD_TRY(bands_init(&store->layers, vk, plan->bands, plan->n_layers * kd_plan_layer_bytes(plan), "layers", error));
+    if (plan->bloom.levels)
+        KD_TRY(kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error));
+    KD_TRY(make_beam(store, plan, error));
+    if (plan->light) {
+        KD_TRY(kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error));
+        KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error));
+    }
+done:
     return status;
 }
 
@@ -227,11 +233,10 @@ enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *
 static enum kd_status make_cameras(struct kd_store *store, struct kd_error *error)
 {
     const uint64_t bytes = KD_CAMERAS * KD_CAMERA_BYTES;
-    enum kd_status status = KD_OK;
-    if (!store->cameras)
-        status = kd_vk_buffer_create(store->vk, bytes, KD_VK_DEVICE, "cameras", &store->cameras, error);
-    if (!status && !store->cameras_host)
-        status = kd_vk_buffer_create(store->vk, bytes, KD_VK_UPLOAD, "cameras on the host", &store->cameras_host, error);
+    enum kd_status status;
+    KD_TRY(once(store->vk, &store->cameras, bytes, KD_VK_DEVICE, "cameras", error));
+    KD_TRY(once(store->vk, &store->cameras_host, bytes, KD_VK_UPLOAD, "cameras on the host", error));
+done:
     return status;
 }
 

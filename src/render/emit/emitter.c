@@ -11,6 +11,14 @@ KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE)
 #define ENTRY(number, name) [number] = &kd_emit_##name,
 const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY) };
 
+/* Where the list has them. */
+enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8 };
+#define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
+#define IS_PART(number, name) [number] = PART,
+#define IS_OVER(number, name) [number] = OVER,
+#define IS_AT_END(number, name) [number] = AT_END,
+static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END) };
+
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter)
 {
     if (!emitter->present(scene))
@@ -38,16 +46,22 @@ uint32_t kd_emit_needs(const struct kd_scene *scene)
     return needs;
 }
 
+static bool any(const struct kd_scene *scene, enum kind kind)
+{
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kinds[i] == kind && kd_emit_has(scene, kd_emitters[i]))
+            return true;
+    return false;
+}
+
 bool kd_emit_at_crossings(const struct kd_scene *scene)
 {
-#define OR_PRESENT(number, name) || kd_emit_##name.present(scene)
-#define ELSEWHERE(number, name)
-    return false KD_EMITTERS(OR_PRESENT, ELSEWHERE, ELSEWHERE, ELSEWHERE);
+    return any(scene, AT_CROSSING);
 }
 
 bool kd_emit_at_ends(const struct kd_scene *scene)
 {
-    return false KD_EMITTERS(ELSEWHERE, ELSEWHERE, ELSEWHERE, OR_PRESENT);
+    return any(scene, AT_END);
 }
 
 bool kd_emit_apart(const struct kd_scene *scene)
@@ -129,18 +143,14 @@ static bool is_current(const struct kd_emit_state *state, int i, const struct kd
     return true;
 }
 
-#define SHINES(number, name) true,
-#define SHINES_NOT(number, name) false,
-static const bool at_crossings[] = { KD_EMITTERS(SHINES, SHINES, SHINES_NOT, SHINES_NOT) };
-
-/* Radii between which some emitter of crossings may be; the first is above the second if there is none. */
+/* Radii between which some emitter of crossings may be, or a part of one; the first is above the second if there is none. */
 static void reach_of_all(const struct kd_scene *scene, double radii[2])
 {
     radii[0] = INFINITY;
     radii[1] = 0;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         double own[2] = { 0, INFINITY };
-        if (!at_crossings[i] || !kd_emit_has(scene, kd_emitters[i]))
+        if (!(kinds[i] & (AT_CROSSING | PART)) || !kd_emit_has(scene, kd_emitters[i]))
             continue;
         if (kd_emitters[i]->reach)
             kd_emitters[i]->reach(scene, own);

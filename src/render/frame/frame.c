@@ -5,79 +5,95 @@
 #include "base/clock.h"
 #include "render/device/prepare.h"
 
-static enum kd_status run(struct kd_frame_job *j)
+/* Buffers for all of it, and what the kernels of light read. */
+static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacity *c, bool *reused)
 {
     struct kd_renderer *r = j->r;
-    struct kd_frame *frame = j->frame;
+    enum kd_status status;
+    /* Beside what is rendered aside there is a quarter to keep; of those each keeps its own lens map. */
+    j->store->memory_bytes = j->aside ? j->plan->device_bytes : c->memory_bytes / 4;
+    KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
+    KD_TRY(kd_store_frame(j->store, j->plan, kd_frame_bit_depth(j->frame), j->error));
+    kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
+    KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
+    KD_TRY(kd_frame_send_cameras(j));
+done:
+    atomic_store(&r->held, kd_vk_allocated(r->vk));
+    return status;
+}
+
+enum kd_status kd_frame_show(struct kd_frame_job *j)
+{
+    enum kd_status status;
+    KD_TRY(kd_frame_beam(j));
+    KD_TRY(kd_frame_expose(j));
+    KD_TRY(kd_frame_bloom(j));
+    KD_TRY(kd_frame_post(j));
+done:
+    return status;
+}
+
+/* A lens map that was just made is judged, and kept. */
+static enum kd_status judge_map(struct kd_frame_job *j)
+{
+    double start = kd_clock_ms();
+    enum kd_status status;
+    KD_TRY(kd_audit(j->r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error));
+    if (j->plan->audit)
+        j->audit_ms = kd_clock_ms() - start;
+    KD_TRY(kd_frame_undecided(j, &j->lens->accuracy.undecided));
+    kd_store_commit(j->store, j->lens, j->plan);
+done:
+    return status;
+}
+
+static enum kd_status run(struct kd_frame_job *j)
+{
     struct kd_capacity c;
     bool reused = false;
-    kd_renderer_capacity(r, &c);
-    /* Beside what is rendered aside there is a quarter to keep; of those each keeps its own lens map. */
-    j->store->memory_bytes = j->aside ? j->plan->device_bytes : c.memory_bytes / 4;
-    enum kd_status status = kd_store_lens_map(j->store, j->plan, &j->lens, &reused, j->error);
-    if (!status)
-        status = kd_store_frame(j->store, j->plan, kd_frame_bit_depth(frame), j->error);
-    atomic_store(&r->held, kd_vk_allocated(r->vk));
-    if (status)
-        return status;
-
-    kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
-    status = kd_store_send(j->store, &r->emit->data, j->error);
-    if (!status)
-        status = kd_frame_send_cameras(j);
-    if (status)
-        return status;
-
-    frame->lens_reused = reused;
+    enum kd_status status;
+    kd_renderer_capacity(j->r, &c);
+    KD_TRY(make_ready(j, &c, &reused));
+    j->frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);
-    status = kd_prepare(r, j->prepared, j->scene, j->plan, &c, j->error);
-    if (!status)
-        status = kd_frame_light(j, reused);
-    if (!status && j->plan->light)
-        status = kd_frame_add_light(j);
-    if (!status && !j->plan->unseen)
-        status = kd_frame_beam(j);
-    if (!status && !j->plan->unseen)
-        status = kd_frame_expose(j);
-    if (!status && !j->plan->unseen)
-        status = kd_frame_bloom(j);
-    if (!status && !j->plan->unseen)
-        status = kd_frame_post(j);
-    if (!status)
-        status = kd_frame_layers(j);
-    if (!status && j->plan->light)
-        status = kd_frame_read_light(j);
-    double audited = kd_clock_ms();
-    if (!status && !reused)
-        status = kd_audit(r, j->scene, j->plan, j->lens, &j->lens->accuracy, j->error);
-    if (j->plan->audit && !reused)
-        j->audit_ms = kd_clock_ms() - audited;
-    if (!status && !reused)
-        status = kd_frame_undecided(j, &j->lens->accuracy.undecided);
-    if (!status && !reused)
-        kd_store_commit(j->store, j->lens, j->plan);
-    frame->accuracy = j->lens->accuracy;
+    KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
+    KD_TRY(kd_frame_light(j, reused));
+    if (j->plan->light)
+        KD_TRY(kd_frame_add_light(j));
+    if (!j->plan->unseen)
+        KD_TRY(kd_frame_show(j));
+    KD_TRY(kd_frame_layers(j));
+    if (j->plan->light)
+        KD_TRY(kd_frame_read_light(j));
+    if (!reused)
+        KD_TRY(judge_map(j));
+    j->frame->accuracy = j->lens->accuracy;
+done:
+    return status;
+}
+
+static enum kd_status add_layers(const struct kd_frame_job *job, struct kd_frame *frame)
+{
+    const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
+    enum kd_status status;
+    if (!job->plan->unseen)
+        KD_TRY(kd_frame_add_layer(frame, "rgb", 3, type, job->error));
+    KD_TRY(kd_frame_add_layers(frame, job->plan, job->error));
+done:
     return status;
 }
 
 static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 {
-    const struct kd_plan *plan = job->plan;
-    struct kd_frame frame = { .width = plan->width, .height = plan->height };
-    const enum kd_layer_type type = job->scene->image.bit_depth == 16 ? KD_LAYER_U16 : KD_LAYER_U8;
-    enum kd_status status = plan->unseen ? KD_OK : kd_frame_add_layer(&frame, "rgb", 3, type, job->error);
-    if (!status)
-        status = kd_frame_add_layers(&frame, plan, job->error);
-    if (status) {
-        kd_frame_finish(&frame);
-        return status;
-    }
+    struct kd_frame frame = { .width = job->plan->width, .height = job->plan->height };
+    enum kd_status status;
     job->frame = &frame;
-    status = run(job);
-    if (!status) {
-        *out = frame;
-        return KD_OK;
-    }
+    KD_TRY(add_layers(job, &frame));
+    KD_TRY(run(job));
+    *out = frame;
+done:
+    if (!status)
+        return status;
     kd_vk_discard(job->r->vk);
     kd_store_give_up(job->store);
     kd_prepared_forget(job->prepared);

@@ -88,6 +88,8 @@ enum kd_status kd_frame_expose(struct kd_frame_job *job);
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Pixels of what is lit, on the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
+/* All of these one after the other: from light to pixels. */
+enum kd_status kd_frame_show(struct kd_frame_job *job);
 /* Room for the layers of a plan behind the picture; and they, as far as there is light, on the host. One that is asked for alone takes
  * the place of the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan *plan, struct kd_error *error);

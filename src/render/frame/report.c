@@ -12,17 +12,11 @@ static enum kd_status glance(struct kd_frame_job *j)
     size_t row = j->plan->width * kd_layer_pixel_bytes(&j->frame->layers[0]);
     memset((char *)kd_frame_pixels(j->frame) + row * j->lit, 0, row * (j->plan->height - j->lit));
     j->looking = true;
-    enum kd_status status = kd_frame_beam(j);
-    if (!status)
-        status = kd_frame_expose(j);
-    if (!status)
-        status = kd_frame_bloom(j);
-    if (!status)
-        status = kd_frame_post(j);
-    if (!status)
-        status = kd_frame_layers(j);
-    if (!status)
-        j->glance->seen(j->user, j->frame, j->lit);
+    enum kd_status status;
+    KD_TRY(kd_frame_show(j));
+    KD_TRY(kd_frame_layers(j));
+    j->glance->seen(j->user, j->frame, j->lit);
+done:
     j->looking = false;
     return status;
 }

@@ -85,15 +85,15 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     struct kd_buffer text = { 0 };
     const struct kd_section *camera = kd_section_find("camera");
     const struct kd_setting *by = &plan->setting;
-    enum kd_status status = kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, a %a", plan->quantities,
-                                             plan->orders, scene->image.width, scene->image.height, scene->image.samples,
-                                             scene->image.critical_factor, (int)by->engine, (int)by->precision, by->steps, (int)plan->path,
-                                             scene->spacetime.spin);
-    for (size_t i = camera->first; i < camera->first + camera->count && !status; i++)
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, a %a", plan->quantities, plan->orders,
+                            scene->image.width, scene->image.height, scene->image.samples, scene->image.critical_factor, (int)by->engine,
+                            (int)by->precision, by->steps, (int)plan->path, scene->spacetime.spin));
+    for (size_t i = camera->first; i < camera->first + camera->count; i++)
         if (strcmp(kd_fields[i].name, "azimuth_deg"))
-            status = kd_buffer_printf(&text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0));
-    if (!status)
-        kd_sha256(text.data, text.size, plan->lens_key);
+            KD_TRY(kd_buffer_printf(&text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));
+    kd_sha256(text.data, text.size, plan->lens_key);
+done:
     kd_buffer_finish(&text);
     return status;
 }
@@ -364,38 +364,36 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         return kd_error_field(error, "/camera/projection",
                               "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are \"plane\" and \"pinhole\" where light is "
                               "measured: areas of the others are not to scale");
-    enum kd_status status = kd_layers_check(scene, error);
-    if (!status)
-        status = beam_fits(&plan, capacity, error);
-    if (!status)
-        status = choose(&plan, scene, capacity, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(kd_layers_check(scene, error));
+    KD_TRY(beam_fits(&plan, capacity, error));
+    KD_TRY(choose(&plan, scene, capacity, error));
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
     *out = plan;
-    return bands(out, scene, capacity, error);
+    KD_TRY(bands(out, scene, capacity, error));
+done:
+    return status;
 }
 
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan;
-    enum kd_status status = outline(scene, needs, capacity, &plan, error); /* limits first: a list of what is too large takes long */
-    if (!status)
-        status = critical(&plan, scene, capacity, error);
-    if (!status && plan.critical)
-        status = bands(&plan, scene, capacity, error);
-    if (status)
-        return status;
+    enum kd_status status;
+    KD_TRY(outline(scene, needs, capacity, &plan, error)); /* limits first: a list of what is too large takes long */
+    KD_TRY(critical(&plan, scene, capacity, error));
+    if (plan.critical)
+        KD_TRY(bands(&plan, scene, capacity, error));
     plan.audit = plan.cacheable && plan.orders ? KD_AUDIT_RAYS : 0;
     passes(&plan, scene, capacity);
     approximations(&plan, scene);
     if (lens_key(&plan, scene))
-        return kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene");
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene"));
     *out = plan;
-    return KD_OK;
+done:
+    return status;
 }
 
 struct kd_needs kd_needs_of(const struct kd_scene *scene)
