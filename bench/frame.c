@@ -77,7 +77,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
         return KD_EINVAL;
     scene.image.width = o->width;
     scene.image.height = o->height;
-    scene.sky.model = o->sky ? KD_SKY_GRID : KD_SKY_NONE;
+    scene.sky.model = o->sky ? KD_SKY_GRID : scene.sky.model;
     scene.disk.model = o->particles ? KD_DISK_PARTICLES : scene.disk.model;
     cJSON *first = cJSON_AddArrayToObject(root, "first"), *cold = cJSON_AddArrayToObject(root, "cold");
     cJSON *reused = cJSON_AddArrayToObject(root, "reused");

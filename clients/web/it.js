@@ -36,6 +36,12 @@ export const values = {
   bolometric: 'bolometrica',
   visible: 'visibile',
   grid: 'reticolo',
+  stars: 'stelle inventate',
+  catalogue: 'stelle di Hipparcos',
+  galactic: 'galattica',
+  equatorial: 'equatoriale',
+  sgra: 'verso Sgr A*',
+  m87: 'verso M87',
   particles: 'particelle',
   'novikov-thorne': 'Novikov–Thorne',
   'shakura-sunyaev': 'Shakura–Sunyaev',
@@ -170,8 +176,20 @@ export const fields = {
   'spots.size': ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
   'spots.index': ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
   'spots.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
-  'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla, o un reticolo celeste che mostra la lente'],
-  'sky.brightness': ['Luminosità', 'Luminosità del cielo in unità della massima brillanza del disco a g = 1'],
+  'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla; un reticolo celeste che mostra la lente; stelle e una Via Lattea inventate; o le stelle del catalogo Hipparcos su quella Via Lattea'],
+  'sky.brightness': [
+    'Luminosità',
+    'Luminosità del cielo in unità della massima brillanza del disco a g = 1: del reticolo; di 21 magnitudini per secondo d’arco quadrato, con cui stelle e Via Lattea tengono il loro vero rapporto',
+  ],
+  'sky.milky_way': ['Via Lattea', 'Luminosità della Via Lattea rispetto alla propria; 0: solo stelle'],
+  'sky.limit_mag': ['Magnitudine limite', 'Le stelle più deboli sono tralasciate'],
+  'sky.seed': ['Seme', 'Un altro numero, un altro cielo inventato'],
+  'sky.orientation': [
+    'Orientamento',
+    'galattica, equatoriale: l’asse del buco punta a quel polo del cielo, e l’azimut 0 alla longitudine 0; Sgr A*, M87: dall’azimut 0 il buco sta davanti a quello, come visto dalla Terra, con il polo galattico o celeste in alto',
+  ],
+  'sky.turn_deg': ['Rotazione', 'Il cielo è girato di tanto attorno all’asse del buco, come da camera.azimuth_deg'],
+  'sky.tilt_deg': ['Inclinazione', 'e, dopo, attorno all’asse orizzontale dell’immagine vista dall’azimut 0'],
   'sky.grid_deg': ['Passo del reticolo', 'Spaziatura del reticolo celeste'],
   'image.critical_factor': [
     'Fattore sulla curva critica',
@@ -262,6 +280,7 @@ export const presets = {
   'living-disk':
     'Un disco di 300 000 particelle sulle loro orbite, con la lente in ogni ordine d’immagine; in una sessione dal vivo girano',
   gas: 'Un disco di gas turbolento, denso dov’è brillante e trasparente dov’è fioco; in una sessione gira',
+  'milky-way': 'Le stelle del catalogo Hipparcos e una Via Lattea piegate da un buco senza disco, davanti al centro della Galassia; dalla distanza di 40 M',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',
@@ -401,6 +420,8 @@ export const sentences = {
   'Disk of particles': 'Disco di particelle',
   'Hot spot': 'Macchia calda',
   'A celestial grid behind.': 'Dietro, un reticolo celeste.',
+  'Stars and a Milky Way behind.': 'Dietro, stelle e una Via Lattea.',
+  'The stars of the Hipparcos catalogue and a Milky Way behind.': 'Dietro, le stelle del catalogo Hipparcos e una Via Lattea.',
   'disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge':
     'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',
   'disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light':
@@ -451,6 +472,18 @@ export const sentences = {
     'oscillazione smorzata: un’illustrazione: di un buco percosso oscilla la metrica; qui solo la luce degli ordini da 1 in su, tutta al tempo dell’immagine',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
+  'sky: stars are made up, as many of each magnitude as there are in truth': 'cielo: le stelle sono inventate, tante di ogni magnitudine quante ce ne sono davvero',
+  'sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those that it lacks':
+    'cielo: stelle del catalogo Hipparcos, tutte all’infinito; quasi completo solo fino alla magnitudine 8, e senza quelle che gli mancano',
+  'sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over some 1.2 pixels':
+    'cielo: le stelle brillano come corpi neri della temperatura che il loro colore indica, e ogni immagine è sparsa su circa 1,2 pixel',
+  'sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out, and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky':
+    'cielo: sono tralasciate le immagini di stelle che illuminerebbero il loro pixel per meno di 0,03 di sky.brightness, e quelle accanto alla curva critica, in pixel i cui raggi stanno per più di 0,15 rad di cielo',
+  'sky: images of stars are cut at the edges of the bands that a picture of this size is made in':
+    'cielo: le immagini delle stelle sono tagliate ai bordi delle fasce in cui un’immagine di queste dimensioni è fatta',
+  'sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky':
+    'cielo: la luce fra le stelle è una Via Lattea inventata; nessun suo luogo è un luogo del cielo',
+  'sky: the light between the stars is shifted as that of black bodies of 5600 K': 'cielo: la luce fra le stelle è spostata come quella di corpi neri di 5600 K',
   'post: a film-like tone curve; pixel values are not proportional to radiance':
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
   "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge":

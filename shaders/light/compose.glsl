@@ -6,8 +6,8 @@
 /* One place on a ray. ago: how long before that which shows the scene's time its light left it; energy, momentum, q: E, L and Carter's Q,
  * by the energy that the observer measures; footprint, shape: of this ray there, 0 where no emitter needs it (shared/lens.h). */
 struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint, shape; uint order; };
-/* Where it ends, if it escapes; its footprint in radians. */
-struct kd_end { float u, phi, footprint; };
+/* Where it ends, if it escapes; its footprint in radians; its energy by that which the observer measures; its pixel in the band. */
+struct kd_end { float u, phi, footprint, energy; uint pixel; };
 /* What one emitter adds at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
 struct kd_glow { vec3 light; float alpha, apart; };
 /* A ray on its way: the light so far, and what all in front lets pass. */
@@ -19,6 +19,7 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_NO_EMITTER_(number, name)
 
 #define KD_EMIT_CODE
+#define KD_EMIT_END_CODE
 #include "shared/emitters.h"
 
 /* Whether anything is to be seen at crossings, and whether the luminance of some of it is kept apart. */

@@ -21,21 +21,7 @@ layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) }
 /* What is the same for all invocations, read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
-layout(set = 0, binding = 2) uniform textureBuffer tables;
-/* The row of `tables` that each table begins at: counted here, which compilers finish before anything runs. */
-#define KD_T(table, rows) uint table;
-struct kd_table_places { KD_EMIT_TABLES };
-#undef KD_T
-#define KD_T(table, rows) at.table = end; end += rows;
-kd_table_places kd_tables()
-{
-    kd_table_places at;
-    uint end = 0u;
-    KD_EMIT_TABLES
-    return at;
-}
-/* The row of a table, by the table's name. */
-#define kd_table_row(table, row) texelFetch(tables, int(kd_tables().table + (row)))
+#include "light/tables.glsl"
 #define KD_B(number, type, member) layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { type member[]; };
 KD_EMIT_BUFFERS
 #define KD_CAMERA_BINDING 4

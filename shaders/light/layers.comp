@@ -68,7 +68,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 }
 
 /* Luminance of a ray: of all that it sees, or of one order, as it arrives. */
-float light(uvec2 place, uint at)
+float light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -86,7 +86,7 @@ float light(uvec2 place, uint at)
         float fate = quantity(KD_LENS_FATE, at);
         given_up = given_up || fate == KD_FATE_UNDECIDED;
         if (fate == KD_FATE_ESCAPED)
-            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at)));
+            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e, pixel));
     }
     return given_up ? KD_NOTHING : dot(beam.light, vec3(0.2126, 0.7152, 0.0722));
 }
@@ -119,7 +119,7 @@ float of_crossing(uvec2 place, uint at)
 float of_end(uint at)
 {
     float fate = quantity(KD_LENS_FATE, at);
-    kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at));
+    kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), 1.0, 0u);
     KD_LAYERS(NOT_LIGHT_, NOT_, VALUE_)
     return KD_NOTHING;
 }
@@ -137,12 +137,13 @@ void main()
         px = pixel.x;
         py = pixel.y;
     }
+    uint o = (py - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + px;
     float value = 0.0;
     if (OF_LIGHT) {
         const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
         for (uint i = 0; i < rays; i++) {
             uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
-            value += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x);
+            value += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
         }
         value *= 1.0 / float(rays);
     } else {
@@ -150,7 +151,6 @@ void main()
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);
     }
-    uint o = (py - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + px;
     uint bits = floatBitsToUint(value);
     layer[o] = kd_is_finite(value) || bits == KD_INFINITE_BITS ? bits : KD_NOTHING_BITS;
 }

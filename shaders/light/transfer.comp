@@ -28,19 +28,19 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 const bool ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) * (QUANTITIES & KD_LENS_FATE) != 0u;
 
 /* What lies behind all crossings. */
-vec3 background(uint at)
+vec3 background(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     float fate = ENDS ? quantity(KD_LENS_FATE, at) : KD_FATE_CAPTURED;
     if (fate == KD_FATE_UNDECIDED)
         kd_beam_given_up(beam);
     if (fate == KD_FATE_ESCAPED)
-        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at)));
+        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), kd_camera_ray(place.x, place.y).e, pixel));
     return beam.light;
 }
 
 /* One ray, light of its end included. */
-kd_beam follow(uvec2 place, uint at)
+kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     for (uint n = 0; KD_GLOWS && n < ORDERS; n++) {
@@ -52,7 +52,7 @@ kd_beam follow(uvec2 place, uint at)
             break;
     }
     if (ENDS)
-        beam.light += beam.through * background(at);
+        beam.light += beam.through * background(place, at, pixel);
     return beam;
 }
 
@@ -130,7 +130,7 @@ void main()
     const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
     for (uint i = 0; i < rays; i++) {
         uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
-        kd_beam beam = follow(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x);
+        kd_beam beam = follow(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, light_at(px, py));
         sum += beam.light;
         apart += beam.apart;
     }

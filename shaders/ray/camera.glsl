@@ -1,5 +1,6 @@
 /* The camera, the rows at hand, and from a ray's place in the picture to its constants of motion. Needs KD_CAMERA_BINDING and the
- * specialisation constant SIGHT (KD_SIGHT_). */
+ * specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the rows, for kernels with push constants of their own, which read
+ * `cam` themselves. */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
 
@@ -10,18 +11,21 @@ const bool FINITE = SIGHT != KD_SIGHT_PLANE; /* the observer is at a finite radi
 #define F(name) float name;
 #define U(name) uint name;
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
-struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(set = 0, binding = KD_CAMERA_BINDING, std140) uniform Camera { kd_camera_block camera_; };
+kd_camera_block cam;
+
+#ifndef KD_CAMERA_ONLY
+struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
 /* A kernel reads both before its first branch: behind one lavapipe reads them anew for each lane and each use. */
-kd_camera_block cam;
 kd_slice slice;
 void kd_camera_read()
 {
     cam = camera_;
     slice = slice_;
 }
+#endif
 
 /* What a direction has of c0, and (x, y) of cx and cy. */
 float kd_camera_ahead(inout float x, inout float y)

@@ -41,6 +41,7 @@
  * themselves. There is room for that of one. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_APART 32u
+#define KD_TRAIT_POINTS 0x80000000u /* it has points of light, which a pass of their own spreads over pixels (comp/star_images.comp) */
 
 #endif
 #include "emit/frame.glsl"

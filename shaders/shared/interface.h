@@ -50,6 +50,20 @@
     U(list)                 /* where the listed pixels are */
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than all that is */
 
+/* Of star_search.comp and star_images.comp. Rows are those of rays that the buffer holds. */
+#define KD_STARS_FIELDS_(F, U)                                                                                 \
+    U(width)                /* rays a row */                                                                   \
+    U(rows)                 /* all of them */                                                                  \
+    U(first)                /* the first that is wanted */                                                     \
+    U(stride)               /* rays from plane to plane */                                                     \
+    U(row0)                 /* row of the picture's rays that the first of the buffer is */                    \
+    U(room)                 /* pairs of a ray and a star that there is room for */                             \
+    U(stars)                /* places in their list: their temperatures lie behind directions and fluxes */ \
+    U(pixels_y)             /* rows of pixels that light is written to */                                      \
+    U(up)                   /* added to rows of pixels of the buffer, as a 32-bit integer of either sign: those of the light */
+#define KD_STAR_LEAST 0.03  /* of sky.brightness: images that brighten their pixel by less are left out */
+#define KD_STAR_PATCH 0.15  /* radians that a ray may stand for where images of stars are sought */
+
 /* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
 #define KD_GUIDE_FIELDS_(F, U)                                                                                 \
     U(phi) U(radial) U(vertical)                                                                               \

@@ -132,9 +132,20 @@
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
-         "what lies at infinity: nothing, or a celestial grid that shows the lensing", "none|grid")                  \
-    REAL(sky, brightness, MODEL, FRONT, 0.2, 0.0, 100.0, "1", "brightness of the sky in units of the disk's brightest surface brightness at g = 1") \
-    REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")
+         "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; or the stars of the " \
+         "Hipparcos catalogue over that Milky Way", "none|grid|stars|catalogue")                                     \
+    REAL(sky, brightness, MODEL, FRONT, 0.2, 0.0, 100.0, "1",                                                        \
+         "brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21 magnitudes a square arcsecond, " \
+         "by which stars and the Milky Way keep their true ratio")                                                   \
+    REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")                    \
+    REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", "brightness of the Milky Way over its own; 0: stars alone") \
+    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "stars fainter than this are left out")        \
+    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, another sky that is made up")                \
+    ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC,                                                            \
+         "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: from azimuth 0 the hole " \
+         "stands before that one, as seen from the Earth, with the galactic or the celestial pole above", "galactic|equatorial|sgra|m87") \
+    REAL(sky, turn_deg, MODEL, REST, 0.0, -360.0, 360.0, "degrees", "the sky is turned about the hole's axis by so much, as by camera.azimuth_deg") \
+    REAL(sky, tilt_deg, MODEL, REST, 0.0, -180.0, 180.0, "degrees", "and, after that, about the horizontal axis of the picture from azimuth 0")
 
 #define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture")                                 \
@@ -267,7 +278,10 @@
     SPAN("disk.gas.seed", 0, 1000)                                                                                   \
     SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot")                                             \
     SWITCH("sky.model")                                                                                              \
-    SPAN("sky.brightness", 0, 5)                                                                                     \
+    SPAN("sky.brightness", 0, 1)                                                                                     \
+    WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
+    SPAN("sky.milky_way", 0, 4)                                                                                      \
+    SPAN("sky.seed", 0, 1000)                                                                                        \
     SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0)                                                       \
     SPAN("style.beam_uas", 0, 50)                                                                                    \
     WITH("style.colour_bar", "palette", KD_PALETTE_HEAT)                                                             \
@@ -284,7 +298,8 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
-enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID };
+enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE };
+enum kd_sky_orientation { KD_SKY_GALACTIC, KD_SKY_EQUATORIAL, KD_SKY_SGRA, KD_SKY_M87 };
 enum { KD_STYLE_NONE };
 enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_NEUTRAL };
 enum kd_palette { KD_PALETTE_COLOUR, KD_PALETTE_HEAT };

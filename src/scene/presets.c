@@ -72,6 +72,13 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"inclination_deg\":78,\"field_m\":44},"
       "\"disk\":{\"outer\":20,\"emission_opacity\":10,\"peak_temperature_k\":5200,\"gas\":{\"amplitude\":0.8}},"
       "\"motion\":{\"time_rate\":6}}" },
+    { "milky-way", "The stars of the Hipparcos catalogue and a Milky Way, bent by a hole without a disk, before the middle of the Galaxy; from 40 M",
+      "{\"spacetime\":{\"spin\":0.9},"
+      "\"camera\":{\"r\":40,\"inclination_deg\":85,\"fov_deg\":70},"
+      "\"disk\":{\"model\":\"none\"},"
+      "\"sky\":{\"model\":\"catalogue\",\"orientation\":\"sgra\"},"
+      "\"style\":{\"exposure\":0.3,\"bloom\":0.4},"
+      "\"motion\":{\"azimuth_rate_deg\":1}}" },
     { "gargantua-gas", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":34},"

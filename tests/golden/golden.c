@@ -57,6 +57,13 @@ static const struct shot {
     { "grid", NULL,
       "{\"camera\":{\"field_m\":40,\"inclination_deg\":60},\"disk\":{\"model\":\"none\"},"
       "\"sky\":{\"model\":\"grid\",\"brightness\":0.7},\"style\":{\"exposure\":0}," SIZE "}" },
+    { "milky-way", "milky-way", "{" SIZE "}" },
+    { "stars", NULL,
+      "{\"camera\":{\"field_m\":60,\"inclination_deg\":70},\"sky\":{\"model\":\"stars\",\"seed\":3,\"brightness\":0.03},\"style\":{\"exposure\":0.5}," SIZE "}" },
+    { "real-stars", NULL,
+      "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":6,\"observer\":\"zamo\",\"inclination_deg\":80,\"projection\":\"equirectangular\"},"
+      "\"disk\":{\"model\":\"none\",\"band\":\"visible\"},\"sky\":{\"model\":\"catalogue\",\"milky_way\":0,\"limit_mag\":7,\"brightness\":0.02,\"orientation\":\"equatorial\"},"
+      "\"style\":{\"exposure\":1}," SIZE "}" },
     { "translucent", NULL, "{\"disk\":{\"opacity\":0.4},\"sky\":{\"model\":\"grid\"}," SIZE "}" },
     { "no-doppler", NULL, "{\"disk\":{\"doppler\":false,\"redshift\":false}," SIZE "}" },
     { "visible", NULL,

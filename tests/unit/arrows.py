@@ -24,7 +24,7 @@ MODULES = {
 }
 # Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
 FOLDERS = {
-    "render": ["view", "accuracy", "emit", "plan", "device", "rays", "lens", "frame", "output", "live", "selftest"],
+    "render": ["view", "accuracy", "sky", "emit", "plan", "device", "rays", "lens", "frame", "output", "live", "selftest"],
     "server": ["http", "asset", "render", "session", "job", "openapi", "answers"],
 }
 # Headers of other projects, and who may include them.
@@ -42,7 +42,7 @@ FOREIGN = {
     "argp.h": {"cli"},
 }
 # Made from shaders/, which has no other way to be included.
-SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|layers|lens|spec)\.h)$")
+SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|faces|layers|lens|spec)\.h)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 

@@ -79,6 +79,9 @@ static void what_is_off_says_and_needs_nothing(void **state)
 static const char BASE[] = "{\"disk\": {\"model\": \"particles\", \"slow_light\": true, \"band\": \"visible\"}, \"sky\": {\"model\": \"grid\"}, "
                            "\"spots\": [{\"brightness\": 1}], \"style\": {\"ringdown\": 0.5}, \"time\": 7, \"camera\": {\"r\": 40}}";
 
+static const char STARS[] = "{\"disk\": {\"model\": \"none\"}, \"sky\": {\"model\": \"stars\", \"orientation\": \"sgra\", \"turn_deg\": 3, \"tilt_deg\": 4}, "
+                            "\"camera\": {\"r\": 40}}";
+
 static const char GAS[] = "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
                           "\"camera\": {\"r\": 40}}";
 
@@ -165,6 +168,7 @@ static void numbers_follow_each_field(void **state)
     (void)state;
     assert_true(follow_each_field(BASE) > 40); /* the others are words, or tied to a third field */
     assert_true(follow_each_field(GAS) > 40);
+    assert_true(follow_each_field(STARS) > 40);
 }
 
 /* Gas takes the place of the smooth disk, and what is off of it is not looked for. */
@@ -241,6 +245,35 @@ static void what_shines_is_told(void **state)
     kd_buffer_finish(&json);
 }
 
+/* Stars are a pass of their own, the light between them none; without either there is no sky to speak of, but for its blackness. */
+static void skies(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_scene_defaults(&scene);
+    assert_false(kd_emit_points(&scene));
+    scene.sky.model = KD_SKY_GRID;
+    assert_true(!kd_emit_points(&scene) && !kd_emit_device_bytes(&scene) && says(&scene, "sky: a drawn") && !says(&scene, "sky: the light between"));
+    scene.sky.model = KD_SKY_STARS;
+    assert_true(kd_emit_points(&scene) && kd_emit_needs(&scene) == (KD_LENS_W | KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT));
+    assert_true(says(&scene, "sky: stars are made up") && says(&scene, "sky: the light between the stars is a Milky Way") && !says(&scene, "sky: a drawn"));
+    assert_false(says(&scene, "sky: the light between the stars is shifted"));
+    scene.camera.r = 40;
+    assert_true(says(&scene, "sky: the light between the stars is shifted"));
+    uint64_t bytes = kd_emit_device_bytes(&scene);
+    scene.sky.milky_way = 0;
+    scene.sky.model = KD_SKY_CATALOGUE;
+    assert_true(says(&scene, "sky: stars of the Hipparcos") && !says(&scene, "sky: the light between") && kd_emit_device_bytes(&scene) < bytes / 2);
+    kd_emit_traits(&scene, traits);
+    uint32_t bolometric = traits[KD_EMITTER_sky];
+    scene.disk.band = KD_BAND_VISIBLE;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_sky] != bolometric);
+    scene.sky.brightness = 0;
+    assert_true(!kd_emit_points(&scene) && !kd_emit_device_bytes(&scene));
+}
+
 /* Where so few particles fall that there are none, nothing does. */
 static void none_of_a_thousand(void **state)
 {
@@ -268,6 +301,7 @@ int main(void)
         cmocka_unit_test(numbers_follow_the_scene),
         cmocka_unit_test(numbers_follow_each_field),
         cmocka_unit_test(gas_replaces_the_disk),
+        cmocka_unit_test(skies),
         cmocka_unit_test(none_of_a_thousand),
         cmocka_unit_test(traits_are_listed),
         cmocka_unit_test(what_shines_is_told),

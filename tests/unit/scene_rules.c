@@ -229,7 +229,7 @@ static void presets_are_valid(void **state)
     (void)state;
     static const char *const names[] = { "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
-                                         "hot-spot",      "gas",       "gargantua-gas" };
+                                         "hot-spot",      "gas",       "milky-way", "gargantua-gas" };
     char hashes[16][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {

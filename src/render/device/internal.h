@@ -6,6 +6,7 @@
 #include "render/device/kernels.h"
 #include "render/device/memory_share.h"
 #include "render/device/renderer.h"
+#include "render/device/skies.h"
 #include "render/device/store.h"
 #include "render/emit/emitter.h"
 
@@ -21,6 +22,7 @@ struct kd_particles {
 /* Buffers that emitters have of their own (prepare.h). */
 struct kd_prepared {
     struct kd_particles particles;
+    struct kd_sky_buffers sky;
 };
 
 /* What one kd_render_aside works in. Its lens maps are kept for whoever can use them, until their memory is needed. */
@@ -41,6 +43,8 @@ struct kd_renderer {
     struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
     struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
+    uint32_t *milky_way; /* words of the panorama that was last made up, for whoever needs it; NULL: none */
+    int32_t milky_way_seed;
     pthread_mutex_t lock; /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
     struct kd_memory_watch memory;

@@ -41,6 +41,9 @@
 #include "rays_kerr_schild_f64_trace.spv.h"
 #include "rays_kerr_schild_trace.spv.h"
 #include "rays_trace.spv.h"
+#include "star_images.spv.h"
+#include "star_search.spv.h"
+#include "star_search_texels.spv.h"
 #include "transfer.spv.h"
 
 #include <string.h>
@@ -68,6 +71,12 @@ static const struct {
                                       3, 8 },
     [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
+    [KD_KERNEL_STAR_SEARCH] = { "star search", kd_spv_star_search, sizeof kd_spv_star_search, 6, sizeof(struct kd_stars_push),
+                                { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_STAR_SEARCH_TEXELS] = { "star search, texels", kd_spv_star_search_texels, sizeof kd_spv_star_search_texels, 6,
+                                       sizeof(struct kd_stars_push), { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_STAR_IMAGES] = { "star images", kd_spv_star_images, sizeof kd_spv_star_images, 7, sizeof(struct kd_stars_push),
+                                { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),

@@ -2,9 +2,11 @@
 
 #include "render/device/deposit.h"
 #include "render/device/internal.h"
+#include "render/device/skies.h"
 
 const struct kd_preparation *const kd_preparations[KD_EMITTER_COUNT] = {
     [KD_EMITTER_particles] = &kd_prepare_particles,
+    [KD_EMITTER_sky] = &kd_prepare_sky,
 };
 
 enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene, const struct kd_plan *plan,

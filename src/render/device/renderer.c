@@ -114,6 +114,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     pthread_mutex_destroy(&renderer->lock);
     free(renderer->accuracy);
     free(renderer->emit);
+    free(renderer->milky_way);
     free(renderer);
 }
 

@@ -205,6 +205,12 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
         KD_TRY(kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error));
         KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error));
     }
+    if (!plan->points)
+        bands_finish(&store->star_light, vk);
+    if (plan->points) {
+        KD_TRY(bands_init(&store->star_light, vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error));
+        KD_TRY(kd_store_at_least(vk, &store->star_pairs, kd_plan_pair_bytes(), KD_VK_DEVICE, "pairs of rays and stars", error));
+    }
 done:
     return status;
 }
@@ -269,6 +275,7 @@ uint64_t kd_store_bytes(const struct kd_store *store)
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
         sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
     sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) + bytes_of(store->palette);
+    sum += bytes_of_bands(&store->star_light) + bytes_of(store->star_pairs);
     return sum + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
 }
 
@@ -300,5 +307,7 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->bloom);
     kd_vk_buffer_destroy(store->vk, store->light);
     kd_vk_buffer_destroy(store->vk, store->light_host);
+    bands_finish(&store->star_light, store->vk);
+    kd_vk_buffer_destroy(store->vk, store->star_pairs);
     kd_vk_buffer_destroy(store->vk, store->undecided);
 }

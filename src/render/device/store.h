@@ -49,6 +49,8 @@ struct kd_store {
     struct kd_bands beamed;                /* radiance as a telescope's beam sees it; none: the plan has no beam */
     struct kd_vk_buffer *beam_lines, *beam_grids; /* rows of cells, and grids of them, on the way there; NULL: never was any */
     struct kd_vk_buffer *palette;          /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never was any */
+    struct kd_bands star_light;            /* of the pixels of a band, KD_STAR_LIGHT words each; none: no frame had points of light */
+    struct kd_vk_buffer *star_pairs;       /* rays, and stars that they may see */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
 };
 

@@ -64,14 +64,17 @@ bool kd_emit_at_ends(const struct kd_scene *scene)
     return any(scene, AT_END);
 }
 
-bool kd_emit_apart(const struct kd_scene *scene)
+static uint32_t all_traits(const struct kd_scene *scene)
 {
     uint32_t traits[KD_EMITTER_COUNT], all = 0;
     kd_emit_traits(scene, traits);
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         all |= traits[i];
-    return all & KD_TRAIT_APART;
+    return all;
 }
+
+bool kd_emit_apart(const struct kd_scene *scene) { return all_traits(scene) & KD_TRAIT_APART; }
+bool kd_emit_points(const struct kd_scene *scene) { return all_traits(scene) & KD_TRAIT_POINTS; }
 
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene)
 {

@@ -38,8 +38,8 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies; NULL: never */
-    /* Buffers of its own on the device, and invocations of the pass that fills them before light is: it has the emitter's name in
-     * plan/pass.h, and its functions in device/prepare.h. NULL, both: none. */
+    /* Buffers of its own on the device, whose functions are in device/prepare.h, and invocations of the pass that fills them before light is,
+     * which has the emitter's name in plan/pass.h. NULL: none; the second alone: the host fills them. */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */
@@ -67,11 +67,12 @@ bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter)
 /* Makes the words of the specialisation constants, 0 for what the scene has not. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
 /* Say what the lens map must hold; whether anything shines at crossings of the plane; whether anything does where rays end; whether the
- * luminance of some of it is kept apart. */
+ * luminance of some of it is kept apart; whether there are points of light. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
+bool kd_emit_points(const struct kd_scene *scene);
 /* Counts the bytes of all buffers that the scene's emitters have on the device. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass there; 0: it has none, or the scene has not the emitter. */

@@ -53,6 +53,10 @@ static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job
 {
     return j->plan->beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
 }
+static inline struct kd_vk_buffer *kd_frame_band_lens(const struct kd_frame_job *j, uint32_t band)
+{
+    return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
+}
 static inline uint32_t kd_frame_groups(uint64_t items) { return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE); }
 
 /* Render by job's scene and plan, into *out. */
@@ -74,6 +78,9 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
+/* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels. Its map
+ * must be whole. */
+enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 

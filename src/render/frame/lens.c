@@ -12,11 +12,6 @@
 
 #define SLICE_MS 40.0 /* of device time a submission: short enough for progress, fairness and a driver's watchdog */
 
-static struct kd_vk_buffer *lens_buffer(const struct kd_frame_job *j, uint32_t band)
-{
-    return j->lens->bands.buffers[j->plan->cacheable ? band : 0];
-}
-
 static const struct kd_critical_lattice on_grid; /* none */
 
 /* Kernels are looked up for each slice: while others had the device theirs may have taken their places. */
@@ -118,7 +113,7 @@ static enum kd_status list_slice(struct kd_frame_job *j, const struct slice *s)
     const struct kd_plan *p = j->plan;
     uint64_t width = (uint64_t)p->width * p->side;
     const struct kd_lens_rows rows = {
-        .first = s->first * p->side, .count = s->count * p->side, .to = lens_buffer(j, s->band),
+        .first = s->first * p->side, .count = s->count * p->side, .to = kd_frame_band_lens(j, s->band),
         .offset = (s->first - kd_frame_band_first(j, s->band)) * p->side * width, .stride = width * p->band_rows * p->side,
     };
     return list_rays(j, &rows);
@@ -141,7 +136,7 @@ static enum kd_status trace_slice(struct kd_frame_job *j, const struct slice *s,
 {
     if (j->plan->path == KD_LENS_LISTED)
         return list_slice(j, s);
-    struct kd_vk_dispatch d = trace_dispatch(j, pipeline, lens_buffer(j, s->band), KD_CAMERA_GRID);
+    struct kd_vk_dispatch d = trace_dispatch(j, pipeline, kd_frame_band_lens(j, s->band), KD_CAMERA_GRID);
     return record(j, s, &d, RAYS);
 }
 
@@ -161,6 +156,7 @@ static struct kd_vk_dispatch transfer_dispatch(const struct kd_frame_job *j, con
         { 0 },
     };
     kd_prepared_buffers(j->prepared, j->plan, own);
+    own[KD_OWN_point_light] = j->plan->points ? j->store->star_light.buffers[band] : NULL; /* stars.c has made it, band by band */
     for (int i = 0; i < KD_OWN_COUNT; i++) /* something must be bound where nothing is read */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
@@ -187,7 +183,7 @@ static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice
     const struct kd_plan *p = j->plan;
     const uint32_t row0 = s->first - kd_frame_band_first(j, s->band), width = p->width * p->side;
     const struct kd_footprint_area area = {
-        .lens = lens_buffer(j, s->band),
+        .lens = kd_frame_band_lens(j, s->band),
         .push = { .width = width, .rows = kd_frame_band_rows(j, s->band) * p->side, .first = row0 * p->side,
                   .end = (row0 + s->count) * p->side, .stride = width * p->band_rows * p->side },
     };
@@ -229,7 +225,7 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
         status = transfer_kernel(j, &on_grid, makes, &transfer);
         if (status)
             break;
-        struct kd_vk_dispatch d = transfer_dispatch(j, transfer, lens_buffer(j, s->band), s->band, KD_CAMERA_GRID, makes);
+        struct kd_vk_dispatch d = transfer_dispatch(j, transfer, kd_frame_band_lens(j, s->band), s->band, KD_CAMERA_GRID, makes);
         status = record(j, s, &d, makes);
     }
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
@@ -405,18 +401,52 @@ static enum kd_status forget_undecided(struct kd_frame_job *j)
     return j->plan->path != KD_LENS_LISTED ? kd_vk_fill(j->r->vk, "trace", j->store->undecided, 0, 16, 0, j->error) : KD_OK;
 }
 
+/* The map of a band alone. */
+static enum kd_status map_band(struct kd_frame_job *j, uint32_t band, double ns)
+{
+    const struct kd_plan *p = j->plan;
+    uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
+    uint32_t step = slice_rows(ns * p->width * p->side * p->side, rows);
+    enum kd_status status = KD_OK;
+    for (uint32_t row = 0; row < rows; row += step) {
+        const struct slice s = { band, first + row, rows - row < step ? rows - row : step }, whole = complete(j, &s);
+        KD_TRY(map_slice(j, &s, &whole));
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+        KD_TRY(kd_frame_report(j, s.count));
+    }
+done:
+    return status;
+}
+
+/* Points of light need the whole map of a band before its light, and of the bands next to it where all are kept. */
+static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
+{
+    const struct kd_plan *p = j->plan;
+    double ns = transfer_ns + (needed ? p->trace_ns : 0);
+    enum kd_status status = KD_OK;
+    for (uint32_t band = 0; p->points && needed && p->cacheable && band < p->bands; band++)
+        KD_TRY(map_band(j, band, p->trace_ns));
+    for (uint32_t band = 0; band < p->bands; band++) {
+        if (p->points && needed && !p->cacheable)
+            KD_TRY(map_band(j, band, p->trace_ns));
+        if (p->points)
+            KD_TRY(kd_frame_stars(j, band));
+        KD_TRY(light_band(j, band, needed && !p->points, p->points ? transfer_ns : ns));
+    }
+done:
+    return status;
+}
+
 enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
 {
     struct kd_capacity c;
     kd_renderer_capacity(j->r, &c);
     const struct kd_plan *p = j->plan;
     bool needed = !reused && p->planes;
-    double ns = c.ns[KD_NS_SAMPLE_TRANSFER] + (needed ? p->trace_ns : 0);
     enum kd_status status = KD_OK;
     if (needed)
         KD_TRY(forget_undecided(j));
-    for (uint32_t band = 0; band < p->bands; band++)
-        KD_TRY(light_band(j, band, needed, ns));
+    KD_TRY(light_bands(j, needed, c.ns[KD_NS_SAMPLE_TRANSFER]));
     if (p->critical)
         KD_TRY(light_at_curve(j, needed, c.ns[KD_NS_SAMPLE_TRANSFER]));
 done:
@@ -449,7 +479,7 @@ static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd
     uint64_t first = row * kd_frame_band_first(j, band), rays = row * kd_frame_band_rows(j, band);
     enum kd_status status = KD_OK;
     for (uint32_t plane = 0; plane < p->planes; plane++) {
-        KD_TRY(kd_vk_copy(vk, "readback", host, 0, lens_buffer(j, band), 4 * plane * stride, 4 * rays, j->error));
+        KD_TRY(kd_vk_copy(vk, "readback", host, 0, kd_frame_band_lens(j, band), 4 * plane * stride, 4 * rays, j->error));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
         memcpy(planes + plane * p->rays + first, kd_vk_buffer_map(host), 4 * rays);

@@ -29,6 +29,7 @@ WHEN(beam, plan->beam.cell)
 WHEN(near_beam, plan->beam.cell && isfinite(scene->camera.r))
 WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_plan_is_map(plan))
 WHEN(maps, plan->n_layers > 0)
+WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
 WHEN(coloured, kd_plan_is_map(plan))
 WHEN(projected, plan->ring)
 WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
@@ -50,6 +51,7 @@ static const struct sentence {
     { "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge", beam },
     { "post: a near observer's beam has the width at the hole's distance that it has from spacetime.distance_pc", near_beam },
     { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency", heat },
+    { "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
     { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
     { "layers: a picture of a map has false colours; NPY has its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
@@ -187,6 +189,8 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     uint64_t row_layers = 4ull * plan->n_layers * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     widest = row_layers > widest ? row_layers : widest;
+    uint64_t row_points = plan->points ? 24ull * plan->width : 0;
+    widest = row_points > widest ? row_points : widest;
     uint64_t rows = (buffer_bytes(c) - 64 - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
     if (rows < 1)
         return kd_error_set(error, KD_ETOOBIG, "one row of the picture needs %llu bytes, this device binds %llu at once",
@@ -202,6 +206,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->host_bytes = (row_out + row_layers + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
     uint64_t fixed = kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
                      plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
+                     row_points * plan->height + (plan->points ? kd_plan_pair_bytes() : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
     uint64_t one_band = row_lens * plan->band_rows + at_curve;
     return fits(plan, fixed, one_band, c, error);
@@ -347,6 +352,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);
+    plan.points = kd_emit_points(scene);
     plan.quantities = needs->quantities;
     plan.quantities |= plan.quantities & KD_LENS_SHAPE ? KD_LENS_FOOTPRINT : 0;
     plan.quantities |= plan.quantities & KD_LENS_FOOTPRINT ? KD_LENS_PHI : 0; /* differences of which */

@@ -57,6 +57,7 @@ struct kd_plan {
     } path;
     struct kd_setting setting;      /* engine, precision and steps of a half period (0: closed form) */
     uint32_t traits[KD_PLAN_EMITTERS]; /* of the emitters, 0 for those that the scene has not */
+    bool points;                    /* some emitter has points of light */
     bool apart;                     /* the luminance of some is kept beside the radiance */
     bool ends;                      /* some shine where rays end, and the lens map says where */
     struct kd_beam_grid beam;       /* of a telescope, that light is convolved with */
@@ -124,6 +125,11 @@ static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->r
 
 /* Of linear light, a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }
+
+/* Where points of light are spread: fixed-point numbers of a band of pixels; and pairs of a ray and a point of one slice (frame/stars.c). */
+#define KD_PLAN_PAIRS (1u << 18)
+static inline uint64_t kd_plan_star_bytes(const struct kd_plan *plan) { return 24ull * plan->width * plan->band_rows; }
+static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
 
 /* Of one layer, a band of pixels: a multiple of what a binding may begin at. */
 static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->width * plan->band_rows + 255) / 256 * 256; }

@@ -22,6 +22,7 @@ static inline double kd_lifted(double x) { return x != 0 && fabs(x) < KD_LEAST_F
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 struct kd_footprint_push { KD_FOOTPRINT_FIELDS_(F, U) };
+struct kd_stars_push { KD_STARS_FIELDS_(F, U) };
 struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
 struct kd_light_push { KD_LIGHT_FIELDS_(F, U) };
@@ -66,6 +67,7 @@ _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next came
 #define CHECK_RAYS(id, name, value) SPEC_CHECK(kd_spec_rays, id, name)
 #define CHECK_PARTICLES(id, name, value) SPEC_CHECK(kd_spec_particles, id, name)
 #define CHECK_PHOTOMETRY(id, name, value) SPEC_CHECK(kd_spec_photometry, id, name)
+#define CHECK_STARS(id, name, value) SPEC_CHECK(kd_spec_stars, id, name)
 #define CHECK_POST(id, name, value) SPEC_CHECK(kd_spec_post, id, name)
 #define CHECK_BRIGHT(id, name, value) SPEC_CHECK(kd_spec_bloom_bright, id, name)
 #define CHECK_GATHER(id, name, value) SPEC_CHECK(kd_spec_bloom_gather, id, name)
@@ -78,6 +80,7 @@ SPEC(kd_spec_footprint, KD_SPEC_FOOTPRINT, CHECK_FOOTPRINT, )
 SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT)];)
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
 SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
+SPEC(kd_spec_stars, KD_SPEC_STARS, CHECK_STARS, )
 SPEC(kd_spec_photometry, KD_SPEC_PHOTOMETRY, CHECK_PHOTOMETRY, )
 SPEC(kd_spec_bloom_bright, KD_SPEC_BLOOM_BRIGHT, CHECK_BRIGHT, )
 SPEC(kd_spec_bloom_gather, KD_SPEC_BLOOM_GATHER, CHECK_GATHER, )
@@ -95,6 +98,7 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, 
 #undef CHECK_RAYS
 #undef CHECK_PARTICLES
 #undef CHECK_PHOTOMETRY
+#undef CHECK_STARS
 #undef CHECK_POST
 #undef CHECK_BEAM
 #undef CHECK_BEAM_ALONG

@@ -1,0 +1,191 @@
+/* Images of stars. Of each pair of star_search.comp: the places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map
+ * takes to the star; and there the star's light, magnified, over the nearest pixels.
+ *
+ * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic projection): coefficients by
+ * the eight rays round it, least squares for the first ones, second differences for the others; beside rays that do not escape, and at edges,
+ * by those that there are, to first order. It has its roots by Newton's method from four starts, each counted once: up to four where a caustic
+ * passes.
+ *
+ * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F over the solid angle of
+ * the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the picture's own drops out. It is spread
+ * as a Gaussian of KD_STAR_SIGMA pixels over 4 x 4, whose weights add up to 1.
+ *
+ * Light is added up in 64-bit fixed point, so that the sum does not depend on the order. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
+#include "ray/kerr_ray.glsl"
+#include "ray/sky_map.glsl"
+layout(set = 0, binding = 3) readonly buffer Pairs { uint pairs[]; };
+layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
+#define KD_CAMERA_BINDING 5
+#define KD_CAMERA_ONLY
+#include "ray/camera.glsl"
+layout(set = 0, binding = 6) buffer PointLight { uint point_light[]; };
+
+#define KD_STAR_SIGMA 0.5
+#define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
+
+/* f(x, y) = a x + b y + aa x^2 + ab x y + bb y^2, in radians. */
+struct kd_patch { vec2 a, b, aa, ab, bb; bool there; };
+
+struct kd_chart { vec3 n, e1, e2; };
+
+struct kd_neighbour { vec2 f; bool there; };
+
+kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
+{
+    int px = int(x) + dx, py = int(y) + dy;
+    bool inside = px >= 0 && px < int(push.width) && py >= 0 && py < int(push.rows);
+    uint there = inside ? uint(py) * push.width + uint(px) : at;
+    vec3 n = kd_sky_from(there);
+    return kd_neighbour(vec2(dot(c.e1, n), dot(c.e2, n)), inside && kd_sky_escapes(there));
+}
+
+/* From one side alone, along an axis. */
+void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2 aa, inout bool there)
+{
+    bool both = before.there && after.there;
+    a = both ? 0.5 * (after.f - before.f) : after.there ? after.f : -before.f;
+    aa = both ? 0.5 * (after.f + before.f) : vec2(0.0);
+    there = there && (before.there || after.there);
+}
+
+/* Next to a caustic a patch is thin: what numbers of 32 bits have lost is much of its width, and so are terms of third order. There the first
+ * coefficients are those of the cubic that fits 7 x 7 rays best, in the mean of squares. */
+void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
+{
+    float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);
+    bool thin = abs(area) < KD_STAR_THIN * size, there = true;
+    vec2 a = vec2(0.0), b = vec2(0.0);
+    for (int i = 0; i < (thin ? 49 : 0); i++) {
+        int row = i / 7, dx = i - 7 * row - 3, dy = row - 3;
+        kd_neighbour n = neighbour(c, at, x, y, dx, dy);
+        float u = float(dx), v = float(dy);
+        there = there && n.there;
+        a += u * (0.04431217 - 0.00462963 * u * u - 0.00170068 * v * v) * n.f;
+        b += v * (0.04431217 - 0.00462963 * v * v - 0.00170068 * u * u) * n.f;
+    }
+    if (thin && there) {
+        o.a = a;
+        o.b = b;
+    }
+}
+
+kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
+{
+    kd_neighbour w = neighbour(c, at, x, y, -1, 0), e = neighbour(c, at, x, y, 1, 0), n = neighbour(c, at, x, y, 0, -1), s = neighbour(c, at, x, y, 0, 1);
+    kd_neighbour nw = neighbour(c, at, x, y, -1, -1), ne = neighbour(c, at, x, y, 1, -1), sw = neighbour(c, at, x, y, -1, 1), se = neighbour(c, at, x, y, 1, 1);
+    kd_patch o;
+    o.there = true;
+    o.ab = vec2(0.0);
+    one_sided(w, e, o.a, o.aa, o.there);
+    one_sided(n, s, o.b, o.bb, o.there);
+    if (w.there && e.there && n.there && s.there && nw.there && ne.there && sw.there && se.there) {
+        o.a = ((ne.f - nw.f) + (e.f - w.f) + (se.f - sw.f)) * (1.0 / 6.0);
+        o.b = ((sw.f - nw.f) + (s.f - n.f) + (se.f - ne.f)) * (1.0 / 6.0);
+        o.ab = 0.25 * (se.f - sw.f - ne.f + nw.f);
+        refine(c, at, x, y, o);
+    }
+    return o;
+}
+
+vec2 value(kd_patch m, vec2 p) { return p.x * (m.a + m.aa * p.x + m.ab * p.y) + p.y * (m.b + m.bb * p.y); }
+/* Columns: d/dx, d/dy. */
+mat2 derivative(kd_patch m, vec2 p) { return mat2(m.a + 2.0 * m.aa * p.x + m.ab * p.y, m.b + 2.0 * m.bb * p.y + m.ab * p.x); }
+float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
+
+/* A root near `p`; beyond all cells if there is none. */
+vec2 root(kd_patch m, vec2 q, vec2 p)
+{
+    vec2 step_ = vec2(0.0);
+    for (int k = 0; k < 6; k++) {
+        mat2 j = derivative(m, p);
+        float det = determinant_of(j);
+        vec2 f = q - value(m, p);
+        step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
+        float far = max(abs(step_.x), abs(step_.y));
+        p += far < 0.5 ? step_ : far < 1e9 ? step_ * (0.5 / far) : vec2(0.0);
+    }
+    bool good = max(abs(step_.x), abs(step_.y)) < 1e-3;
+    return good ? p : vec2(1e9);
+}
+
+void add(uint o, float light)
+{
+    float whole = floor(light * (KD_STAR_UNIT / 4294967296.0));
+    uint low = uint(light * KD_STAR_UNIT - whole * 4294967296.0), high = uint(whole);
+    uint was = atomicAdd(point_light[o], low);
+    high += was + low < was ? 1u : 0u;
+    if (high > 0u)
+        atomicAdd(point_light[o + 1u], high);
+}
+
+float weight(float d) { return exp(-d * d * (0.5 / (KD_STAR_SIGMA * KD_STAR_SIGMA))); }
+
+/* In pixels of the band. */
+void spread(vec2 place, vec3 light)
+{
+    vec2 base = floor(place) - 1.0, d = place - base;
+    vec4 wx = vec4(weight(d.x), weight(d.x - 1.0), weight(d.x - 2.0), weight(d.x - 3.0));
+    vec4 wy = vec4(weight(d.y), weight(d.y - 1.0), weight(d.y - 2.0), weight(d.y - 3.0));
+    wx /= wx.x + wx.y + wx.z + wx.w;
+    wy /= wy.x + wy.y + wy.z + wy.w;
+    int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++) {
+            int px = int(base.x) + c, py = int(base.y) + r + int(push.up);
+            if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
+                uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
+                vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : r == 2 ? wy.z : wy.w) * (c == 0 ? wx.x : c == 1 ? wx.y : c == 2 ? wx.z : wx.w) * light, vec3(1e9));
+                add(o, part.r);
+                add(o + 2u, part.g);
+                add(o + 4u, part.b);
+            }
+        }
+}
+
+/* Where two cells meet each has a share of the light, which goes from 0 to 1 over a fifth of a step: their maps put an image at slightly different
+ * places, and none is lost or counted twice. */
+float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
+
+void images(uint at, uint k)
+{
+    uint y = at / push.width, x = at - y * push.width;
+    kd_chart c;
+    c.n = kd_sky_from(at);
+    c.e1 = normalize(abs(c.n.z) < 0.9 ? vec3(-c.n.y, c.n.x, 0.0) : vec3(0.0, -c.n.z, c.n.y));
+    c.e2 = cross(c.n, c.e1);
+    vec3 star = kd_sky_from_galactic(vec3(stars[4u * k], stars[4u * k + 1u], stars[4u * k + 2u]));
+    vec2 q = vec2(dot(c.e1, star), dot(c.e2, star));
+    kd_patch m = patch_about(c, at, x, y);
+    float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
+    float g = FINITE ? 1.0 / kd_camera_ray(x, y + push.row0).e : 1.0;
+    vec3 flux = emission.sky.brightness * stars[4u * k + 3u] * kd_sky_shifted(stars[4u * push.stars + k], g, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
+    vec2 found[4];
+    uint fresh = 0u; /* bits of those that count */
+    for (int i = 0; i < 4; i++) {
+        vec2 p = root(m, q, vec2((i & 1) == 0 ? -0.3 : 0.3, i < 2 ? -0.3 : 0.3));
+        found[i] = p;
+        bool counts = m.there && share(p.x) * share(p.y) > 0.0;
+        for (int h = 0; h < i; h++)
+            counts = counts && distance(p, found[h]) > 0.02;
+        fresh |= counts ? 1u << i : 0u;
+    }
+    for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, for it alone skips work */
+        vec2 p = (fresh & 1u) != 0u ? found[0] : (fresh & 2u) != 0u ? found[1] : (fresh & 4u) != 0u ? found[2] : found[3];
+        float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
+        spread((vec2(x, y) + p + 0.5) / float(SIDE) - 0.5, flux * (share(p.x) * share(p.y) * cosine / (det * float(SIDE * SIDE))));
+    }
+}
+
+void main()
+{
+    kd_sky_map_read();
+    cam = camera_;
+    uint n = min(pairs[0], push.room), all = gl_NumWorkGroups.x * KD_GROUP_SIZE;
+    for (uint i = gl_GlobalInvocationID.x; i < n; i += all)
+        images(pairs[2u + 2u * i], pairs[3u + 2u * i]);
+}

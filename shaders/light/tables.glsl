@@ -1,0 +1,21 @@
+/* The tables of all emitters, at binding 2. Needs shared/emitters.h. */
+#ifndef KD_TABLES_GLSL
+#define KD_TABLES_GLSL
+
+layout(set = 0, binding = 2) uniform textureBuffer tables;
+/* The row of `tables` that each table begins at: counted here, which compilers finish before anything runs. */
+#define KD_T(table, rows) uint table;
+struct kd_table_places { KD_EMIT_TABLES };
+#undef KD_T
+#define KD_T(table, rows) at.table = end; end += rows;
+kd_table_places kd_tables()
+{
+    kd_table_places at;
+    uint end = 0u;
+    KD_EMIT_TABLES
+    return at;
+}
+/* The row of a table, by the table's name. */
+#define kd_table_row(table, row) texelFetch(tables, int(kd_tables().table + (row)))
+
+#endif

@@ -1,0 +1,49 @@
+/* What kernels share that look for stars in a lens map: the map, and numbers and tables of the emitters. Bindings 0, 1, 2. Needs the
+ * specialisation constants QUANTITIES and ORDERS. */
+#ifndef KD_SKY_MAP_GLSL
+#define KD_SKY_MAP_GLSL
+
+#include "shared/math.glsl"
+#include "shared/emitters.h"
+#include "ray/planes.glsl"
+layout(local_size_x = KD_GROUP_SIZE) in;
+
+#define F(name) float name;
+#define U(name) uint name;
+#define A(type, name, count) type name[count];
+#define BLOCK(number, name) struct kd_##name##_block { KD_BLOCK_##name(F, U, A) };
+#define MEMBER(number, name) kd_##name##_block name;
+struct kd_spot_block { KD_BLOCK_spot(F, U) };
+KD_EMIT_BLOCKS(BLOCK)
+struct kd_star_push { KD_STARS_FIELDS_(F, U) };
+layout(push_constant) uniform Push { kd_star_push push_; };
+layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
+layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
+#include "light/tables.glsl"
+
+/* Read before the first branch: behind one lavapipe reads them anew for each lane and each use. */
+kd_star_push push;
+struct kd_sky_emission { kd_frame_block frame; kd_sky_block sky; } emission;
+void kd_sky_map_read()
+{
+    push = push_;
+    emission.frame = emission_.frame;
+    emission.sky = emission_.sky;
+}
+
+#define KD_EMIT_CODE
+#include "emit/colour.glsl"
+#include "emit/sky.glsl"
+
+float kd_sky_number(uint quantity, uint at) { return lens[at + kd_plane(quantity) * push.stride]; }
+bool kd_sky_escapes(uint at) { return kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
+
+/* Where a ray comes from, in the hole's frame. */
+vec3 kd_sky_from(uint at)
+{
+    float u = kd_sky_number(KD_LENS_SKY_U, at), s = sqrt(max(1.0 - u * u, 0.0));
+    kd_phasor phi = kd_cos_sin(kd_sky_number(KD_LENS_SKY_PHI, at));
+    return vec3(s * phi.c, s * phi.s, u);
+}
+
+#endif

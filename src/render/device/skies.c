@@ -1,0 +1,159 @@
+#include "render/device/skies.h"
+
+#include "render/device/internal.h"
+#include "faces.h"
+#include "render/emit/emission.h"
+#include "render/sky/panorama.h"
+#include "render/sky/star.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELLS = KD_FACES * KD_FACE_CELLS * KD_FACE_CELLS };
+
+/* A buffer that holds these bytes from now on. */
+static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes, const char *name, struct kd_error *error)
+{
+    struct kd_vk_buffer *staging = NULL;
+    enum kd_status status;
+    KD_TRY(kd_store_at_least(r->vk, to, bytes, KD_VK_DEVICE, name, error));
+    KD_TRY(kd_vk_buffer_create(r->vk, bytes, KD_VK_UPLOAD, name, &staging, error));
+    memcpy(kd_vk_buffer_map(staging), data, bytes);
+    KD_TRY(kd_vk_copy(r->vk, "upload", *to, 0, staging, 0, bytes, error));
+done:
+    kd_vk_buffer_destroy(r->vk, staging);
+    return status;
+}
+
+/* The cell of a star on a face; -1: it is not there, beyond the edge. */
+static int64_t cell_on(const struct kd_star *s, int face)
+{
+    const float n[] = { s->x, s->y, s->z, s->x, s->y }, *axis = &n[face / 2], along = face % 2 ? -*axis : *axis;
+    const float p = axis[1] / along, q = axis[2] / along, unit = (float)(KD_FACE_CELLS / (2 * KD_FACE_EDGE));
+    if (!(along > 0) || !(fabsf(p) < (float)KD_FACE_EDGE) || !(fabsf(q) < (float)KD_FACE_EDGE))
+        return -1;
+    int x = (int)((p + (float)KD_FACE_EDGE) * unit), y = (int)((q + (float)KD_FACE_EDGE) * unit);
+    x = x < KD_FACE_CELLS ? x : KD_FACE_CELLS - 1;
+    y = y < KD_FACE_CELLS ? y : KD_FACE_CELLS - 1;
+    return ((int64_t)face * KD_FACE_CELLS + y) * KD_FACE_CELLS + x;
+}
+
+/* Where each cell begins: CELLS numbers, and how many places there are in all. */
+static void count(const struct kd_stars *stars, uint32_t *cells)
+{
+    memset(cells, 0, (CELLS + 2) * sizeof *cells);
+    for (size_t i = 0; i < stars->n; i++)
+        for (int face = 0; face < KD_FACES; face++) {
+            int64_t cell = cell_on(&stars->at[i], face);
+            if (cell >= 0)
+                cells[cell + 2]++;
+        }
+    for (size_t i = 2; i < CELLS + 2; i++)
+        cells[i] += cells[i - 1];
+}
+
+/* Puts stars into their places, in order, so that each cell has its brightest first. As it goes, cells[c + 1] moves from the beginning of cell c to
+ * its end, which is where the next one begins. */
+static void sort(const struct kd_stars *stars, uint32_t *cells, size_t n, float *rows)
+{
+    for (size_t i = 0; i < stars->n; i++)
+        for (int face = 0; face < KD_FACES; face++) {
+            const struct kd_star *s = &stars->at[i];
+            const float row[] = { s->x, s->y, s->z, s->flux };
+            int64_t cell = cell_on(s, face);
+            if (cell < 0)
+                continue;
+            const size_t k = cells[cell + 1]++;
+            memcpy(rows + 4 * k, row, sizeof row);
+            rows[4 * n + k] = s->kelvin;
+        }
+}
+
+static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_stars stars = { 0 };
+    uint32_t *cells = malloc((CELLS + 2) * sizeof *cells);
+    float *rows = NULL;
+    enum kd_status status;
+    KD_TRY(kd_stars_make(scene, &stars, error));
+    if (!cells)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for stars"));
+    count(&stars, cells);
+    b->n = cells[CELLS + 1];
+    rows = calloc(5 * (size_t)b->n + 4, sizeof *rows);
+    if (!rows)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for stars"));
+    sort(&stars, cells, b->n, rows);
+    KD_TRY(upload(r, &b->cells, cells, (CELLS + 1) * sizeof *cells, "cells of stars", error));
+    KD_TRY(upload(r, &b->stars, rows, (5 * (size_t)b->n + 4) * sizeof *rows, "stars", error));
+done:
+    kd_stars_finish(&stars);
+    free(cells);
+    free(rows);
+    return status;
+}
+
+/* The renderer's own one, of this seed. */
+static enum kd_status milky_way(struct kd_renderer *r, int32_t seed, struct kd_error *error)
+{
+    struct kd_sky_picture picture = { 0 };
+    if (r->milky_way && r->milky_way_seed == seed)
+        return KD_OK;
+    if (!r->milky_way)
+        r->milky_way = malloc(kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof *r->milky_way);
+    if (!r->milky_way)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
+    enum kd_status status = kd_milky_way(seed, &picture, error);
+    if (!status)
+        kd_panorama_fill(&picture, r->milky_way);
+    r->milky_way_seed = seed;
+    kd_sky_picture_finish(&picture);
+    if (status) {
+        free(r->milky_way);
+        r->milky_way = NULL;
+    }
+    return status;
+}
+
+static bool is_current(const struct kd_sky_buffers *b, const struct kd_scene *scene)
+{
+    return b->there && b->of.model == scene->sky.model && b->of.seed == scene->sky.seed && b->of.limit_mag == scene->sky.limit_mag &&
+           (b->of.milky_way > 0) == (scene->sky.milky_way > 0);
+}
+
+static enum kd_status prepare(struct kd_renderer *r, struct kd_prepared *own, const struct kd_scene *scene, const struct kd_capacity *c,
+                              struct kd_error *error)
+{
+    (void)c;
+    struct kd_sky_buffers *b = &own->sky;
+    enum kd_status status = KD_OK;
+    if (scene->sky.model == KD_SKY_GRID || is_current(b, scene))
+        return KD_OK;
+    b->there = false;
+    if (kd_stars_most(scene))
+        KD_TRY(send_stars(r, b, scene, error));
+    if (scene->sky.milky_way > 0) {
+        KD_TRY(milky_way(r, scene->sky.seed, error));
+        KD_TRY(upload(r, &b->panorama, r->milky_way, kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof *r->milky_way, "panorama", error));
+    }
+    KD_TRY(kd_vk_submit(r->vk, NULL, error));
+    b->of = scene->sky;
+    b->there = true;
+done:
+    return status;
+}
+
+static void buffers(const struct kd_prepared *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_panorama] = own->sky.panorama; }
+
+static void forget(struct kd_prepared *own) { own->sky.there = false; }
+
+static void finish(struct kd_prepared *own, struct kd_vk *vk)
+{
+    kd_vk_buffer_destroy(vk, own->sky.panorama);
+    kd_vk_buffer_destroy(vk, own->sky.stars);
+    kd_vk_buffer_destroy(vk, own->sky.cells);
+    memset(&own->sky, 0, sizeof own->sky);
+}
+
+const struct kd_preparation kd_prepare_sky = { prepare, buffers, forget, finish };

@@ -1,0 +1,38 @@
+/* The light that is spread over a sky, as a picture of it in galactic coordinates: equirectangular, l = 0 in its middle, l growing to the
+ * left, the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a square arcsecond. Pure; any thread.
+ *
+ * Kept as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two rows. Texels are words of a shared
+ * exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so that level k begins at
+ * (4 - 4^(1 - k))/3 of level 0. */
+#ifndef KD_RENDER_SKY_PANORAMA_H
+#define KD_RENDER_SKY_PANORAMA_H
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* A picture before that, three floats a texel, rows from the top. */
+struct kd_sky_picture { uint32_t width, height; float *texels; };
+void kd_sky_picture_finish(struct kd_sky_picture *picture);
+
+/* Texels of all levels. */
+static inline size_t kd_panorama_words(uint32_t width, uint32_t height)
+{
+    size_t sum = 0;
+    for (; height >= 2; width /= 2, height /= 2)
+        sum += (size_t)width * height;
+    return sum;
+}
+/* Makes all levels. The picture's texels are averaged in place. */
+void kd_panorama_fill(struct kd_sky_picture *picture, uint32_t *words);
+
+uint32_t kd_panorama_pack(const float rgb[3]);
+void kd_panorama_unpack(uint32_t word, float rgb[3]);
+
+/* The procedural Milky Way (milky_way.c), of sky.seed. KD_ENOMEM. Some tenths of a second. */
+enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
+enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
+
+#endif

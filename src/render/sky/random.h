@@ -1,0 +1,18 @@
+/* Random numbers from a counter: splitmix64 (Steele, Lea & Flood 2014). Pure. */
+#ifndef KD_RENDER_SKY_RANDOM_H
+#define KD_RENDER_SKY_RANDOM_H
+
+#include <stdint.h>
+
+struct kd_random { uint64_t state; }; /* begins at a seed */
+
+/* The next one, uniform in [0, 1). */
+static inline double kd_random(struct kd_random *random)
+{
+    uint64_t x = random->state += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+#endif

@@ -1,0 +1,263 @@
+/* Images of one star, Sirius: their places and their light, by the Kerr-Schild oracle and, about a hole that does not spin, by a quadrature of
+ * the lens equation. The star is put where it is wanted by turning the sky. */
+#include "kerr_schild.h"
+#include "render/render.h"
+#include "render/sky/frame.h"
+#include "render/sky/star.h"
+
+#include "render_support.h"
+
+#include <math.h>
+
+#define DEGREE (M_PI / 180)
+enum { WIDTH = 800, HEIGHT = 401 };
+#define RADIUS 30.0
+#define FIELD 80.0
+
+struct vec3 { double x, y, z; };
+static double dot(struct vec3 a, struct vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static struct vec3 cross(struct vec3 a, struct vec3 b) { return (struct vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x }; }
+
+static struct kd_scene scene_of(double spin, double inclination)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = spin;
+    scene.camera.r = RADIUS;
+    scene.camera.inclination_deg = inclination;
+    scene.camera.fov_deg = FIELD;
+    scene.disk.model = KD_DISK_NONE;
+    scene.sky.model = KD_SKY_CATALOGUE;
+    scene.sky.limit_mag = -1; /* no other star is so bright */
+    scene.sky.brightness = 1;
+    scene.sky.milky_way = 0;
+    scene.style.exposure = 0;
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    return scene;
+}
+
+/* Turn the sky so that the star lies in a direction of the hole's frame: n = Rz(-turn) Ry(-tilt) s. */
+static bool aim(struct kd_scene *scene, struct vec3 n)
+{
+    const struct kd_catalogue_star star = kd_catalogue_star(0);
+    const struct kd_rotation galactic = kd_rotation_galactic();
+    const struct kd_vec s = kd_rotate(&galactic, kd_sky_direction(star.ra, star.dec));
+    double length = hypot(s.x, s.z);
+    if (fabs(n.z) > length)
+        return false;
+    double tilt = atan2(s.x, s.z) + acos(n.z / length), x = cos(tilt) * s.x - sin(tilt) * s.z;
+    double turn = atan2(s.y, x) - atan2(n.y, n.x);
+    scene->sky.tilt_deg = remainder(tilt, 2 * M_PI) / DEGREE;
+    scene->sky.turn_deg = remainder(turn, 2 * M_PI) / DEGREE;
+    return true;
+}
+
+static struct kd_frame shot(const struct kd_scene *scene, const struct kd_capacity *capacity)
+{
+    struct kd_needs needs = kd_needs_of(scene);
+    struct kd_plan plan;
+    struct kd_frame frame;
+    needs.radiance = true;
+    OK(kd_scene_validate(scene, &error));
+    OK(kd_plan_make_for(scene, &needs, capacity, &plan, &error));
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+static struct kd_frame seen(const struct kd_scene *scene)
+{
+    struct kd_capacity c;
+    kd_renderer_capacity(renderer, &c);
+    return shot(scene, &c);
+}
+
+static double luminance(const struct kd_frame *frame, int x, int y)
+{
+    const float *rgb = frame->layers[1].data;
+    size_t i = 3 * ((size_t)y * frame->width + (size_t)x);
+    if (x < 0 || y < 0 || x >= (int)frame->width || y >= (int)frame->height)
+        return 0;
+    return 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
+}
+
+/* The light about a place of the picture, and its centre. */
+struct blob { double light, x, y; };
+static struct blob blob_at(const struct kd_frame *frame, double x, double y, int reach)
+{
+    struct blob b = { 0 };
+    for (int py = (int)floor(y) - reach; py <= (int)floor(y) + 1 + reach; py++)
+        for (int px = (int)floor(x) - reach; px <= (int)floor(x) + 1 + reach; px++) {
+            double l = luminance(frame, px, py);
+            b.light += l;
+            b.x += l * px;
+            b.y += l * py;
+        }
+    b.x /= b.light;
+    b.y /= b.light;
+    return b;
+}
+
+static const double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
+
+/* Where the ray at a place of the picture comes from, by the oracle; g of what it brings. */
+static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
+{
+    double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step, n = 1 / sqrt(1 + right * right + up * up);
+    const double k[] = { -n, -n * up, n * right };
+    struct ks_photon photon = ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k);
+    const struct ks_path path = ks_trace(photon, 8);
+    double s = sqrt(1 - path.u * path.u);
+    *g = path.fate == KS_ESCAPED ? 1 / photon.energy : 0; /* 0: it looks into the shadow */
+    return (struct vec3) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
+}
+
+/* The solid angle of the sky that a pixel is mapped to there: central differences of the oracle's rays, extrapolated. */
+static double patch(const struct kd_scene *scene, double x, double y)
+{
+    double g, area[2];
+    for (int k = 0; k < 2; k++) {
+        double h = k ? 0.02 : 0.04;
+        struct vec3 a = from(scene, x + h, y, &g), b = from(scene, x - h, y, &g), c = from(scene, x, y + h, &g), d = from(scene, x, y - h, &g), n = from(scene, x, y, &g);
+        struct vec3 i = { a.x - b.x, a.y - b.y, a.z - b.z }, j = { c.x - d.x, c.y - d.y, c.z - d.z };
+        area[k] = fabs(dot(n, cross(i, j))) / (4 * h * h);
+    }
+    return (4 * area[1] - area[0]) / 3;
+}
+
+/* Place after place of the picture, the last ones next to the critical curve of the primary image, where light diverges. */
+static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
+{
+    struct kd_scene scene = scene_of(spin, inclination);
+    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude);
+    for (int k = 0; k < 24; k++) {
+        double angle = 2.399963 * k, rho = 0.2 + 0.018 * k, x = 0.5 * (WIDTH - 1) + rho * cos(angle) / step, y = 0.5 * (HEIGHT - 1) - rho * sin(angle) / step, g;
+        if (x < 4 || y < 4 || x > WIDTH - 5 || y > HEIGHT - 5)
+            continue;
+        struct vec3 n = from(&scene, x, y, &g);
+        if (g == 0 || !aim(&scene, n))
+            continue;
+        struct kd_frame frame = seen(&scene);
+        const struct blob b = blob_at(&frame, x, y, 2);
+        double want = flux * g * g * g * g / patch(&scene, x, y), light = fabs(b.light / want - 1), place = hypot(b.x - x, b.y - y);
+        if (light > 0.01 || place > 0.12)
+            printf("spin %g: at %.2f, %.2f light %.5f of %.5g, place off by %.3f pixels\n", spin, x, y, b.light / want, want, place);
+        *worst_light = fmax(*worst_light, light);
+        *worst_place = fmax(*worst_place, place);
+        kd_frame_finish(&frame);
+    }
+}
+
+static void images_by_the_oracle(void **state)
+{
+    (void)state;
+    static const struct { double spin, inclination; } holes[] = { { 0, 75 }, { 0.9, 60 }, { 0.9, 85 } };
+    for (size_t i = 0; i < sizeof holes / sizeof *holes; i++) {
+        double light = 0, place = 0;
+        by_rays(holes[i].spin, holes[i].inclination, &light, &place);
+        printf("spin %g, inclination %g: light within %.4f, places within %.3f pixels\n", holes[i].spin, holes[i].inclination, light, place);
+        assert_true(light > 0 && light < 0.01 && place < 0.12); /* weights at whole pixels put a Gaussian's centre off by up to 0.1 */
+    }
+}
+
+/* The azimuth that a ray sweeps from the observer at R to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3), in to the turning
+ * point and out. With w = w_t sin^2 the root's zero there is taken out. Midpoints: the integrands are smooth, and even at both ends. */
+static double swept(double b)
+{
+    double low = 0, high = 1.0 / 3, sum = 0;
+    for (int i = 0; i < 200; i++) {
+        double w = 0.5 * (low + high);
+        *(1 / (b * b) - w * w * (1 - 2 * w) > 0 ? &low : &high) = w;
+    }
+    const double turn = 0.5 * (low + high), start = asin(sqrt(1 / RADIUS / turn));
+    const int n = 20000;
+    for (int part = 0; part < 2; part++) {
+        double begin = part ? start : 0, length = M_PI / 2 - begin;
+        for (int i = 0; i < n; i++) {
+            double t = begin + (i + 0.5) * length / n, s = sin(t), w = turn * s * s;
+            /* 1/b^2 = w_t^2 - 2 w_t^3 there: the root is (w_t - w)(w_t + w - 2 (w_t^2 + w_t w + w^2)). */
+            sum += length / n * 2 * sqrt(turn) * s / sqrt(turn + w - 2 * (turn * turn + turn * w + w * w));
+        }
+    }
+    return sum;
+}
+
+/* The angle from the hole of a ray that sweeps so much. */
+static double looking(double azimuth)
+{
+    double low = asin(5.2 * sqrt(1 - 2 / RADIUS) / RADIUS), high = 1.2;
+    for (int i = 0; i < 60; i++) {
+        double theta = 0.5 * (low + high);
+        *(swept(RADIUS * sin(theta) / sqrt(1 - 2 / RADIUS)) > azimuth ? &low : &high) = theta;
+    }
+    return 0.5 * (low + high);
+}
+
+/* beta behind the hole, in the picture's horizontal plane: the total light over the sky's, and the places of both images. */
+static void behind_the_hole(void **state)
+{
+    (void)state;
+    static const double behind[] = { 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3 };
+    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS);
+    for (size_t i = 0; i < sizeof behind / sizeof *behind; i++) {
+        struct kd_scene scene = scene_of(0, 90);
+        double beta = behind[i], want = 0, is = 0, dark = 0;
+        assert_true(aim(&scene, (struct vec3) { -cos(beta), sin(beta), 0 }));
+        struct kd_frame frame = seen(&scene);
+        for (int side = 0; side < 2; side++) {
+            double azimuth = side ? M_PI + beta : M_PI - beta, theta = looking(azimuth), h = 1e-4;
+            double slope = (looking(azimuth + h) - looking(azimuth - h)) / (2 * h), x = 0.5 * (WIDTH - 1) + (side ? -1 : 1) * tan(theta) / step;
+            want += sin(theta) * fabs(slope) / sin(beta);
+            const struct blob b = blob_at(&frame, x, 0.5 * (HEIGHT - 1), 3);
+            printf("beta %g: image %d at %.3f pixels, off by %.3f, %.3f\n", beta, side, x, b.x - x, b.y - 0.5 * (HEIGHT - 1));
+            assert_true(fabs(b.x - x) < 0.12 && fabs(b.y - 0.5 * (HEIGHT - 1)) < 0.12);
+        }
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step;
+                double light = luminance(&frame, x, y) * step * step / pow(1 + right * right + up * up, 1.5);
+                is += light;
+                dark = fmax(dark, fabs(up) > 6 * step ? light : 0);
+            }
+        printf("beta %g: magnified %.5g, by the lens equation %.5g: %+.5f\n", beta, is / (flux * pow(g, 4)), want, is / (flux * pow(g, 4)) / want - 1);
+        assert_true(fabs(is / (flux * pow(g, 4)) / want - 1) < 0.01);
+        kd_frame_finish(&frame);
+    }
+}
+
+/* All stars: the picture is the same to the byte each time, and the same but for their edges in bands. */
+static void whole_skies(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 75);
+    struct kd_capacity c;
+    kd_renderer_capacity(renderer, &c);
+    scene.sky.limit_mag = 14;
+    struct kd_frame one = shot(&scene, &c), again = shot(&scene, &c);
+    assert_memory_equal(one.layers[1].data, again.layers[1].data, 12ull * WIDTH * HEIGHT);
+    c.max_binding_bytes = 3 << 20;
+    struct kd_frame bands = shot(&scene, &c);
+    double sum = 0, off = 0, most = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            sum += luminance(&one, x, y);
+            off += fabs(luminance(&bands, x, y) - luminance(&one, x, y));
+            most = fmax(most, luminance(&one, x, y));
+        }
+    printf("in bands: off by %.2g of the light\n", off / sum);
+    assert_true(sum > 0 && off / sum < 0.01 && most > 100);
+    kd_frame_finish(&one);
+    kd_frame_finish(&again);
+    kd_frame_finish(&bands);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(behind_the_hole), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
+    };
+    int skip = open_renderer();
+    if (skip)
+        return skip;
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
