@@ -121,15 +121,23 @@
     U(columns)               /* of cells */                                                                    \
     U(cell)                  /* pixels along the side of one, */                                               \
     F(cells)                 /* and one over that */
-/* and of beam_along.comp, whose cell i is a sum over `count` cells from i first_times/first_over - before on. */
-#define KD_BEAM_ALONG_FIELDS_(F, U)                                                                            \
+/* of beam_spline.comp, whose row i is a sum over `count` rows from i first_times/first_over - before on; */
+#define KD_BEAM_SPLINE_FIELDS_(F, U)                                                                           \
     U(columns)                                                                                                 \
     U(row0) U(rows)          /* of the slice, of what is made */                                               \
-    U(length_)               /* cells along the axis of what is read */                                        \
+    U(length_)               /* rows of what is read */                                                        \
     U(first_times) U(first_over) U(before) U(count)                                                            \
-    F(from_scale)            /* units of the weights a cell that is read, */                                   \
-    F(to_scale) F(shift)     /* and a cell that is made, which are shifted by so much */                       \
-    F(narrow)                /* of a Gaussian, 1/(2 sigma^2) */                                                \
+    F(from_scale)            /* units of the weights a row that is read, */                                    \
+    F(to_scale) F(shift)     /* and a row that is made, which are shifted by so much */                        \
+    F(weight)                /* of the whole sum */
+/* and of beam_blur.comp. */
+#define KD_BEAM_BLUR_FIELDS_(F, U)                                                                             \
+    U(columns)                                                                                                 \
+    U(row0)                  /* of the slice, a multiple of four */                                            \
+    U(lines)                 /* of the slice: rows, or along columns fours of them */                          \
+    U(length_)               /* cells along the axis */                                                        \
+    U(reach)                 /* cells to either side of one that count */                                      \
+    F(narrow)                /* 1/(2 sigma^2) */                                                               \
     F(weight)                /* of the whole sum */
 
 /* Of photometry.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */

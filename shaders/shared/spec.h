@@ -50,8 +50,8 @@
 /* Of beam_gather.comp and beam_spread.comp: cells are larger than pixels. */
 #define KD_SPEC_BEAM(U, B) B(0, COARSE, true)
 
-/* ROWS: along columns, from row to row; BLUR: a Gaussian, else a spline. */
-#define KD_SPEC_BEAM_ALONG(U, B) B(0, ROWS, false) B(1, BLUR, true)
+/* ROWS: along columns, from row to row. */
+#define KD_SPEC_BEAM_BLUR(U, B) B(0, ROWS, false)
 
 #ifdef VULKAN
 #define KD_SPEC_U_(id, name, value) layout(constant_id = id) const uint name = value;

@@ -3,8 +3,9 @@
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 
-#include "beam_along.spv.h"
+#include "beam_blur.spv.h"
 #include "beam_gather.spv.h"
+#include "beam_spline.spv.h"
 #include "beam_spread.spv.h"
 #include "bloom_bright.spv.h"
 #include "bloom_gather.spv.h"
@@ -163,9 +164,14 @@ static const struct field gather_fields[] = { KD_BLOOM_GATHER_FIELDS_(F, U) };
 static const struct field beam_fields[] = { KD_BEAM_BAND_FIELDS_(F, U) };
 #undef F
 #undef U
-#define F(name) { #name, offsetof(struct kd_beam_along_push, name), OP_TYPE_FLOAT },
-#define U(name) { #name, offsetof(struct kd_beam_along_push, name), OP_TYPE_INT },
-static const struct field beam_along_fields[] = { KD_BEAM_ALONG_FIELDS_(F, U) };
+#define F(name) { #name, offsetof(struct kd_beam_spline_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_beam_spline_push, name), OP_TYPE_INT },
+static const struct field beam_spline_fields[] = { KD_BEAM_SPLINE_FIELDS_(F, U) };
+#undef F
+#undef U
+#define F(name) { #name, offsetof(struct kd_beam_blur_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_beam_blur_push, name), OP_TYPE_INT },
+static const struct field beam_blur_fields[] = { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 #define F(name) { #name, offsetof(struct kd_light_push, name), OP_TYPE_FLOAT },
@@ -217,12 +223,14 @@ static void post_push(void **state)
 static void beam_push(void **state)
 {
     (void)state;
-    const struct spirv bands[] = { SPIRV(beam_gather), SPIRV(beam_spread) }, along = SPIRV(beam_along);
+    const struct spirv bands[] = { SPIRV(beam_gather), SPIRV(beam_spread) }, spline = SPIRV(beam_spline), blur = SPIRV(beam_blur);
     for (size_t i = 0; i < COUNT(bands); i++)
         same(&bands[i], "Push", beam_fields, COUNT(beam_fields), 0);
-    same(&along, "Push", beam_along_fields, COUNT(beam_along_fields), 0);
+    same(&spline, "Push", beam_spline_fields, COUNT(beam_spline_fields), 0);
+    same(&blur, "Push", beam_blur_fields, COUNT(beam_blur_fields), 0);
     assert_int_equal(sizeof(struct kd_beam_push), 4 * COUNT(beam_fields));
-    assert_int_equal(sizeof(struct kd_beam_along_push), 4 * COUNT(beam_along_fields));
+    assert_int_equal(sizeof(struct kd_beam_spline_push), 4 * COUNT(beam_spline_fields));
+    assert_int_equal(sizeof(struct kd_beam_blur_push), 4 * COUNT(beam_blur_fields));
 }
 
 static void light_push(void **state)

@@ -3,10 +3,12 @@
 #include "render/emit/emission.h"
 #include "render/view/layout.h"
 
-#include "beam_along.spv.h"
-#include "beam_along_texels.spv.h"
+#include "beam_blur.spv.h"
+#include "beam_blur_texels.spv.h"
 #include "beam_gather.spv.h"
 #include "beam_gather_texels.spv.h"
+#include "beam_spline.spv.h"
+#include "beam_spline_texels.spv.h"
 #include "beam_spread.spv.h"
 #include "beam_spread_texels.spv.h"
 #include "bloom_bright.spv.h"
@@ -101,9 +103,12 @@ static const struct {
     [KD_KERNEL_BEAM_GATHER] = { "beam, gather", kd_spv_beam_gather, sizeof kd_spv_beam_gather, 2, sizeof(struct kd_beam_push) },
     [KD_KERNEL_BEAM_GATHER_TEXELS] = { "beam, gather, texels", kd_spv_beam_gather_texels, sizeof kd_spv_beam_gather_texels, 2,
                                        sizeof(struct kd_beam_push), { KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_BEAM_ALONG] = { "beam, along", kd_spv_beam_along, sizeof kd_spv_beam_along, 2, sizeof(struct kd_beam_along_push) },
-    [KD_KERNEL_BEAM_ALONG_TEXELS] = { "beam, along, texels", kd_spv_beam_along_texels, sizeof kd_spv_beam_along_texels, 2,
-                                      sizeof(struct kd_beam_along_push), { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_SPLINE] = { "beam, spline", kd_spv_beam_spline, sizeof kd_spv_beam_spline, 2, sizeof(struct kd_beam_spline_push) },
+    [KD_KERNEL_BEAM_SPLINE_TEXELS] = { "beam, spline, texels", kd_spv_beam_spline_texels, sizeof kd_spv_beam_spline_texels, 2, sizeof(struct kd_beam_spline_push),
+                                          { KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_BEAM_BLUR] = { "beam, blur", kd_spv_beam_blur, sizeof kd_spv_beam_blur, 2, sizeof(struct kd_beam_blur_push) },
+    [KD_KERNEL_BEAM_BLUR_TEXELS] = { "beam, blur, texels", kd_spv_beam_blur_texels, sizeof kd_spv_beam_blur_texels, 2, sizeof(struct kd_beam_blur_push),
+                                        { KD_VK_TEXELS_RGBA } },
     [KD_KERNEL_BEAM_SPREAD] = { "beam, spread", kd_spv_beam_spread, sizeof kd_spv_beam_spread, 2, sizeof(struct kd_beam_push) },
     [KD_KERNEL_BEAM_SPREAD_TEXELS] = { "beam, spread, texels", kd_spv_beam_spread_texels, sizeof kd_spv_beam_spread_texels, 2,
                                        sizeof(struct kd_beam_push), { KD_VK_TEXELS_RGBA } },

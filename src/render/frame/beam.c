@@ -65,61 +65,90 @@ done:
     return status;
 }
 
-/* Sums along one axis, in slices of rows. push: but for columns and slice. */
-static enum kd_status along(struct kd_frame_job *j, struct kd_spec_beam_along spec, struct kd_beam_along_push push, uint32_t rows,
-                            struct kd_vk_binding from, struct kd_vk_binding to)
+/* One of the kernels that make a grid from another, or its twin. */
+static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel, const uint32_t *constants, size_t n, const struct kd_vk_binding *from,
+                                  const struct kd_vk_pipeline **out)
 {
-    const uint32_t columns = j->plan->beam.columns, step = (uint32_t)fmin(fmax(SUBMISSION / ((double)columns * push.count), 1), rows);
-    const struct kd_vk_pipeline *pipeline;
+    return kd_kernels_get(&j->r->kernels, j->r->vk, kernel + (kd_kernels_texels_of(j->r->vk, from->size) ? 1 : 0), constants, n, out, j->error);
+}
+
+/* A slice of rows, the last of them if it is all. */
+static enum kd_status slice(struct kd_frame_job *j, const struct kd_vk_dispatch *d, bool all)
+{
     enum kd_status status;
-    push.columns = columns;
-    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_BEAM_ALONG + (kd_kernels_texels_of(j->r->vk, from.size) ? 1 : 0), &spec.ROWS,
-                          sizeof spec / 4, &pipeline, j->error));
-    for (push.row0 = 0; push.row0 < rows; push.row0 += step) {
-        push.rows = rows - push.row0 < step ? rows - push.row0 : step;
-        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups((uint64_t)columns * push.rows) } };
-        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
-        if (step == rows)
-            continue;
-        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
-        KD_TRY(kd_frame_report(j, 0));
+    KD_TRY(kd_vk_dispatch(j->r->vk, d, j->error));
+    if (all)
+        return KD_OK;
+    KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+    KD_TRY(kd_frame_report(j, 0));
+done:
+    return status;
+}
+
+/* Rows that one submission makes, each with so many weights: a multiple of four. */
+static uint32_t rows_at_once(double weights, uint32_t rows) { return 4 * (uint32_t)fmin(fmax(SUBMISSION / weights / 4, 1), (rows + 3) / 4); }
+
+static enum kd_status blur(struct kd_frame_job *j, bool rows, struct kd_vk_binding from, struct kd_vk_binding to)
+{
+    const struct kd_beam_grid *b = &j->plan->beam;
+    const struct kd_spec_beam_blur spec = { .ROWS = rows };
+    const uint32_t step = rows_at_once((double)b->columns * (2 * b->reach + 1), b->rows);
+    const struct kd_vk_pipeline *pipeline;
+    double sum = 0, narrow = 0.5 / (b->sigma * b->sigma);
+    enum kd_status status;
+    for (int k = -(int)b->reach; k <= (int)b->reach; k++)
+        sum += exp(-narrow * k * k);
+    struct kd_beam_blur_push push = {
+        .columns = b->columns, .length_ = rows ? b->rows : b->columns, .reach = b->reach, .narrow = (float)narrow, .weight = (float)(1 / sum),
+    };
+    KD_TRY(grid_kernel(j, KD_KERNEL_BEAM_BLUR, &spec.ROWS, sizeof spec / 4, &from, &pipeline));
+    for (push.row0 = 0; push.row0 < b->rows; push.row0 += step) {
+        const uint32_t n = b->rows - push.row0 < step ? b->rows - push.row0 : step;
+        push.lines = rows ? (n + 3) / 4 : n;
+        const uint64_t invocations = (uint64_t)push.lines * (rows ? b->columns : (b->columns + 3) / 4);
+        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups(invocations) } };
+        KD_TRY(slice(j, &d, step >= b->rows));
     }
 done:
     return status;
 }
 
-static enum kd_status blur(struct kd_frame_job *j, bool rows, struct kd_vk_binding from, struct kd_vk_binding to)
+/* push: but for columns and slice. rows: of what is made. */
+static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows, struct kd_vk_binding from, struct kd_vk_binding to)
 {
-    const struct kd_beam_grid *b = &j->plan->beam;
-    double sum = 0, narrow = 0.5 / (b->sigma * b->sigma);
-    for (int k = -(int)b->reach; k <= (int)b->reach; k++)
-        sum += exp(-narrow * k * k);
-    const struct kd_beam_along_push push = {
-        .length_ = rows ? b->rows : b->columns, .first_times = 1, .first_over = 1, .before = b->reach, .count = 2 * b->reach + 1, .from_scale = 1,
-        .to_scale = 1, .narrow = (float)narrow, .weight = (float)(1 / sum),
-    };
-    return along(j, (struct kd_spec_beam_along) { .ROWS = rows, .BLUR = true }, push, b->rows, from, to);
+    const uint32_t columns = j->plan->beam.columns, step = rows_at_once((double)columns * push.count, rows);
+    const struct kd_vk_pipeline *pipeline;
+    enum kd_status status;
+    push.columns = columns;
+    KD_TRY(grid_kernel(j, KD_KERNEL_BEAM_SPLINE, NULL, 0, &from, &pipeline));
+    for (push.row0 = 0; push.row0 < rows; push.row0 += step) {
+        push.rows = rows - push.row0 < step ? rows - push.row0 : step;
+        const struct kd_vk_dispatch d = { kd_passes[KD_PASS_BEAM].name, pipeline, { from, to }, &push, { kd_frame_groups((uint64_t)columns * push.rows) } };
+        KD_TRY(slice(j, &d, step >= rows));
+    }
+done:
+    return status;
 }
 
 /* Rows of cells, one for each of pixels, to the grid: cell i of it begins (i - 1) cells below the upper edge of the picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->beam;
-    const struct kd_beam_along_push push = {
+    const struct kd_beam_spline_push push = {
         .length_ = b->height, .first_times = b->cell, .first_over = 1, .before = 2 * b->cell, .count = 3 * b->cell,
         .from_scale = (float)(1.0 / b->cell), .to_scale = 1, .shift = -1, .weight = (float)(1.0 / b->cell),
     };
-    return along(j, (struct kd_spec_beam_along) { .ROWS = true }, push, b->rows, from, to);
+    return spline(j, push, b->rows, from, to);
 }
 
 static enum kd_status up(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->beam;
-    const struct kd_beam_along_push push = {
+    const struct kd_beam_spline_push push = {
         .length_ = b->rows, .first_times = 1, .first_over = b->cell, .count = 3, .from_scale = 1, .to_scale = (float)(1.0 / b->cell), .shift = 1,
         .weight = 1,
     };
-    return along(j, (struct kd_spec_beam_along) { .ROWS = true }, push, b->height, from, to);
+    return spline(j, push, b->height, from, to);
 }
 
 enum kd_status kd_frame_beam(struct kd_frame_job *j)

@@ -57,12 +57,13 @@ static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capa
     return (struct kd_pass_cost) { "post.comp", more * c->ns[KD_NS_PIXEL_POST], plan->bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
-/* Rows of cells and back are about a half of post; the rest are the weights of two blurs, and of two more sums where cells are large. */
+/* By lavapipe: to rows of cells and back three times post, and for each weight of the two blurs, and of two more sums where cells are large, a
+ * seventh of it. */
 static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const struct kd_beam_grid *b = &plan->beam;
     const double weights = 2.0 * (2 * b->reach + 1) * b->columns * b->rows + (b->cell > 1 ? 6.0 * b->columns * b->height : 0);
-    return (struct kd_pass_cost) { "beam_gather.comp", (0.5 + 0.05 * weights / ((double)plan->width * plan->height)) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
+    return (struct kd_pass_cost) { "beam_gather.comp", (3.2 + 0.15 * weights / ((double)plan->width * plan->height)) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
 }
 
 #define INVOCATIONS(name, n)                                                                                                     \

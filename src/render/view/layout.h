@@ -30,7 +30,8 @@ struct kd_post_push { KD_POST_FIELDS_(F, U) };
 struct kd_bloom_bright_push { KD_BLOOM_BRIGHT_FIELDS_(F, U) };
 struct kd_bloom_gather_push { KD_BLOOM_GATHER_FIELDS_(F, U) };
 struct kd_beam_push { KD_BEAM_BAND_FIELDS_(F, U) };
-struct kd_beam_along_push { KD_BEAM_ALONG_FIELDS_(F, U) };
+struct kd_beam_spline_push { KD_BEAM_SPLINE_FIELDS_(F, U) };
+struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
@@ -72,7 +73,7 @@ _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next came
 #define CHECK_BRIGHT(id, name, value) SPEC_CHECK(kd_spec_bloom_bright, id, name)
 #define CHECK_GATHER(id, name, value) SPEC_CHECK(kd_spec_bloom_gather, id, name)
 #define CHECK_BEAM(id, name, value) SPEC_CHECK(kd_spec_beam, id, name)
-#define CHECK_BEAM_ALONG(id, name, value) SPEC_CHECK(kd_spec_beam_along, id, name)
+#define CHECK_BEAM_BLUR(id, name, value) SPEC_CHECK(kd_spec_beam_blur, id, name)
 #define TRAIT(number, name) +1
 SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
@@ -86,7 +87,7 @@ SPEC(kd_spec_bloom_bright, KD_SPEC_BLOOM_BRIGHT, CHECK_BRIGHT, )
 SPEC(kd_spec_bloom_gather, KD_SPEC_BLOOM_GATHER, CHECK_GATHER, )
 SPEC(kd_spec_post, KD_SPEC_POST, CHECK_POST, )
 SPEC(kd_spec_beam, KD_SPEC_BEAM, CHECK_BEAM, )
-SPEC(kd_spec_beam_along, KD_SPEC_BEAM_ALONG, CHECK_BEAM_ALONG, )
+SPEC(kd_spec_beam_blur, KD_SPEC_BEAM_BLUR, CHECK_BEAM_BLUR, )
 _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, "the emitters' words are behind the others");
 #undef SPEC_U
 #undef SPEC_CHECK
@@ -101,7 +102,7 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, 
 #undef CHECK_STARS
 #undef CHECK_POST
 #undef CHECK_BEAM
-#undef CHECK_BEAM_ALONG
+#undef CHECK_BEAM_BLUR
 #undef TRAIT
 
 /* Planes of a lens map of these quantities: where those of one begin, and all. */
