@@ -167,7 +167,7 @@
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_NONE,                                                                    \
          "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
-         "none|film|raw|dngr|eht")                                                                                       \
+         "none|film|raw|dngr|eht|starless")                                                                                       \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
          "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")               \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
@@ -234,18 +234,22 @@
  *
  * film: the eye's view of a bright thing through a lens. raw: light, and nothing after it. dngr: as Interstellar had it, whose disk is without
  * the frequency shifts of its gas, and with lens flare (O. James et al. 2015, section 4.3). eht: as the Event Horizon Telescope shows its
- * pictures, at its resolution of about 20 microarcseconds (EHT Collaboration 2019, ApJL 875, L4). */
-#define KD_STYLES 4
+ * pictures, at its resolution of about 20 microarcseconds (EHT Collaboration 2019, ApJL 875, L4). starless: no disk, and a sky that is
+ * made up, bent: what R. Antonelli's ray tracer of that name (2015) is known for. NAN: the style leaves the field as it is. */
+#define KD_STYLES 5
 #define KD_SCENE_STYLES(ROW)                                                                                         \
-    /*                      film               raw                dngr               eht */                        \
-    ROW(disk, doppler,      1,                 1,                 0,                 1)                              \
-    ROW(disk, redshift,     1,                 1,                 0,                 1)                              \
-    ROW(style, tone_map,    KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES,      KD_TONE_SRGB)                   \
-    ROW(style, bloom,       0.5,               0,                 0.7,               0)                              \
-    ROW(style, beam_uas,    0,                 0,                 0,                 20)                             \
-    ROW(style, palette,     KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_HEAT)                \
-    ROW(style, colour_bar,  0,                 0,                 0,                 1)                              \
-    ROW(style, dither,      1,                 0,                 1,                 1)
+    /*                      film               raw                dngr               eht                starless */  \
+    ROW(disk, model,        NAN,               NAN,               NAN,               NAN,               KD_DISK_NONE) \
+    ROW(disk, doppler,      1,                 1,                 0,                 1,                 1)           \
+    ROW(disk, redshift,     1,                 1,                 0,                 1,                 1)           \
+    ROW(sky, model,         NAN,               NAN,               NAN,               NAN,               KD_SKY_STARS) \
+    ROW(style, exposure,    NAN,               NAN,               NAN,               NAN,               0.5)         \
+    ROW(style, tone_map,    KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES) \
+    ROW(style, bloom,       0.5,               0,                 0.7,               0,                 0.4)         \
+    ROW(style, beam_uas,    0,                 0,                 0,                 20,                0)           \
+    ROW(style, palette,     KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_HEAT,   KD_PALETTE_COLOUR) \
+    ROW(style, colour_bar,  0,                 0,                 0,                 1,                 0)           \
+    ROW(style, dither,      1,                 0,                 1,                 1,                 1)
 
 /* Controls of a page (scene/control.h), by the fields' paths, of a list's without a number; a section's stand together. */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                                 \

@@ -110,9 +110,12 @@ static void write_styles(struct kd_writer *w)
         const struct kd_style_row *row = &kd_style_rows[i];
         kd_write(w, "\n| `%s.%s` |", row->section, row->name);
         for (int style = 0; style < KD_STYLES; style++) {
-            kd_write(w, " `");
-            kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
-            kd_write(w, "` |");
+            if (!isnan(row->values[style])) {
+                kd_write(w, " `");
+                kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
+                kd_write(w, "`");
+            }
+            kd_write(w, " |");
         }
     }
     kd_write(w, "\n");

@@ -105,9 +105,11 @@ static void write_styles(struct kd_writer *w, const struct kd_field *names)
     for (int style = 0; style < KD_STYLES; style++) {
         const struct kd_word word = kd_field_word(names, style + 1);
         kd_write(w, "%s\"%.*s\":{", style ? "," : "", word.length, word.text);
-        for (size_t i = 0; i < kd_style_row_count; i++) {
+        for (size_t i = 0, n = 0; i < kd_style_row_count; i++) {
             const struct kd_style_row *row = &kd_style_rows[i];
-            kd_write(w, "%s\"%s.%s\":", i ? "," : "", row->section, row->name);
+            if (isnan(row->values[style]))
+                continue;
+            kd_write(w, "%s\"%s.%s\":", n++ ? "," : "", row->section, row->name);
             kd_write_value(w, kd_field_find(row->section, row->name), row->values[style]);
         }
         kd_write(w, "}");

@@ -13,7 +13,7 @@ void kd_style_apply(struct kd_scene *scene, const bool *given)
     const int style = (int)kd_field_get(scene, kd_style_field(), 0) - 1;
     for (size_t i = 0; i < kd_style_row_count && style >= 0; i++) {
         const struct kd_field *field = kd_field_find(kd_style_rows[i].section, kd_style_rows[i].name);
-        if (!given || !given[field - kd_fields])
+        if (!isnan(kd_style_rows[i].values[style]) && (!given || !given[field - kd_fields]))
             kd_field_put(scene, field, 0, kd_style_rows[i].values[style]);
     }
 }

@@ -7,8 +7,8 @@
 #include "scene/table.h"
 
 struct kd_style_row {
-    const char *section, *name;  /* of a field that all styles set, in a section that is no list */
-    double values[KD_STYLES];    /* as kd_field_put takes them */
+    const char *section, *name;  /* of a field that styles set, in a section that is no list */
+    double values[KD_STYLES];    /* as kd_field_put takes them; NAN: the style leaves it alone */
 };
 extern const struct kd_style_row kd_style_rows[];
 extern const size_t kd_style_row_count;
