@@ -89,7 +89,7 @@ export const fields = {
     'Inclinazione',
     'Angolo polare dell’osservatore: 0 sopra il polo della rotazione del disco, 90 nel suo piano',
   ],
-  'camera.azimuth_deg': ['Azimut', 'Azimut di Boyer–Lindquist dell’osservatore'],
+  'camera.azimuth_deg': ['Azimut', 'Azimut di Boyer–Lindquist dell’osservatore; di chi cade, quello entrante di Kerr–Schild, lontano lo stesso'],
   'camera.observer': [
     'Osservatore',
     'Stato di moto a distanza finita: fermo rispetto all’infinito; con momento angolare nullo; su un’orbita circolare nel verso del disco o nell’altro, che ha qui la sua latitudine massima; in caduta libera; con una velocità a scelta',
@@ -334,6 +334,10 @@ const refusals = [
   [
     'camera.velocity_r, velocity_theta and velocity_phi make a speed of {}, allowed is less than 1, that of light',
     'camera.velocity_r, velocity_theta e velocity_phi fanno una velocità di {}, ammesso è meno di 1, quella della luce',
+  ],
+  [
+    '{} is {}, allowed for camera.observer {} is more than {}, the inner horizon, where the model ends',
+    '{} è {}, ammesso per camera.observer {} è più di {}, l’orizzonte interno, dove il modello finisce',
   ],
   ['{} is {}, allowed is at least camera.r, {}', '{} è {}, ammesso è almeno camera.r, {}'],
   [

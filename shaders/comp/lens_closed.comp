@@ -149,7 +149,7 @@ void main()
     kd_centre next = kd_centre_of(a, leg.next);
     leg.tau = polar.first;
     leg.psi = azimuth.first;
-    leg.chi = FINITE ? -kd_drag_fallen(drag, ray.w) : 0.0;
+    leg.chi = FINITE ? -kd_drag_fallen(drag, ray.w) - cam.twist : 0.0;
     leg.drag = kd_drag_between(drag, leg.last, next, n1, z1);
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;

@@ -52,34 +52,53 @@ void main()
     y.w = ray.w;
     y.dw = ray.dw;
     kd_barrier barrier;
+    bool dark = INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon);
     if (PHI || SKY)
         barrier = kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, EPSILON);
     kd_state start = y;
     float way = 0.0, fallen = 0.0;
+    bool returns = false;
+    if (INGOING && (PHI || SKY)) {
+        returns = !kd_flies_out(barrier, y);
+        way = returns && y.dw > 0.0 ? 1.0 : -1.0;
+        fallen = way > 0.0 ? -2.0 * cam.twist : 0.0;
+    }
     kd_path last = kd_path_start(ray, cam.u, cam.s);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
-    bool alive = polar.crosses;
+    bool alive = polar.crosses && !dark;
+    const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
     for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* those of crossings come first, without gaps */
         lens[at + n * slice.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
-        float low = y.w, high = y.w, sum = 0.0;
-        if ((PHI || SKY) && way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
+        float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
+        if (!INGOING && (PHI || SKY) && way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
             way = kd_way(barrier, y);
             fallen = -way * kd_drag_fall(y.w, cam.spin, cam.root);
         }
-        if (PHI || SKY)
+        if (!INGOING && (PHI || SKY))
             sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.root, way);
         for (uint i = 0; i < STEPS; i += 4) {
+            if (INGOING && (PHI || SKY)) {
+                if (returns && way < 0.0 && y.dw > 0.0) { /* it has turned, and goes back to the horizon: from here on in outgoing coordinates */
+                    way = 1.0;
+                    fallen -= 2.0 * kd_drag_fall(y.w, cam.spin, cam.root);
+                }
+                sum += 7.0 * kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way);
+            }
             /* Boole's rule on each four steps. */
             for (uint j = 0; j < 4; j++) {
                 y = kd_radial_step(m, y, h);
+                if (INGOING && y.w > cam.horizon && y.dw < 0.0)
+                    y.dw = kd_leaving(m, y.w, ray.e);
                 /* Beyond the horizon the numbers mean nothing: keep them finite. */
-                y.w = clamp(y.w, -2.0, 2.0);
+                y.w = clamp(y.w, -2.0, deepest);
                 low = min(low, y.w);
-                high = max(high, y.w);
-                if (PHI || SKY)
+                high = max(high, INGOING && y.dw <= 0.0 ? 0.0 : y.w); /* what still leaves may be within the horizon */
+                if (INGOING && (PHI || SKY))
+                    sum += (j == 3 ? 7.0 : j == 1 ? 12.0 : 32.0) * kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way);
+                if (!INGOING && (PHI || SKY))
                     sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) *
                            kd_drag(m, y, ray.e, cam.spin, cam.root, way);
             }
@@ -95,7 +114,7 @@ void main()
                 lens[at + (kd_plane(KD_LENS_SLOPE) + n) * slice.stride] = y.dw;
             if (SKY) {
                 above = -above;
-                last = kd_path_crossing(m, y, psi, chi + fall, above);
+                last = kd_path_crossing(m, y, psi, INGOING ? chi : chi + fall, above);
             }
         }
         psi += azimuth.half_;
@@ -104,7 +123,9 @@ void main()
 
     if (SKY) {
         kd_escape end = kd_path_escape(m, ray, last);
-        if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
+        if (dark)
+            end.fate = KD_FATE_CAPTURED;
+        else if (!kd_is_decided(barrier, start, EPSILON) || kd_flies_out(barrier, start) != (end.fate == KD_FATE_ESCAPED))
             end.fate = KD_FATE_UNDECIDED;
         lens[at + kd_plane(KD_LENS_SKY_U) * slice.stride] = end.u;
         lens[at + kd_plane(KD_LENS_SKY_PHI) * slice.stride] = -end.phi;

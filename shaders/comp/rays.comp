@@ -21,6 +21,7 @@
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_RAYS(KD_SPEC_U_, KD_SPEC_B_)
+const bool INGOING = false; /* observers stand outside the horizon */
 
 #define KD_NYSTROEM_ORDER METHOD
 #include "ray/kerr_ray.glsl"

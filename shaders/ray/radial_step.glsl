@@ -47,6 +47,21 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     return a * w * (2.0 * e - a * m.momentum * w) / kd_horizons(w, root);
 }
 
+/* The same for a ray that may come from within the horizon, or go back to it: that of ingoing coordinates (way = -1) while it leaves, of
+ * outgoing ones (1) while it returns; D is divided by on the other half of the way. Both are smooth where the ray turns, for w'^2 = W^2 - D K w^2. */
+float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
+{
+    float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
+    bool along = way * y.dw >= 0.0;
+    return a * ((along ? m.k * w2 : sum) / (along ? sum : kd_horizons(y.w, root)) - e);
+}
+
+/* Says whether light that crosses the horizon here comes from outside: W > 0 there. That of the other side of the hole's past is dark. */
+bool kd_from_outside(kd_geodesic m, float e, float a, float horizon)
+{
+    return e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
+}
+
 /* This is the integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w); by its series where x is small, as
  * for a hole that is nearly extremal. */
 float kd_fall(float w, float root)

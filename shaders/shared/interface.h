@@ -27,6 +27,7 @@
     F(horizon)              /* 1/r+ */                                                                         \
     F(root)                 /* sqrt(1 - a^2): the horizons are at r = 1 +- root; a float of a has lost it near 1 */ \
     F(w0)                   /* 1/r of the observer, 0 at infinity */                                           \
+    F(twist)                /* of one that falls, outside the horizon: its Boyer-Lindquist azimuth less its ingoing one; else 0 */ \
     F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi)                                        \
     F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi)                                    \
     F(turn_x) F(turn_y)     /* quarter turns a step, on a sphere and a dome */                                 \

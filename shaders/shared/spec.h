@@ -8,10 +8,11 @@
 #define KD_SPEC_LENS_CLOSED(U, B)                                                                              \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIGHT, 0) U(3, CRITICAL, 0) U(4, GENERATOR, 1) U(5, SHIFT, 0)
 
-/* STEPS: of a half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6. */
+/* STEPS: of a half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6; INGOING: the observer falls, its
+ * azimuth is that of ingoing coordinates, and it may be within the outer horizon. */
 #define KD_SPEC_LENS_MAP(U, B)                                                                                 \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) U(4, SIGHT, 0)                          \
-    U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0)
+    U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0) B(8, INGOING, false)
 
 /* X1 to Y4: vectors between neighbours of the lattice, as 32-bit integers of either sign. */
 #define KD_SPEC_FOOTPRINT(U, B)                                                                                \

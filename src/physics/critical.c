@@ -37,7 +37,8 @@ static void look(const struct kd_critical *c, struct place *p)
     const struct kd_shell_orbit *o = &p->orbit;
     double r = c->observer.radius, q = o->a / o->r, root = sqrt(fmax(r * r + 2 * o->r * r - q * q * o->eta, 0));
     const struct kd_covector photon = { .energy = 1, .momentum = -p->alpha, .radial = (r - o->r) * root };
-    const struct kd_look seen = kd_tetrad_look(&c->tetrad, &photon);
+    const struct kd_look seen = c->tetrad.falls && photon.radial <= 0 ? kd_tetrad_look_inwards(&c->tetrad, &photon, p->beta2)
+                                                                      : kd_tetrad_look(&c->tetrad, &photon);
     double up = seen.energy / c->tetrad.theta.polar; /* over beta */
     p->right = seen.right;
     p->inwards = seen.inwards;
@@ -86,7 +87,7 @@ static double along(const struct kd_critical *c, double at)
 static bool valid(const struct kd_critical_observer *o)
 {
     return fabs(o->spin) < 1 && fabs(o->cos_theta) <= 1 && o->sin_theta >= 0 && o->sin_theta <= 1 &&
-           o->radius > kd_kerr_horizon(o->spin) &&
+           o->radius > (o->motion.observer == KD_OBSERVER_INFALL ? kd_kerr_inner_horizon(o->spin) : kd_kerr_horizon(o->spin)) &&
            (unsigned)o->motion.observer < KD_OBSERVER_COUNT;
 }
 

@@ -38,7 +38,7 @@
 
 struct kd_critical_observer {
     double spin;      /* |spin| < 1                                                      */
-    double radius;    /* outside the horizon; INFINITY                                   */
+    double radius;    /* outside the horizon, the inner one of what falls; INFINITY      */
     double cos_theta; /* [-1, 1], exact 0 and +-1 included                               */
     double sin_theta; /* 0: taken from cos_theta, as in null_geodesic.h                  */
     struct kd_observer_motion motion; /* at a finite radius, where there is this observer */

@@ -10,6 +10,12 @@ double kd_kerr_horizon(double a) { return 1 + sqrt(one_minus_a2(a)); }
 /* a^2 / r+, since r+ r- = a^2: no cancellation at small a. */
 double kd_kerr_inner_horizon(double a) { return a * a / kd_kerr_horizon(a); }
 
+double kd_kerr_twist(double a, double r)
+{
+    double gap = r - kd_kerr_horizon(a), apart = 2 * sqrt(one_minus_a2(a));
+    return a / apart * log1p(apart / gap);
+}
+
 double kd_kerr_ergosphere(double a, double cos_theta) { return 1 + sqrt(one_minus_a2(a * cos_theta)); }
 
 double kd_kerr_isco(double a)

@@ -30,6 +30,10 @@ double kd_kerr_ut(double a, double r);
 /* Efficiency of a thin disk, 1 - E(ISCO). */
 double kd_kerr_efficiency(double a);
 
+/* Boyer-Lindquist azimuth less that of ingoing Kerr-Schild coordinates, which is the same at infinity: the integral of a/Delta from r to
+ * infinity. r > r+; it diverges at the horizon. */
+double kd_kerr_twist(double a, double r);
+
 /* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
 double kd_kerr_dragging(double a, double r, double cos_theta);
 

@@ -131,9 +131,12 @@ static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const s
     double energy = kd_observer_energy(m, at) - kd_kerr_dragging(at->spin, at->r, at->u) * m->fall_momentum;
     double speed = sqrt(fmax(0, k.big * energy * energy - k.sigma * k.delta * one));
     double less = (root * energy + speed) / (root - base.t.radial), more = one / less;
-    if (less == 1 && x == 0)
-        return base;
-    return kd_tetrad_boosted(&base, (double[]) { 0.5 * (more + less), 0.5 * (more - less), 0, x });
+    const double velocity[4] = { 0.5 * (more + less), 0.5 * (more - less), 0, x };
+    struct kd_tetrad frame = less == 1 && x == 0 ? base : kd_tetrad_boosted(&base, velocity);
+    frame.falls = true;
+    for (int i = 0; i < 4; i++)
+        frame.past_rain[i] = velocity[i];
+    return frame;
 }
 
 static struct kd_tetrad frame_velocity(const struct kd_observer_motion *m, const struct kd_vantage *at)
@@ -202,7 +205,9 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     *bound = at->r;
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
-    *bound = rest_energy(m->fall_momentum, at);
+    struct kd_vantage here = *at; /* within the horizon all falls that has come through it */
+    here.r = fmax(at->r, kd_kerr_horizon(at->spin));
+    *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))
         return KD_OBSERVER_TURNS;
     return KD_OBSERVER_SOUND;

@@ -22,8 +22,8 @@
     X(RETROGRADE, retrograde, "on a circular orbit towards -phi, against the disk, whose highest latitude is here", \
       "outside the orbit of light that goes round against the disk", kd_observer_light_orbit(a, u, -1), "the orbit of light", \
       "nothing goes round freely")                                                                             \
-    X(INFALL, infall, "in free fall, by default from rest at infinity", "outside the horizon", kd_kerr_horizon(a), "the horizon", \
-      "the frames of Boyer-Lindquist coordinates end")                                                         \
+    X(INFALL, infall, "in free fall, by default from rest at infinity", "outside the inner horizon, r > 1 - sqrt(1 - a^2)", \
+      kd_kerr_inner_horizon(a), "the inner horizon", "the model ends")                                                                        \
     X(VELOCITY, velocity, "with any velocity past the one of zero angular momentum", "outside the horizon", kd_kerr_horizon(a), \
       "the horizon", "everything falls")
 
@@ -71,7 +71,7 @@ enum kd_observer_fault {
 };
 enum kd_observer_fault kd_observer_check(const struct kd_observer_motion *motion, const struct kd_vantage *at, double *bound);
 
-/* Its frame; only where it exists and nothing is wrong. r > r+ for now: the tetrads are those of Boyer-Lindquist coordinates.
+/* Its frame; only where it exists and nothing is wrong. That of what falls is regular at the outer horizon and within.
  *
  * The legs of one that moves past that of zero angular momentum are the latter's by a boost without rotation (kd_tetrad_boosted). */
 struct kd_tetrad kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at);

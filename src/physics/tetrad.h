@@ -9,6 +9,8 @@
 #ifndef KD_PHYSICS_TETRAD_H
 #define KD_PHYSICS_TETRAD_H
 
+#include <stdbool.h>
+
 struct kd_covector {
     double energy, momentum, polar, radial; /* E, L/sin(theta), p_theta, Delta p_r */
 };
@@ -18,9 +20,12 @@ struct kd_vantage {
     double spin, r, u, s;
 };
 
+/* falls: the frame is regular at a horizon; past_rain: gamma and gamma v by e_r, e_theta, e_phi of its velocity past rain (observer.c). */
 struct kd_tetrad {
     struct kd_vantage at;
     struct kd_covector t, r, theta, phi;
+    bool falls;
+    double past_rain[4];
 };
 
 /* The covector of the components x, and the components of a covector; the latter not at a horizon itself, where E, L and Delta p_r say
@@ -39,6 +44,10 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame);
  * along -m. energy: its E over what is measured in the frame. */
 struct kd_look { double right, up, inwards, energy; };
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon);
+
+/* The same of light that goes inwards (radial <= 0), in a frame that falls, at a horizon too; polar2: the square of p_theta, which may be below 0 where
+ * it is continued beyond what is seen, and `up` is then that of the photon's own p_theta. kd_tetrad_look does so by itself. */
+struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2);
 
 /* The photon with the labels alpha, beta of null_geodesic.h, E = 1, that passes `at` outwards; radial is 0 where there is none. */
 struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta);

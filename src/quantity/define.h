@@ -46,7 +46,7 @@
 #define KD_PARAMETER_MASS(P)                                                                                          \
     P(mass_msun, .unit = "solar masses", .initial = "1e8", .minimum = 1e-3, .maximum = 1e12, .help = "mass of the hole")
 #define KD_PARAMETER_OBSERVER(P)                                                                                      \
-    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",                \
+    P(observer_r, .unit = "M", .initial = "infinity", .minimum = 0.01, .maximum = 1e7, .word = "infinity",             \
       .help = "radius of the observer")                                                                                \
     P(observer, .initial = "static", .words = KD_OBSERVER_WORDS, .help = "state of motion at a finite radius" KD_OBSERVER_HELP) \
     P(velocity_r, .unit = "c", .initial = "0", .minimum = -1, .maximum = 1, .help = "outwards, past one of zero angular momentum (observer velocity)") \

@@ -44,6 +44,8 @@ static enum kd_status make_frame(const struct parameters *p, struct memory *m, s
         return KD_OK;
     if (kd_quantity_observer_exists(&motion, &at, error))
         return KD_EINVAL;
+    if (at.r <= kd_kerr_horizon(at.spin))
+        return kd_quantity_outside(error, "observer_r", at.r, "not outside the horizon at %.9g M", kd_kerr_horizon(at.spin));
     m->frame = kd_observer_tetrad(&motion, &at);
     return KD_OK;
 }

@@ -8,7 +8,7 @@
 
 /* In the order in which they are listed. */
 #define QUANTITIES(X) X(kerr) X(shadow) X(deflection) X(potential) X(redshift) X(ring_image) X(disk_flux) X(blackbody) X(qnm) X(flamm) X(frame_dragging) \
-    X(scale) X(inspiral) X(tidal)
+    X(infall) X(scale) X(inspiral) X(tidal)
 
 #define DECLARE(symbol) extern const struct kd_quantity kd_quantity_##symbol;
 QUANTITIES(DECLARE)
@@ -75,7 +75,7 @@ enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *moti
     const struct kd_observer_row *row = &kd_observers[motion->observer];
     const double horizon = kd_kerr_horizon(at->spin);
     char others[KD_OBSERVER_TEXT];
-    if (!(at->r > horizon))
+    if (!(at->r > horizon) && row->outside(at->spin, at->u) >= horizon)
         return kd_quantity_outside(error, "observer_r", at->r, "not outside the horizon at %.9g M", horizon);
     if (kd_observer_exists(motion->observer, at))
         return isfinite(at->r) ? numbers_of(motion, at, error) : KD_OK;

@@ -35,10 +35,11 @@
          "(angular diameter) distance of the hole: with its mass it says how wide a picture is on the sky, for a beam and a scale")
 
 #define KD_CAMERA_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
-    WORD(camera, r, PHYSICS, FRONT, INFINITY, 1.0, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")   \
+    WORD(camera, r, PHYSICS, FRONT, INFINITY, 0.01, 1e7, "M", "Boyer-Lindquist radius of the observer", "infinity")   \
     REAL(camera, inclination_deg, PHYSICS, FRONT, 82.0, 0.0, 180.0, "degrees",                                       \
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")                     \
-    REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees", "Boyer-Lindquist azimuth of the observer") \
+    REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees",                                          \
+         "Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away")   \
     ENUM(camera, observer, PHYSICS, REST, KD_OBSERVER_STATIC,                                                        \
          "state of motion at a finite radius" KD_OBSERVER_HELP, KD_OBSERVER_WORDS)                                   \
     REAL(camera, velocity_r, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity outwards, past one of zero angular momentum (observer: velocity)") \

@@ -106,7 +106,7 @@ static enum kd_status decades(const struct kd_scene *scene, struct kd_error *err
 static enum kd_status horizon(const struct kd_scene *scene, struct kd_error *error)
 {
     double r = scene->camera.r, least = kd_kerr_horizon(scene->spacetime.spin);
-    if (r > least)
+    if (r > least || scene->camera.observer == KD_OBSERVER_INFALL)
         return KD_OK;
     return kd_error_field(error, "/camera/r",
                           "camera.r is %s M, allowed is more than %s M, the horizon of spacetime.spin %s",
@@ -121,6 +121,9 @@ static enum kd_status observer(const struct kd_scene *scene, struct kd_error *er
     char others[KD_OBSERVER_TEXT];
     if (kd_observer_exists((enum kd_observer)camera->observer, &at))
         return KD_OK;
+    if (camera->observer == KD_OBSERVER_INFALL)
+        return kd_error_field(error, "/camera/r", "camera.r is %s M, allowed for camera.observer \"infall\" is more than %s M, the inner horizon, where the "
+                              "model ends", show(camera->r).text, show_bound(row->outside(at.spin, at.u)).text);
     return kd_error_field(
         error, "/camera/r",
         "camera.r is %s M, allowed for camera.observer \"%s\" at this inclination is more than %s M, %s; camera.observer %s can be inside",
@@ -261,7 +264,7 @@ const struct kd_rule kd_rules[] = {
       "those from a finite radius; each pair is 0 in the other projections.",
       aim },
     { "`camera.ring_decades_min` is less than `camera.ring_decades_max`.", decades },
-    { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2).", horizon },
+    { "`camera.r` is outside the outer horizon, 1 + sqrt(1 - a^2), unless `camera.observer` is \"infall\".", horizon },
     { "Each `camera.observer` exists in a region of its own" KD_OBSERVER_PLACES ".", observer },
     { "`camera.velocity_r`, `camera.velocity_theta` and `camera.velocity_phi` are a speed below 1. What falls is outside no turning point: "
       "`camera.infall_from` is at least `camera.r`, and it does not turn on its way; `camera.infall_energy` is enough to be at "

@@ -11,6 +11,7 @@
 
 enum { GRID = 12, RAYS = GRID * GRID, FACES = 6, ORDERS = 2 };
 #define RADIAN (M_PI / 180)
+#define HORIZON 1.4358898943540673 /* of a = 0.9 */
 #define FALL .fall_from = INFINITY, .fall_energy = INFINITY
 
 static const struct seer {
@@ -24,6 +25,22 @@ static const struct seer {
     { "velocity", 0.9, 70, 12, { .observer = KD_OBSERVER_VELOCITY, .velocity = { -0.5, 0.3, 0.6 } }, 0, 0 },
     { "velocity", -0.6, 120, 2.5, { .observer = KD_OBSERVER_VELOCITY, .velocity = { 0.2, -0.4, -0.3 } }, 0, 0 },
     { "rain", 0, 75, 20, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 110, 2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0, 75, 2.1, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0, 75, 2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0, 75, 1.9, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0, 75, 1, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0, 75, 0.3, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0, 75, 0.05, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, HORIZON * 1.001, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, HORIZON * 1.000001, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, HORIZON, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, HORIZON * 0.999999, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, HORIZON * 0.999, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, 1.43, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 75, 1.2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "rain", 0.9, 120, 0.7, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
+    { "plunge", 0.9, 80, 1.3, { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.9, .fall_momentum = 1.2 }, 0.9, 1.2 },
     { "rain", 0.9, 75, 6, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "from 10 M", 0, 80, 5, { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY }, 0.89442719099991588, 0 }, /* sqrt(0.8) */
     { "plunge", 0.7, 80, 3, { .observer = KD_OBSERVER_INFALL, .fall_from = INFINITY, .fall_energy = 0.95, .fall_momentum = 1.5 }, 0.95, 1.5 },
@@ -172,6 +189,8 @@ struct judged { double errors[(ORDERS + 1) * RAYS * FACES]; size_t n, wrong, sky
 static double twist(const struct seer *seer)
 {
     double a = seer->spin, root = sqrt((1 - a) * (1 + a));
+    if (seer->motion.observer == KD_OBSERVER_INFALL) /* whose own azimuth is ingoing */
+        return 0;
     return a / (2 * root) * log1p(2 * root / (seer->r - 1 - root));
 }
 
@@ -195,7 +214,7 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
             continue;
         o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
         /* Of what turns outside and comes back towards the horizon the azimuth diverges, and its quadrature with it. */
-        bool back = !want.falls[order];
+        bool back = !want.falls[order] && want.r[order] < 1.9 * kd_kerr_horizon(seer->spin);
         if (w > 0 && has)
             o->errors[o->n++] = (fabs(1 / w / want.r[order] - 1) + (back ? 0 : fabs(turn(phi - want.phi[order])))) /
                                 (1 + (fabs(log(beside.r[order] / want.r[order])) + fabs(turn(beside.phi[order] - want.phi[order]))) / nudge);
@@ -217,6 +236,7 @@ static void maps(void **state)
     static float planes[(2 * ORDERS + 3) * RAYS];
     static struct judged all;
     struct kd_capacity capacity;
+    int bad = 0;
     kd_renderer_capacity(renderer, &capacity);
     for (int i = 0; i < SEERS; i++) {
         all = (struct judged) { .n = 0 };
@@ -232,14 +252,58 @@ static void maps(void **state)
         print_message("%s, a = %g, r = %g, %s: %zu crossings and %zu places in the sky, error %.1e in the median, %.1e at most, %zu wrong\n", seers[i].name,
                       seers[i].spin, seers[i].r, plan.path == KD_LENS_CLOSED ? "closed form" : "steps", all.n - all.sky, all.sky,
                       all.errors[all.n / 2], all.errors[all.n - 1], all.wrong);
-        assert_true(all.wrong == 0 && all.n > 200);
-        assert_true(all.errors[all.n / 2] < 5e-7 && all.errors[all.n - 1] < 3e-5);
+        bad += !(all.wrong == 0 && all.n > 200 && all.errors[all.n / 2] < 5e-7 && all.errors[all.n - 1] < 4e-5);
     }
+    assert_int_equal(bad, 0);
+}
+
+/* How far from the middle of the hole the darkness of rain in Schwarzschild ends: sqrt(27) = b = r sin/(1 - cos sqrt(2/r)), a quadratic equation of
+ * the tangent of half the angle, of which light that goes inwards at the orbits of light is the one root and what goes outwards the other. */
+static double dark_angle(double r)
+{
+    double q = sqrt(54 / r), middle = atan2(r, q), half = acos(fmin(1, sqrt(27) / hypot(r, q)));
+    return r < 3 ? middle + half : middle - half;
+}
+
+/* The edge of the darkness along a row of pixels a few microradians apart that crosses it. */
+static void dark_disk(void **state)
+{
+    (void)state;
+    enum { ROW = 64 };
+    static float planes[(3 + 3) * ROW];
+    static const double radii[] = { 20, 6, 4, 3.1, 2.9, 2.5, 2.1, 2.000002, 2, 1.999998, 1.9, 1.5, 1, 0.3, 0.1, 0.03 };
+    struct kd_capacity capacity;
+    int bad = 0;
+    kd_renderer_capacity(renderer, &capacity);
+    assert_true(fabs(dark_angle(2) - 2 * atan(2 / sqrt(27))) < 1e-12 && fabs(dark_angle(2) / RADIAN - 42.1) < 0.05);
+    for (size_t i = 0; i < sizeof radii / sizeof *radii; i++) {
+        const struct seer rain = { "rain", 0, 90, radii[i], { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 };
+        struct kd_scene scene = scene_of(&rain, 0);
+        struct kd_plan plan;
+        double want = dark_angle(radii[i]), step = 2e-6;
+        scene.camera.yaw_deg = want / RADIAN;
+        scene.camera.fov_deg = ROW * step / RADIAN;
+        scene.image.width = ROW;
+        scene.image.height = 1;
+        OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
+        assert_int_equal(plan.planes, plan.orders + 3);
+        OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
+        const float *fate = planes + plan.orders * ROW + 2 * ROW;
+        int dark = 0, unsure = 0;
+        for (int k = 0; k < ROW; k++) {
+            dark += fate[k] == (float)KD_FATE_CAPTURED;
+            unsure += fate[k] == (float)KD_FATE_UNDECIDED;
+        }
+        double off = (dark + 0.5 * unsure - 0.5 * ROW) * step;
+        print_message("r = %g: dark to %.6f degrees, within %.1e rad; %d dark, %d undecided of %d\n", radii[i], want / RADIAN, off, dark, unsure, ROW);
+        bad += !(fabs(off) < 1e-5 && dark > 0 && dark + unsure < ROW && unsure * step < 3e-5);
+    }
+    assert_int_equal(bad, 0);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps), cmocka_unit_test(dark_disk) };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

@@ -120,9 +120,28 @@ static void face_on(void **state)
               -ASK("redshift", "beta", "inclination_deg=70", "phi_deg=200"), 1e-11);
 }
 
+/* sqrt(r^3/2) (eta + sin eta)/2 with r cos^2(eta/2) from rest at r (Misner, Thorne & Wheeler 1973, eq. 31.10): pi/2 sqrt(r^3/2) in all. */
+static void fall(void **state)
+{
+    (void)state;
+    double seconds = KD_M_SUN_S * 4.3e6, rain = 0, steps = 20000, end = 0.81 / 1.4358898943540673, span = sqrt(3) - sqrt(end);
+    published("rain, horizon to singularity", ASK("infall", "proper_time_to_end", "r=2"), 4.0 / 3, 1e-9);
+    published("rain, 8 M to the horizon", ASK("infall", "proper_time_to_horizon", "r=8"), sqrt(2) / 3 * (pow(8, 1.5) - pow(2, 1.5)), 1e-12);
+    published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1, 1e-12); /* pi from 2 M on */
+    published("from rest", ASK("infall", "proper_time_to_end", "r=10", "infall_from=10"), 0.5 * M_PI * sqrt(500), 1e-10);
+    published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"), 0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
+    published("seconds of Sgr A*", ASK("infall", "proper_time_to_end_s", "r=2", "mass_msun=4.3e6"), 4.0 / 3 * seconds, 1e-6);
+    published("velocity", ASK("infall", "velocity", "r=8"), 0.5, 1e-14);
+    for (int i = 0; i <= steps; i++) { /* Simpson's rule for r^2/sqrt(2r (r^2 + a^2)), in sqrt(r) */
+        double x = sqrt(end) + span * i / steps, r = x * x;
+        rain += (i == 0 || i == steps ? 1 : i % 2 ? 4 : 2) * 2 * x * r * r / sqrt(2 * r * (r * r + 0.81)) * span / steps / 3;
+    }
+    published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(constants),
-                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on) };
+                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on), cmocka_unit_test(fall) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,7 +108,7 @@ static const struct bad fields[] = {
     { "{\"spacetime\":{\"spin\":null}}", "/spacetime/spin", "spacetime.spin is null" },
     { "{\"spacetime\":{\"mass_msun\":1e999}}", "/spacetime/mass_msun", "is a number beyond 1e308" },
     { "{\"camera\":{\"r\":1e999}}", "/camera/r",
-      "beyond 1e308, allowed are 1 to 10000000 M, and \"infinity\"" },
+      "beyond 1e308, allowed are 0.01 to 10000000 M, and \"infinity\"" },
     { "{\"camera\":{\"r\":\"Infinity\"}}", "/camera/r", "camera.r is \"Infinity\", allowed are" },
     { "{\"camera\":{\"r\":\"50\"}}", "/camera/r", "camera.r is \"50\", a string where a number is wanted" },
     { "{\"camera\":{\"observer\":\"zam\"}}", "/camera/observer", "allowed are \"static\", \"zamo\", \"keplerian\", \"retrograde\", \"infall\" and \"velocity\"" },

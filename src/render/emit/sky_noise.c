@@ -30,7 +30,8 @@ static bool elsewhere(const struct kd_null_path *a, const struct kd_null_path *b
 bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
 {
     double r = scene->camera.r, rounding = precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
-    if (!(r < KD_SKY_NEAR * kd_kerr_horizon(scene->spacetime.spin)))
+    /* Who falls sees the sky as large as from further out. */
+    if (!(r < KD_SKY_NEAR * kd_kerr_horizon(scene->spacetime.spin)) || scene->camera.observer == KD_OBSERVER_INFALL)
         return false;
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     uint32_t width = (uint32_t)(scene->image.width * scene->image.samples), height = (uint32_t)(scene->image.height * scene->image.samples);

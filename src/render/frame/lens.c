@@ -40,7 +40,7 @@ static enum kd_status trace_kernel(struct kd_frame_job *j, const struct kd_criti
     const struct kd_spec_lens_map spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .STEPS = p->setting.steps,
         .METHOD = p->setting.engine == KD_ENGINE_MINO_RKN4 ? 4 : 6, .SIGHT = kd_camera_sight(j->scene),
-        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
+        .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift, .INGOING = p->ingoing,
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }

@@ -15,6 +15,7 @@
 struct work {
     const struct kd_plan *plan;
     size_t n;
+    double twist; /* of the observer's azimuth */
     double *alpha_beta, *energy;
     bool *outward;
     struct kd_ray_crossing *crossings;
@@ -30,10 +31,10 @@ static void finish(struct work *w)
     free(w->ends);
 }
 
-static enum kd_status init(struct work *w, const struct kd_plan *plan, size_t n, struct kd_error *error)
+static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n, struct kd_error *error)
 {
     uint32_t orders = plan->orders ? plan->orders : 1; /* the engines want one */
-    *w = (struct work) { .plan = plan, .n = n };
+    *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
     w->energy = malloc(n * sizeof *w->energy);
     w->outward = malloc(n * sizeof *w->outward);
@@ -78,7 +79,7 @@ static void fill_azimuths(const struct work *w, uint32_t order, float *to)
 {
     for (size_t i = 0; i < w->n; i++) {
         double phi = order < w->ends[i].n_crossings ? w->crossings[i * w->plan->orders + order].phi : 0;
-        to[i] = (float)(w->energy[i] < 0 ? -phi : phi);
+        to[i] = (float)((w->energy[i] < 0 ? -phi : phi) + w->twist);
     }
 }
 
@@ -107,7 +108,7 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
         const struct kd_ray_end *end = &w->ends[i];
         bool escaped = end->fate == KD_RAY_ESCAPED;
         u[i] = escaped ? (float)cos(end->theta) : 0;
-        phi[i] = escaped ? (float)end->phi : 0;
+        phi[i] = escaped ? (float)(end->phi + w->twist) : 0;
         fate[i] = escaped ? (float)KD_FATE_ESCAPED : end->fate == KD_RAY_CAPTURED ? (float)KD_FATE_CAPTURED : (float)KD_FATE_UNDECIDED;
     }
 }
@@ -202,7 +203,7 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
 {
     struct work w;
     uint32_t width = rows->pixels ? plan->critical : plan->width * plan->side;
-    enum kd_status status = init(&w, plan, (size_t)width * rows->count, error);
+    enum kd_status status = init(&w, scene, plan, (size_t)width * rows->count, error);
     if (status)
         return status;
     if (rows->pixels)

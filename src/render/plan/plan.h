@@ -65,6 +65,7 @@ struct kd_plan {
     bool light;                     /* flux and centroid are measured */
     bool unseen;                    /* no pixels are made of the radiance */
     bool ring;                      /* rays are listed, round the critical curve */
+    bool ingoing;                   /* the observer falls, in coordinates that know no outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* maps of numbers beside the picture */
     size_t n_layers;
     bool picture;                   /* the picture is among image.layers */

@@ -42,6 +42,13 @@ static void near(struct kd_camera_exact *o, const struct kd_camera *c, double st
     set_directions(o, forward, mix(step * cr, side, -step * sr, upward), mix(step * sr, side, step * cr, upward));
 }
 
+double kd_camera_twist(const struct kd_scene *scene)
+{
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    bool falls = scene->camera.observer == KD_OBSERVER_INFALL && isfinite(at.r) && at.r > kd_kerr_horizon(at.spin);
+    return falls ? kd_kerr_twist(at.spin, at.r) : 0;
+}
+
 /* The legs of the observer's frame. A valid scene has no observer where there is none such. */
 static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const struct kd_vantage *at)
 {
@@ -53,6 +60,7 @@ static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const
     o->p_t = f.t.polar, o->p_r = f.r.polar, o->p_theta = f.theta.polar, o->p_phi = f.phi.polar;
     o->dw_t = f.t.radial / r2, o->dw_r = f.r.radial / r2, o->dw_theta = f.theta.radial / r2, o->dw_phi = f.phi.radial / r2;
     o->w0 = 1 / at->r;
+    o->twist = kd_camera_twist(scene);
 }
 
 uint32_t kd_camera_sight(const struct kd_scene *scene)

@@ -22,6 +22,9 @@ uint32_t kd_camera_sight(const struct kd_scene *scene);
 /* What the direction at (x, y), in steps from the middle, has of c0; x and y become what it has of cx and cy. */
 double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, double *y);
 
+/* The Boyer-Lindquist azimuth of the observer less camera.azimuth_deg. */
+double kd_camera_twist(const struct kd_scene *scene);
+
 /* From pixel to pixel: M in the image plane, or over the distance of the picture from a pinhole. Of these two alone. */
 double kd_camera_pixel(const struct kd_scene *scene);
 

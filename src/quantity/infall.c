@@ -1,0 +1,78 @@
+#include "quantity/define.h"
+
+#include "physics/angle.h"
+#include "physics/infall.h"
+#include "physics/kerr.h"
+#include "physics/scale.h"
+
+#define PARAMETERS(P)                                                                                                  \
+    P(spin, .unit = "M", .initial = "0", .minimum = -1, .maximum = 1, .open = true, .help = "spin parameter a")        \
+    P(inclination_deg, .unit = "degrees", .initial = "90", .minimum = 0, .maximum = 180, .help = "polar angle of what falls") \
+    P(infall_from, .unit = "M", .initial = "infinity", .minimum = 1, .maximum = 1e7, .word = "infinity",               \
+      .help = "radius from which it falls, at rest there but for its angular momentum")                                \
+    P(infall_energy, .unit = "1", .initial = "rest", .minimum = -100, .maximum = 1e3, .word = "rest",                  \
+      .help = "its energy per mass; rest: as infall_from has it")                                                      \
+    P(infall_momentum, .unit = "M", .initial = "0", .minimum = -1e4, .maximum = 1e4, .help = "its angular momentum per mass") \
+    KD_PARAMETER_MASS(P)                                                                                               \
+    P(r, .unit = "M", .initial = "0.2:20:100", .minimum = 0.001, .maximum = 1e7, .along = true, .help = "radius where it is")
+#define OUTPUTS(O)                                                                                                     \
+    O(proper_time_to_horizon, .unit = "M", .help = "by its own clock, from r to the outer horizon; null within")       \
+    O(proper_time_to_end, .unit = "M", .help = "by its own clock, from r to where the model ends: the inner horizon, or without spin the singularity") \
+    O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds")                                            \
+    O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds")                                                \
+    O(velocity, .unit = "1", .help = "towards the hole past one of zero angular momentum, in units of that of light; null within the horizon") \
+    O(energy, .unit = "1", .fixed = true, .help = "per mass")                                                          \
+    O(end, .unit = "M", .fixed = true, .help = "radius where the model ends")
+KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
+
+static const char *const sources[] = {
+    "C. Doran 2000, Phys. Rev. D 61, 067503; J. Natario 2009, Gen. Rel. Grav. 41, 2579 (from rest at infinity)",
+    "B. Carter 1968, Phys. Rev. 174, 1559 (the motion)",
+    NULL,
+};
+static const char *const approximations[] = { NULL };
+
+static enum kd_status check(const struct kd_observer_motion *motion, const struct kd_vantage *at, struct kd_error *error)
+{
+    const double end = kd_kerr_inner_horizon(at->spin);
+    if (!(at->r > end))
+        return kd_quantity_outside(error, "r", at->r, "not outside %.9g M, where the model ends", end);
+    if (kd_quantity_observer_exists(motion, at, error))
+        return KD_EINVAL;
+    if (!kd_infall_is_level(motion, at))
+        return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI), "where it would not stay at this latitude; allowed with "
+                                   "spin are 0, 90 and 180, or what falls from rest at infinity");
+    return KD_OK;
+}
+
+static enum kd_status evaluate(const double *in, double *out, void *memory, bool fresh, struct kd_error *error)
+{
+    (void)memory, (void)fresh;
+    const struct parameters *p = KD_QUANTITY_IN(in);
+    struct outputs *o = KD_QUANTITY_OUT(out);
+    const struct kd_vantage at = { p->spin, p->r, kd_cos_deg(p->inclination_deg), kd_sin_deg(p->inclination_deg) };
+    const struct kd_observer_motion motion = {
+        .observer = KD_OBSERVER_INFALL, .fall_from = p->infall_from, .fall_energy = p->infall_energy, .fall_momentum = p->infall_momentum,
+    };
+    const double horizon = kd_kerr_horizon(p->spin), second = kd_scale_seconds(p->mass_msun);
+    if (check(&motion, &at, error))
+        return KD_EINVAL;
+    const struct kd_tetrad frame = kd_observer_tetrad(&motion, &at);
+    bool within = at.r <= horizon;
+    o->end = kd_kerr_inner_horizon(p->spin);
+    o->energy = kd_observer_energy(&motion, &at);
+    o->proper_time_to_end = kd_infall_proper_time(&motion, &at, o->end);
+    o->proper_time_to_horizon = within ? NAN : kd_infall_proper_time(&motion, &at, horizon);
+    o->proper_time_to_end_s = second * o->proper_time_to_end;
+    o->proper_time_to_horizon_s = second * o->proper_time_to_horizon;
+    o->velocity = NAN;
+    if (!within) {
+        const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
+        const struct kd_tetrad rest = kd_observer_tetrad(&zamo, &at);
+        double gamma = (frame.t.energy - kd_kerr_dragging(at.spin, at.r, at.u) * motion.fall_momentum) / rest.t.energy;
+        o->velocity = -frame.t.radial / rest.r.radial / gamma;
+    }
+    return KD_OK;
+}
+
+KD_QUANTITY(infall, "infall", "free fall into the hole by its own clock, to the horizon and to the end", .point_us = 20)
