@@ -245,7 +245,7 @@ static void whole_skies(void **state)
             most = fmax(most, luminance(&one, x, y));
         }
     printf("in bands: off by %.2g of the light\n", off / sum);
-    assert_true(sum > 0 && off / sum < 0.01 && most > 100);
+    assert_true(sum > 0 && off / sum < 5e-4 && most > 100); /* without the rows of the bands beside each it is more */
     kd_frame_finish(&one);
     kd_frame_finish(&again);
     kd_frame_finish(&bands);
