@@ -24,12 +24,12 @@ vec3 light(int at) { return blocks[at].rgb; }
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
 /* So many pixels, pixels a block, blocks and cells along an axis. */
-struct kd_axis { uint pixels, block, blocks, cells; };
+struct kd_bloom_axis { uint pixels, block, blocks, cells; };
 /* A block, and its weights for two neighbouring cells. */
 struct kd_tap { int at; float a, b; };
 
 /* The blocks whose middles are at most 1.5 cells from the middles of cell i and the next one are among these and those that follow. */
-int first_tap(kd_axis axis, int i)
+int first_tap(kd_bloom_axis axis, int i)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
     return int(ceil((float(i) - 1) / step_ - 0.5));
@@ -37,7 +37,7 @@ int first_tap(kd_axis axis, int i)
 
 /* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others: its middle lies before its place,
  * and what is mirrored in the edge, too. */
-kd_tap tap(kd_axis axis, int i, int k)
+kd_tap tap(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;
     float scale = float(axis.cells) / float(axis.pixels), at = (float(k) + 0.5) * (scale * float(axis.block)) - (float(i) + 0.5);
@@ -50,8 +50,8 @@ kd_tap tap(kd_axis axis, int i, int k)
 
 void main()
 {
-    kd_axis across = kd_axis(push.pixels_x, push.block_x, push.blocks_x, push.cells_x);
-    kd_axis along = kd_axis(push.pixels_y, push.block_y, push.blocks_y, push.cells_y);
+    kd_bloom_axis across = kd_bloom_axis(push.pixels_x, push.block_x, push.blocks_x, push.cells_x);
+    kd_bloom_axis along = kd_bloom_axis(push.pixels_y, push.block_y, push.blocks_y, push.cells_y);
     uvec2 place = bloom_place(gl_GlobalInvocationID.x, (push.cells_x + 1) / 2);
     int x = 2 * int(place.x), y = 2 * int(place.y);
     if (y >= int(push.cells_y))
