@@ -211,7 +211,7 @@ static enum kd_status one_subject(struct kd_renderer *renderer, size_t subject, 
     struct kd_capacity capacity;
     struct kd_plan plan;
     struct kd_frame frame;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = height * 16 / 9;
     scene.image.height = height;
     scene.style.dither = dither;

@@ -70,7 +70,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     size_t n = file ? fread(text, 1, sizeof text, file) : 0;
     if (file)
         fclose(file);
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     if (!n)
         return kd_error_set(error, KD_EIO, "cannot read %s", o->scene);
     if (kd_scene_from_json(&scene, text, n, error))

@@ -45,7 +45,7 @@ static enum kd_status measure(struct kd_renderer *renderer, double epicycles, in
 {
     struct kd_particle_grid grid = { 0 };
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = scene.image.height = 16;
     scene.style.exposure = 0;
     scene.disk.model = KD_DISK_PARTICLES;

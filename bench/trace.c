@@ -104,7 +104,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     struct kd_scene scene;
     struct kd_capacity capacity;
     struct kd_plan plan;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = o->spin;
     scene.camera.inclination_deg = o->inclination;
     scene.camera.field_m = 24;

@@ -81,13 +81,13 @@
     REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                               \
          "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                        \
     REAL(disk, opacity, MODEL, FRONT, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")           \
-    REAL(disk, emission_opacity, MODEL, REST, 0.0, 0.0, 1e6, "1",                                                    \
+    REAL(disk, emission_opacity, MODEL, REST, 10.0, 0.0, 1e6, "1",                                                    \
          "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - exp(-depth/cos) of " \
          "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere")             \
     ENUM(disk, colour, MODEL, REST, KD_COLOUR_PEAK,                                                                  \
          "temperature scale: a chosen peak temperature, or from spacetime.mass_msun and disk.mdot_edd",              \
          "peak|accretion")                                                                                           \
-    REAL(disk, peak_temperature_k, MODEL, FRONT, 5600.0, 300.0, 1e9, "K",                                            \
+    REAL(disk, peak_temperature_k, MODEL, FRONT, 3600.0, 300.0, 1e9, "K",                                            \
          "largest effective temperature of the disk, in its own frame (colour: peak)")                               \
     REAL(disk, mdot_edd, MODEL, REST, 0.1, 1e-12, 1e3, "Eddington rates",                                            \
          "accretion rate: luminosity over the Eddington luminosity, with the efficiency of this spin")               \
@@ -113,7 +113,7 @@
          "one coordinate time")
 
 #define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
-    REAL(gas, amplitude, MODEL, FRONT, 0.0, 0.0, 3.0, "1",                                                           \
+    REAL(gas, amplitude, MODEL, FRONT, 0.8, 0.0, 3.0, "1",                                                           \
          "turbulence: standard deviation of the logarithm of the flux, and of the optical depth; 0: a smooth disk")  \
     INT(gas, octaves, MODEL, REST, 6, 1, 8, "1", "scales of the turbulence, each about half the one before")         \
     REAL(gas, scale, MODEL, REST, 0.4, 0.02, 2.0, "1", "size of the largest eddies, over r, before they are drawn out") \
@@ -166,7 +166,7 @@
     BOOL(image, legend, LOOK, REST, true, "a colour bar in the lower left corner of a layer in false colour")
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
-    ENUM(style, name, LOOK, FRONT, KD_STYLE_NONE,                                                                    \
+    ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM,                                                                    \
          "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
          "none|film|raw|dngr|eht|starless")                                                                                       \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
@@ -174,7 +174,7 @@
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
          "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is near white", \
          "aces|srgb|neutral")                                                                                        \
-    REAL(style, bloom, LOOK, FRONT, 0.0, 0.0, 1.0, "1",                                                              \
+    REAL(style, bloom, LOOK, FRONT, 0.4, 0.0, 1.0, "1",                                                              \
          "share of bright light that a lens spreads round its place: all of what is over 0.6 of white, by an even knee from 0.2 on; 0: none") \
     REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds",                                             \
          "full width at half maximum of the round Gaussian beam of a telescope that sees the picture from spacetime.distance_pc; 0: none") \
@@ -246,7 +246,7 @@
     ROW(sky, model,         NAN,               NAN,               NAN,               NAN,               KD_SKY_STARS) \
     ROW(style, exposure,    NAN,               NAN,               NAN,               NAN,               0.5)         \
     ROW(style, tone_map,    KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES,      KD_TONE_SRGB,      KD_TONE_ACES) \
-    ROW(style, bloom,       0.5,               0,                 0.7,               0,                 0.4)         \
+    ROW(style, bloom,       0.4,               0,                 0.4,               0,                 0.4)         \
     ROW(style, beam_uas,    0,                 0,                 0,                 20,                0)           \
     ROW(style, palette,     KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_COLOUR, KD_PALETTE_HEAT,   KD_PALETTE_COLOUR) \
     ROW(style, colour_bar,  0,                 0,                 0,                 1,                 0)           \
@@ -305,7 +305,7 @@ enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE };
 enum kd_sky_orientation { KD_SKY_GALACTIC, KD_SKY_EQUATORIAL, KD_SKY_SGRA, KD_SKY_M87 };
-enum { KD_STYLE_NONE };
+enum { KD_STYLE_NONE, KD_STYLE_FILM };
 enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_NEUTRAL };
 enum kd_palette { KD_PALETTE_COLOUR, KD_PALETTE_HEAT };
 enum kd_profile {

@@ -2,11 +2,13 @@
 #ifndef KD_SCENE_PRESETS_H
 #define KD_SCENE_PRESETS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct kd_preset {
     const char *name, *title; /* title: one sentence without a full stop */
-    const char *json;         /* merged over the defaults */
+    bool smooth;              /* merged over the preset "smooth"; else over the defaults */
+    const char *json;
 };
 extern const struct kd_preset kd_presets[];
 extern const size_t kd_preset_count;

@@ -55,6 +55,9 @@ void kd_scene_defaults(struct kd_scene *scene);
 
 /* Finds a preset by name; KD_EINVAL names the known ones otherwise. */
 enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error);
+/* Sets the preset "smooth": the defaults without gas and without what a lens does, for what measures a disk rather than showing it; and what
+ * older versions, which had neither, meant by the fields that they did not know. */
+void kd_scene_smooth(struct kd_scene *scene);
 size_t kd_scene_preset_count(void);
 const char *kd_scene_preset_name(size_t index);
 const char *kd_scene_preset_title(size_t index);

@@ -22,7 +22,8 @@
 static const struct shot {
     const char *name, *preset, *json;
 } shots[] = {
-    { "default", NULL, "{" SIZE "}" },
+    { "default", "gas", "{" SIZE "}" },
+    { "smooth", "smooth", "{" SIZE "}" },
     { "schwarzschild", "schwarzschild", "{" SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
     { "m87", "m87", "{" SIZE "}" },

@@ -56,7 +56,7 @@ struct kd_scene studio_scene(const char *preset, const char *json)
 {
     struct kd_scene scene;
     struct kd_error error = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     if ((preset && kd_scene_preset(&scene, preset, &error)) ||
         kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error))
         stop(json, &error);

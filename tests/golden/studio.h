@@ -16,13 +16,13 @@ void studio_close(void);
 /* Whether kernels can compute in double precision here; if not, a line says that `what` is left out. */
 bool studio_has_float64(const char *what);
 
-/* A preset (NULL: the defaults) with a JSON document merged over it. A scene that is not valid ends the
+/* A preset (NULL: "smooth") with a JSON document merged over it. A scene that is not valid ends the
  * program. */
 struct kd_scene studio_scene(const char *preset, const char *json);
 
 /* Render, or end the program with the reason. Free with kd_frame_finish. */
 struct kd_frame studio_render(const struct kd_scene *scene);
-/* The scene of a document, written as printf does, over the defaults. */
+/* The scene of a document, written as printf does, over the preset "smooth". */
 struct kd_frame studio_shoot(const char *json, ...) __attribute__((format(printf, 1, 2)));
 
 /* One sample, c = 0, 1, 2, as a fraction of full scale; as linear light (the inverse of the sRGB curve). */

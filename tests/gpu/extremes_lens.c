@@ -37,7 +37,7 @@ struct camera { const char *what; double spin, inclination, r, field, beta, yaw;
 static struct kd_scene scene_of(const struct camera *v, int steps)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = v->spin;
     scene.camera.inclination_deg = v->inclination;
     scene.camera.r = v->r;

@@ -129,7 +129,7 @@ static void draw(struct kd_renderer *renderer, const struct picture *picture)
     struct kd_error error = { 0 };
     bool lit = false;
     snprintf(row.what, sizeof row.what, "%s", picture->what);
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     kd_renderer_capacity(renderer, &capacity);
     if (picture->binding)
         capacity.max_binding_bytes = picture->binding;

@@ -20,7 +20,7 @@ static void show(int width, int height, double bloom, int rows, uint16_t *out)
     struct kd_capacity c;
     struct kd_plan plan;
     struct kd_error why = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = width;
     scene.image.height = height;
     scene.image.bit_depth = 16;

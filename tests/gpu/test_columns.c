@@ -49,7 +49,7 @@ static void assert_same_light(struct kd_scene scene)
 static struct kd_scene scene_of(const char *json)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     OK(kd_scene_from_json(&scene, json, strlen(json), &error));
     return scene;
 }

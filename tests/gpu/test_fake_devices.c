@@ -27,7 +27,7 @@ static enum kd_status open(struct kd_renderer **out, struct kd_error *error)
 static struct kd_scene scene_of(int k)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = WIDTH;
     scene.image.height = HEIGHT;
     scene.image.bit_depth = k == 1 ? 16 : 8;

@@ -42,7 +42,7 @@ enum { VIEWS = sizeof views / sizeof *views };
 static struct kd_scene scene_of(const struct view *v)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = v->a;
     scene.camera.inclination_deg = v->inclination;
     scene.camera.r = v->r;

@@ -23,7 +23,7 @@ static struct kd_frame drawn(const char *json, struct kd_plan *plan)
     struct kd_capacity c;
     struct kd_frame frame = { 0 };
     struct kd_error error = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     kd_renderer_capacity(renderer, &c);
     if (kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error) ||
         kd_plan_make(&scene, &c, plan, &error) || kd_render(renderer, &scene, plan, NULL, NULL, &frame, &error))

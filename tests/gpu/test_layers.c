@@ -22,7 +22,7 @@ enum { WIDTH = 28, HEIGHT = 20, PIXELS = WIDTH * HEIGHT, ORDERS = 2 };
 static struct kd_scene scene_of(double spin, double inclination, double r, const char *layers)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = WIDTH;
     scene.image.height = HEIGHT;
     scene.image.critical_factor = 1;

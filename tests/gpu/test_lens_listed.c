@@ -85,7 +85,7 @@ static const struct {
 static struct kd_scene scene_of(size_t i)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = 40;
     scene.image.height = 36;
     scene.spacetime.spin = views[i].spin;

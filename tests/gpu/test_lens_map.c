@@ -57,7 +57,7 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
     struct kd_scene scene;
     struct kd_capacity capacity;
     struct lens lens;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.accuracy.steps = steps;
     scene.spacetime.spin = v->a;
     scene.camera.inclination_deg = v->inclination;
@@ -258,7 +258,7 @@ static void test_in_plane(void **state)
     struct kd_capacity capacity;
     struct kd_plan plan;
     float planes[9 * GRID];
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = v.a;
     scene.camera.inclination_deg = v.inclination;
     scene.camera.field_m = v.field;
@@ -312,7 +312,7 @@ static void test_shadow(void **state)
     struct kd_capacity capacity;
     struct kd_plan plan;
     const int n = 1024;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = 0;
     scene.camera.field_m = 12;
     scene.image.width = scene.image.height = n;

@@ -57,7 +57,7 @@ static double place(int i) { return (2 * i + 1.0) / GRID - 1; }
 static struct kd_scene scene_at(double spin, double inclination, double r)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = inclination;
     scene.camera.r = r;

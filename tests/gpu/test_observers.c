@@ -52,7 +52,7 @@ static const struct { double yaw, pitch; } faces[FACES] = { { 0, 0 }, { 90, 0 },
 static struct kd_scene scene_of(const struct seer *seer, int face)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = seer->spin;
     scene.camera.inclination_deg = seer->inclination;
     scene.camera.r = seer->r;

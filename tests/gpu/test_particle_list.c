@@ -11,7 +11,7 @@
 static struct kd_scene scene_of(double spin, double epicycles)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 30000;

@@ -11,7 +11,7 @@
 static struct kd_scene particle_scene(double spin, double epicycles)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = 160;
     scene.image.height = 90;
     scene.spacetime.spin = spin;

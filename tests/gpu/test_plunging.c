@@ -15,7 +15,7 @@
 static struct kd_scene plunging_scene(double spin)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = 160;
     scene.image.height = 90;
     scene.spacetime.spin = spin;

@@ -51,7 +51,7 @@ static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 static struct kd_scene scene_of(double spin, double inclination, double r, int projection)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = inclination;
     scene.camera.r = r;

@@ -9,7 +9,7 @@
 static struct kd_scene small_scene(void)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = 160;
     scene.image.height = 90;
     return scene;

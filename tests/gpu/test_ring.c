@@ -13,7 +13,7 @@ enum { WIDTH = 24, HEIGHT = 800, ORDERS = 7 };
 static struct kd_scene scene_of(double spin, double inclination_deg)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.camera.projection = KD_PROJECTION_RING;
     scene.camera.inclination_deg = inclination_deg;

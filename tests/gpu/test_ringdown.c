@@ -11,7 +11,7 @@
 static struct kd_scene scene_of(double spin)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = 75;
     scene.camera.field_m = 30;

@@ -9,7 +9,7 @@
 static struct kd_scene spot_scene(double spin, double inclination)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = 160;
     scene.image.critical_factor = 1; /* tests count on one ray a pixel */
     scene.image.height = 120;

@@ -55,7 +55,7 @@ static void what_is_off_says_and_needs_nothing(void **state)
     (void)state;
     struct kd_scene scene;
     uint32_t traits[KD_EMITTER_COUNT];
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W);
     assert_true(says(&scene, "disk: geometrically thin") && !says(&scene, "particles:") && !says(&scene, "sky:"));
     scene.disk.model = KD_DISK_PARTICLES;
@@ -93,7 +93,7 @@ static void numbers_follow_the_scene(void **state)
     struct kd_scene scenes[5];
     assert_true(one && fresh);
     for (int k = 0; k < 5; k++)
-        kd_scene_defaults(&scenes[k]);
+        kd_scene_smooth(&scenes[k]);
     scenes[1].spacetime.spin = 0.3;
     scenes[2].disk.peak_temperature_k = 9000;
     scenes[3].disk.model = KD_DISK_PARTICLES;
@@ -125,7 +125,7 @@ static int follow_each_field(const char *document)
     struct kd_error error;
     int tried = 0;
     assert_true(one && fresh);
-    kd_scene_defaults(&base);
+    kd_scene_smooth(&base);
     assert_int_equal(kd_scene_from_json(&base, document, strlen(document), &error), KD_OK);
     assert_int_equal(kd_scene_validate(&base, &error), KD_OK);
     for (int i = 0; i < KD_FIELD_COUNT; i++) {
@@ -177,7 +177,7 @@ static void gas_replaces_the_disk(void **state)
     (void)state;
     struct kd_scene scene;
     uint32_t traits[KD_EMITTER_COUNT];
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.gas.octaves = 3;
     scene.gas.seed = 7;
     kd_emit_traits(&scene, traits);
@@ -280,7 +280,7 @@ static void none_of_a_thousand(void **state)
     (void)state;
     struct kd_scene scene;
     uint32_t traits[KD_EMITTER_COUNT];
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 1000;
     scene.disk.plunging = 0.0004;

@@ -24,7 +24,7 @@ static uint32_t last_rung(const struct simulation *s)
 
 static void some_scene(struct kd_scene *scene)
 {
-    kd_scene_defaults(scene);
+    kd_scene_smooth(scene);
     scene->image.width = 1 + (int32_t)(uniform() * uniform() * 3000);
     scene->image.height = 1 + (int32_t)(uniform() * uniform() * 2000);
     scene->image.samples = 1 + (int32_t)(uniform() * 8);
@@ -112,7 +112,7 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
         bounds.orders = 1 + (int32_t)(uniform() * 3);
         check_ladder(&asked, &bounds);
     }
-    kd_scene_defaults(&asked);
+    kd_scene_smooth(&asked);
     const struct kd_ladder_bounds bounds = KD_LADDER_BOUNDS_DEFAULT;
     struct kd_ladder ladder;
     asked.image.samples = 2;

@@ -91,7 +91,7 @@ static bool lens_kept(struct simulation *s, const struct kd_scene *scene)
 static inline void begin(struct simulation *s, const struct kd_governor_params *params, int width, int height, struct truth truth)
 {
     *s = (struct simulation) { .truth = truth, .cost = truthful, .load = 1, .least_pause = INFINITY };
-    kd_scene_defaults(&s->asked);
+    kd_scene_smooth(&s->asked);
     s->asked.image.width = width;
     s->asked.image.height = height;
     kd_governor_init(&s->governor, params);

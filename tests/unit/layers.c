@@ -12,7 +12,7 @@ static struct kd_scene scene_of(const char *json)
 {
     struct kd_scene scene;
     struct kd_error error = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     if (support_parse(&scene, json, &error) || kd_scene_validate(&scene, &error))
         fail_msg("%s: %s", json, error.message);
     return scene;
@@ -59,8 +59,8 @@ static void words_are_kept_in_order(void **state)
         struct kd_scene a, b;
         struct kd_error error;
         char document[200];
-        kd_scene_defaults(&a);
-        kd_scene_defaults(&b);
+        kd_scene_smooth(&a);
+        kd_scene_smooth(&b);
         snprintf(document, sizeof document, "{\"image\":{\"layers\":%s}}", same[i].json);
         assert_int_equal(support_parse(&a, document, &error), KD_OK);
         assert_int_equal(kd_scene_set(&b, "image.layers", same[i].text, &error), KD_OK);
@@ -69,11 +69,11 @@ static void words_are_kept_in_order(void **state)
         snprintf(document, sizeof document, "\"layers\":%s,", same[i].canonical);
         assert_non_null(strstr(text, document));
         struct kd_scene back;
-        kd_scene_defaults(&back);
+        kd_scene_smooth(&back);
         assert_int_equal(support_parse(&back, text, &error), KD_OK);
         assert_memory_equal(&a, &back, sizeof a);
         assert_int_equal(kd_scene_patch(&a, "{\"image\":{\"layers\":null}}", 25, &error), KD_OK);
-        kd_scene_defaults(&back);
+        kd_scene_smooth(&back);
         assert_memory_equal(&a, &back, sizeof a);
         free(text);
     }
@@ -94,7 +94,7 @@ static void other_words_are_refused(void **state)
             struct kd_scene scene, before;
             struct kd_error error = { 0 };
             char document[300];
-            kd_scene_defaults(&scene);
+            kd_scene_smooth(&scene);
             before = scene;
             snprintf(document, sizeof document, "{\"image\":{\"layers\":%s}}", bad[i].json);
             enum kd_status status = way ? kd_scene_set(&scene, "image.layers", bad[i].text, &error) : support_parse(&scene, document, &error);

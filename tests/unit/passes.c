@@ -25,7 +25,7 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
     struct kd_scene scene;
     struct kd_plan plan;
     struct kd_error error = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     if (kd_scene_from_json(&scene, json, strlen(json), &error) || kd_scene_validate(&scene, &error) || kd_plan_make(&scene, c, &plan, &error))
         fail_msg("%s: %s", json, error.message);
     return plan;
@@ -74,7 +74,7 @@ static struct kd_plan with_footprints(const struct kd_capacity *c)
     struct kd_scene scene;
     struct kd_plan plan;
     struct kd_error error = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     if (kd_scene_validate(&scene, &error) || kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_FOOTPRINT }, c, &plan, &error))
         fail_msg("%s", error.message);
     return plan;
@@ -118,7 +118,7 @@ static void emitters_are_prepared(void **state)
         assert_true(!e->device_bytes == !kd_preparations[i] && (e->device_bytes || !e->invocations));
         assert_true(!e->invocations == !kd_pass_find(e->name));
     }
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     assert_true(!kd_emit_device_bytes(&scene) && !kd_emit_invocations(&scene, KD_EMITTER_particles));
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 5000;

@@ -14,7 +14,7 @@
 static struct kd_scene scene_of(double spin)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.disk.model = KD_DISK_PARTICLES;
     scene.spacetime.spin = spin;
     return scene;

@@ -7,7 +7,7 @@
 static struct kd_scene struck(double spin, double amplitude)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.motion.time_rate = 10;
     scene.style.ringdown = amplitude;

@@ -225,7 +225,7 @@ static void what_moves(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_scene scene;
-        kd_scene_defaults(&scene);
+        kd_scene_smooth(&scene);
         assert_int_equal(support_parse(&scene, cases[i].json, NULL), KD_OK);
         if (kd_emit_moves(&scene) != cases[i].moves)
             fail_msg("%s: it %s", cases[i].json, cases[i].moves ? "does not move" : "moves");
@@ -235,9 +235,9 @@ static void what_moves(void **state)
 static void presets_are_valid(void **state)
 {
     (void)state;
-    static const char *const names[] = { "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
+    static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
-                                         "hot-spot",      "gas",       "milky-way", "gargantua-gas" };
+                                         "hot-spot",      "milky-way", "gas",       "gargantua-gas" };
     char hashes[16][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
@@ -259,7 +259,20 @@ static void presets_are_valid(void **state)
 static void presets_show_what_they_say(void **state)
 {
     (void)state;
-    struct kd_scene scene;
+    struct kd_scene scene, base;
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* but for the two of gas none has any */
+        assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
+        const bool gas = strstr(kd_scene_preset_name(i), "gas") != NULL;
+        assert_true((scene.gas.amplitude > 0) == gas && (scene.disk.emission_opacity > 0) == gas);
+    }
+    kd_scene_smooth(&base);
+    assert_int_equal(kd_scene_preset(&scene, "smooth", NULL), KD_OK);
+    assert_memory_equal(&scene, &base, sizeof scene);
+    kd_scene_defaults(&base);
+    assert_int_equal(kd_scene_preset(&scene, "gas", NULL), KD_OK);
+    assert_true(scene.motion.time_rate == 6);
+    scene.motion.time_rate = 0;
+    assert_memory_equal(&scene, &base, sizeof scene);
     assert_int_equal(kd_scene_preset(&scene, "schwarzschild", NULL), KD_OK);
     assert_true(scene.spacetime.spin == 0);
     assert_int_equal(kd_scene_preset(&scene, "gargantua", NULL), KD_OK);

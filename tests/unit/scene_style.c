@@ -64,7 +64,7 @@ static void what_the_document_sets_stays(void **state)
     }
     struct kd_scene dngr = of("{\"style\":{\"name\":\"dngr\"}}");
     struct kd_scene patched = parsed(&dngr, "{\"style\":{\"name\":\"dngr\",\"bloom\":null}}", true);
-    assert_true(patched.style.bloom == 0 && !patched.disk.doppler);
+    assert_true(patched.style.bloom == 0.4 && !patched.disk.doppler);
     patched = parsed(&dngr, "{\"style\":{\"name\":\"dngr\"},\"disk\":null}", true);
     assert_true(patched.disk.doppler && patched.disk.redshift);
 }
@@ -76,8 +76,10 @@ static void the_name_alone_does_nothing_later(void **state)
     const struct kd_scene dngr = of("{\"style\":{\"name\":\"dngr\"}}");
     struct kd_scene scene = parsed(&dngr, "{\"disk\":{\"doppler\":true}}", true);
     assert_true(scene.disk.doppler && !scene.disk.redshift && scene.style.bloom == dngr.style.bloom);
-    scene = parsed(&scene, "{\"style\":{\"name\":null}}", true);
+    scene = parsed(&scene, "{\"style\":{\"name\":\"none\"}}", true);
     assert_true(scene.style.name == KD_STYLE_NONE && scene.style.bloom == dngr.style.bloom && !scene.disk.redshift);
+    scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* the default, which is a style */
+    assert_true(scene.style.name == KD_STYLE_FILM && scene.disk.redshift);
     char *text = support_canonical(&dngr);
     const struct kd_scene again = of(text); /* names the style, and each field */
     assert_memory_equal(&again, &dngr, sizeof again);
@@ -87,6 +89,15 @@ static void the_name_alone_does_nothing_later(void **state)
     const struct kd_scene third = of(text);
     assert_memory_equal(&third, &scene, sizeof third);
     free(text);
+}
+
+/* The look of an empty document is the style that it names. */
+static void the_default_is_a_style(void **state)
+{
+    (void)state;
+    const struct kd_scene none = of("{}"), named = of("{\"style\":{\"name\":\"film\"}}");
+    assert_int_equal(none.style.name, KD_STYLE_FILM);
+    assert_memory_equal(&none, &named, sizeof none);
 }
 
 /* One field at a time: the later one wins. */
@@ -105,6 +116,7 @@ static void by_paths_in_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(each_sets_its_fields), cmocka_unit_test(what_the_document_sets_stays),
-                                        cmocka_unit_test(the_name_alone_does_nothing_later), cmocka_unit_test(by_paths_in_order) };
+                                        cmocka_unit_test(the_name_alone_does_nothing_later), cmocka_unit_test(by_paths_in_order),
+                                        cmocka_unit_test(the_default_is_a_style) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

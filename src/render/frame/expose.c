@@ -50,7 +50,7 @@ static double luminance_quantile(const uint32_t *counts, double share)
 static double auto_exposure(const uint32_t *counts, int tone_map, bool all)
 {
     double white = luminance_quantile(counts, all ? 0 : 0.004), median = luminance_quantile(counts, 0.5);
-    double over = tone_map != KD_TONE_SRGB ? fmin(fmax(0.45 * (white - median), 0.75), 4) : 0;
+    double over = tone_map != KD_TONE_SRGB ? fmin(fmax(0.45 * (white - median), 0.75), 2.75) : 0;
     return over - white;
 }
 

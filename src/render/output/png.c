@@ -67,7 +67,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
     const char *text = kd_png_text_find(&picture, "kerrd:scene");
     if (text) {
         struct kd_scene scene; /* *out stays as it was when the document is refused */
-        kd_scene_defaults(&scene);
+        kd_scene_smooth(&scene); /* the document is whole: what it lacks was not there when it was written */
         status = kd_scene_from_json(&scene, text, strlen(text), error);
         if (!status)
             *out = scene;

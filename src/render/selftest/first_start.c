@@ -39,7 +39,7 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         struct kd_scene scene;
         struct kd_plan plan;
         struct kd_frame frame = { 0 };
-        kd_scene_defaults(&scene);
+        kd_scene_smooth(&scene);
         scene.image.width = 256;
         scene.image.height = 144 + k; /* another lens map */
         scene.camera.r = k < 4 ? INFINITY : 30;

@@ -18,7 +18,7 @@ static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.05
 static struct kd_scene pixel_scene(const struct kd_selftest_ray *ray, double brightness)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = ray->spin;
     scene.camera.inclination_deg = ray->inclination_deg;
     scene.camera.centre_alpha = ray->alpha;

@@ -19,7 +19,7 @@ static double turn(double x) { return remainder(x, 2 * M_PI); }
 static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct kd_selftest_camera *camera)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = ray->spin;
     scene.camera.inclination_deg = ray->inclination_deg;
     scene.camera.r = ray->radius;

@@ -11,7 +11,7 @@
 static struct kd_scene scene_of(void)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = 157;
     scene.image.height = 91;
     scene.sky.model = KD_SKY_GRID;
