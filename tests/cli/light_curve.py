@@ -40,7 +40,7 @@ class LightCurve(Case):
         self.assertEqual(self.rows("--from", self.path("a.png"), "-n", "2"), self.rows("--preset", "hot-spot", *SMALL, "-n", "2"))
 
     def test_without_a_spot(self):
-        rows = self.rows("--end", "50", "-n", "2")
+        rows = self.rows("--preset", "smooth", "--end", "50", "-n", "2")
         self.assertEqual((rows[0]["spots_flux"], rows[0]["spots_centroid_x"], rows[0]["flux"]), ("0", "", rows[1]["flux"]))
         self.assertGreater(float(rows[0]["flux"]), 1)
 

@@ -7,7 +7,7 @@ import unittest
 
 import daemon
 
-RENDER = '/v1/render?' + daemon.SMALL
+RENDER = '/v1/render?preset=smooth&' + daemon.SMALL
 
 
 def begin(server, ms):
@@ -43,7 +43,7 @@ class Queue(daemon.Case):
         held = []  # 1 us a ray is what the renderer claims: 1280 x 1280 x 4 rays take 6.6 s, and those that wait 3.4 s each
         for side in (1280, 920, 920):
             held.append(self.daemon.connect())
-            held[-1].sendall(f'GET /v1/render?image.width={side}&image.height={side}&image.samples=2&time=100000 HTTP/1.1\r\n'
+            held[-1].sendall(f'GET /v1/render?preset=smooth&image.width={side}&image.height={side}&image.samples=2&time=100000 HTTP/1.1\r\n'
                              'Host: localhost\r\n\r\n'.encode())
             time.sleep(0.2)
         seconds = self.refused()
