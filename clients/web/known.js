@@ -29,6 +29,9 @@ function hasChoice(scene, name) {
   });
 }
 
+// With what a field that switches puts its section out of the picture.
+const off = field => field.choices?.[0] ?? field.minimum;
+
 // By what the schema says, and what the server says of the scene as it is.
 export function meansSomething(scene, path) {
   const field = scene.fields.get(path),
@@ -36,7 +39,7 @@ export function meansSomething(scene, path) {
     home = path.slice(0, Math.max(0, dot)),
     key = scene.switches.get(home);
   if (field.varies) return field.varies.some(word => scene.varies.includes(word));
-  if (key && key !== path && scene.get(key) === scene.fields.get(key).default) return false;
+  if (key && key !== path && scene.get(key) === off(scene.fields.get(key))) return false;
   if (!Object.entries(field.with ?? {}).every(([other, value]) => scene.get(`${home}.${other}`) === value)) return false;
   return home !== 'camera' || hasChoice(scene, path.slice(dot + 1));
 }

@@ -10,7 +10,7 @@ struct kd_control {
     enum kd_control_kind {
         KD_CONTROL_SPAN,   /* a slider spans a to b, where the range is much wider than anybody sweeps */
         KD_CONTROL_FIRST,  /* a is the number that stands there once a word is given up */
-        KD_CONTROL_SWITCH, /* with its default the others of its section, or of an element, mean nothing */
+        KD_CONTROL_SWITCH, /* with its least value, or its first word, the others of its section, or of an element, mean nothing */
         KD_CONTROL_WITH,   /* it means something only where the field `text` of its section has the value a */
         KD_CONTROL_VARIES, /* and it only where the picture varies in one of the ways "a|b" of `text` (docs/live.md) */
         KD_CONTROL_BUTTON, /* a button called `text` gives it the value a, and takes it back; of a list that of the first element */

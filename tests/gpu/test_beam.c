@@ -24,7 +24,7 @@ struct look {
 static struct kd_scene scene_of(const struct look *look)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.image.width = look->width;
     scene.image.height = look->height;
     scene.image.bit_depth = 16;

@@ -21,7 +21,7 @@ static struct vec3 cross(struct vec3 a, struct vec3 b) { return (struct vec3) { 
 static struct kd_scene scene_of(double spin, double inclination)
 {
     struct kd_scene scene;
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     scene.spacetime.spin = spin;
     scene.camera.r = RADIUS;
     scene.camera.inclination_deg = inclination;

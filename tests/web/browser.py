@@ -44,6 +44,8 @@ def rows(schema, before='', group=None):
         elif 'items' in spec:
             yield from rows(spec['items'], f'{before}{name}.0.', spec['x-group'])
 
+SMOOTH = 'disk.gas.amplitude=0&disk.emission_opacity=0&style.bloom=0'  # in a link: a disk that rests, and light that stays where it is
+
 
 class Browser(unittest.TestCase):
     """Tests that share a server and a browser; each page has a context of its own."""

@@ -2,7 +2,7 @@
 import json
 import pathlib
 
-from browser import FINE, Browser, main, value
+from browser import FINE, SMOOTH, Browser, main, value
 import daemon
 
 
@@ -43,7 +43,7 @@ class Living(Browser):
         self.shot(page, 'living-disk')
 
     def test_other_particles_and_a_spot(self):
-        page = self.open('lang=en&camera.inclination_deg=60')
+        page = self.open(SMOOTH + '&lang=en&camera.inclination_deg=60')
         self.assertFalse(page.is_visible('#play'))
         self.open_groups(page)
         page.click('#set-disk-model')
@@ -71,7 +71,7 @@ class Living(Browser):
 
     def test_whatever_varies_can_be_set_going(self):
         """As the server says of the scene, which knows what shines; the page knows none of it."""
-        page = self.open('lang=en')
+        page = self.open(SMOOTH + '&lang=en')
         there = lambda: (page.is_visible('#play'), page.is_visible('[data-path="time"]'))
         self.assertEqual(there(), (False, False))
         self.open_groups(page)
@@ -173,7 +173,7 @@ class Living(Browser):
         self.assertFalse(page.is_visible('#light figure'))
 
     def test_a_struck_hole_rings(self):
-        page = self.open('lang=en&camera.inclination_deg=30', FINE)
+        page = self.open(SMOOTH + '&lang=en&camera.inclination_deg=30', FINE)
         self.open_groups(page)
         before = self.pixels(page)
         page.click('#strike')
@@ -199,7 +199,7 @@ class Living(Browser):
         self.assertFalse(page.is_visible('#strike'), 'without orders from 1 up there is nothing to ring')
 
     def test_when_the_rings_have_faded(self):
-        page = self.open('lang=en&motion.time_rate=60')
+        page = self.open(SMOOTH + '&lang=en&motion.time_rate=60')
         page.click('#strike')
         self.assertTrue(daemon.eventually(lambda: 'at rest' in page.inner_text('#clock'), 30))
         before, asked = self.clock(page), len(self.requests)
