@@ -214,7 +214,7 @@ static void traits_are_listed(void **state)
         struct kd_scene scene;
         struct kd_error error;
         uint32_t traits[KD_EMITTER_COUNT];
-        kd_scene_defaults(&scene);
+        kd_scene_smooth(&scene);
         assert_int_equal(kd_scene_from_json(&scene, documents[k], strlen(documents[k]), &error), KD_OK);
         kd_emit_traits(&scene, traits);
         for (int i = 0; i < KD_EMITTER_COUNT; i++)
@@ -229,7 +229,7 @@ static void what_shines_is_told(void **state)
     struct kd_scene scene;
     struct kd_error error;
     struct kd_buffer json = { 0 };
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     assert_int_equal(kd_scene_from_json(&scene, BASE, strlen(BASE), &error), KD_OK);
     scene.disk.inner = 8;
     scene.disk.plunging = 0;
@@ -251,7 +251,7 @@ static void skies(void **state)
     (void)state;
     struct kd_scene scene;
     uint32_t traits[KD_EMITTER_COUNT];
-    kd_scene_defaults(&scene);
+    kd_scene_smooth(&scene);
     assert_false(kd_emit_points(&scene));
     scene.sky.model = KD_SKY_GRID;
     assert_true(!kd_emit_points(&scene) && !kd_emit_device_bytes(&scene) && says(&scene, "sky: a drawn") && !says(&scene, "sky: the light between"));
