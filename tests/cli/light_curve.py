@@ -52,7 +52,7 @@ class LightCurve(Case):
             done = run("light-curve", option, value)
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr.decode())
-        self.bad(2, "areas of the ring projection are not to scale", "light-curve", "--preset", "photon-rings", "--end", "1")
+        self.bad(2, "areas of the others are not to scale", "light-curve", "--preset", "photon-rings", "--end", "1")
         self.bad(2, "spots.1.r is 2 M, allowed is at least", "light-curve", "--set", "spot2.brightness=1", "--set", "spot2.r=2")
         self.bad(2, "there is no spots.1: the list has 0 elements, and the next free index is 0", "light-curve", "--set", "spots.1.r=9")
 
