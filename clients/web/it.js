@@ -282,6 +282,8 @@ export const presets = {
   'milky-way': 'Le stelle del catalogo Hipparcos e una Via Lattea piegate da un buco senza disco, davanti al centro della Galassia; dalla distanza di 40 M',
   smooth: 'Un disco senza turbolenza, con il flusso esatto di Page e Thorne, così com’è: nessuna lente, nulla in trasparenza',
   gas: 'La scena predefinita, un disco di gas turbolento, denso dov’è brillante e trasparente dov’è fioco; in una sessione gira',
+  'gas-stars': 'La stessa davanti alle stelle del catalogo Hipparcos, ogni immagine luminosa quanto la lente la fa; in una sessione gira',
+  falling: 'Ciò che vede chi cade liberamente da lontano, a 6 M; camera.r continua oltre l’orizzonte',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',

@@ -94,6 +94,13 @@ const struct kd_preset kd_presets[] = {
     { "gas", "The default scene, a disk of turbulent gas, dense where it is bright and seen through where it is faint; in a live session it turns",
       false,
       "{\"motion\":{\"time_rate\":6}}" },
+    { "gas-stars", "The same before the stars of the Hipparcos catalogue, of which each image is as bright as the lens makes it; in a live session it turns",
+      false,
+      "{\"sky\":{\"model\":\"catalogue\",\"brightness\":0.01},"
+      "\"motion\":{\"time_rate\":6}}" },
+    { "falling", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
+      "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"
+      "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02}}" },
     { "gargantua-gas", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
       false,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"

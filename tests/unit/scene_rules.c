@@ -237,8 +237,8 @@ static void presets_are_valid(void **state)
     (void)state;
     static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
-                                         "hot-spot",      "milky-way", "gas",       "gargantua-gas" };
-    char hashes[16][65];
+                                         "hot-spot",      "milky-way", "gas",       "gas-stars", "falling", "gargantua-gas" };
+    char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
         struct kd_scene scene;
