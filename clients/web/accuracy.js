@@ -9,6 +9,7 @@ const pass_names = {
   footprint: ['places that rays stand for', 'luoghi per cui stanno i raggi'],
   transfer: ['light', 'luce'],
   fill: ['clearing', 'azzeramento'],
+  refine: ['more rays where it shows', 'più raggi dove si vede'],
   layers: ['maps', 'mappe'],
   light: ['flux and centroid', 'flusso e centro'],
   upload: ['upload', 'invio'],
@@ -47,7 +48,16 @@ export function showAccuracy(frame, scene) {
           `${number(sampled)} raggi su ${number(rays)} sono stati ritracciati in doppia precisione` +
           (differ ? `, e ${differ} hanno avuto altra sorte.` : '.'),
       );
-  byId('accuracy-words').textContent = `${held} ${measured}`;
+  const { pixel_sampled, pixel_error, pixel_error_worst, refined, between } = frame.accuracy;
+  const pixels = !(pixel_sampled > 0)
+    ? ''
+    : t(
+        ` Pixels as shown are off by ${number(pixel_error, 2)} of white in the mean, ${number(pixel_error_worst, 2)} at worst, measured on ${number(pixel_sampled)} of them ` +
+          `by 64 rays each; ${number(refined + between)} have 16 rays.`,
+        ` I pixel mostrati sono errati in media di ${number(pixel_error, 2)} del bianco, ${number(pixel_error_worst, 2)} nel caso peggiore: misura su ${number(pixel_sampled)} di essi ` +
+          `con 64 raggi ciascuno; ${number(refined + between)} ne hanno 16.`,
+      );
+  byId('accuracy-words').textContent = `${held} ${measured}${pixels}`;
   byId('timings').replaceChildren(
     ...frame.passes.map(pass =>
       el(

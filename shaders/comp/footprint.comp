@@ -9,7 +9,7 @@
  * Half the second difference counts as well: where the map turns back within a step it has a size all the same. It is of second
  * order, too.
  *
- * Rays on listed pixels stand on a lattice (ray/place.glsl). There J is the linear map that fits best, by least squares, the differences to
+ * Rays on listed pixels stand on a lattice or a square grid (ray/place.glsl). There J is the linear map that fits best, by least squares, the differences to
  * the neighbours in this pixel and those beside it, for a step of the side of the area that one ray has; what the fit leaves is counted like the
  * second difference.
  *
@@ -135,9 +135,10 @@ kd_beside beside(uint pixel)
 /* Count the neighbour of ray k in the pixel that is a vector away. */
 void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
-    int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
-    bool inside = (x >= 0 || all.left) && (x < int(CRITICAL) || all.right) && y >= 0 && y < int(CRITICAL);
-    kd_spot other = spot(n, inside ? at + vx : at, inside);
+    uint side = GENERATOR == 0 ? SHIFT : CRITICAL;
+    int x = int(GENERATOR == 0 ? k % max(SHIFT, 1) : k) + vx, y = int(GENERATOR == 0 ? k / max(SHIFT, 1) : (k * GENERATOR + SHIFT) % max(CRITICAL, 1)) + vy;
+    bool inside = (x >= 0 || all.left) && (x < int(side) || all.right) && y >= 0 && y < int(side);
+    kd_spot other = spot(n, inside ? at + (GENERATOR == 0 ? vx + vy * int(SHIFT) : vx) : at, inside);
     vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
     float there = other.there ? 1.0 : 0.0;
     if (!other.there)
@@ -155,13 +156,15 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
 kd_oval on_lattice(uint n, uint at)
 {
     uint k = at % max(CRITICAL, 1);
-    kd_beside all = beside(at / max(CRITICAL, 1));
+    kd_beside all = kd_beside(false, false);
+    if (GENERATOR > 0) /* on a grid all have two neighbours that do not lie in line with them */
+        all = beside(at / max(CRITICAL, 1));
     kd_spot own = spot(n, at, true);
     kd_fit fit = kd_fit(0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     vec3 m = scale(n, own);
 #define BOTH(vx, vy) count(fit, n, own, m, all, at, k, int(vx), int(vy)); count(fit, n, own, m, all, at, k, -int(vx), -int(vy));
     BOTH(X1, Y1) BOTH(X2, Y2) BOTH(X3, Y3) BOTH(X4, Y4)
-    float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
+    float area = GENERATOR == 0 ? 1.0 : float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
     kd_oval o = kd_oval(longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);

@@ -2,7 +2,7 @@
  * constants CRITICAL, GENERATOR and SHIFT.
  *
  * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
- * CRITICAL on each (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
+ * CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
 
@@ -13,9 +13,11 @@ uvec2 kd_listed_pixel(uint pixel)
     return uvec2(lens[at], lens[at + 1]);
 }
 
-/* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel. */
+/* The ray of this number on a pixel, in steps of the camera, of which there are CRITICAL to a pixel; on a square grid, SHIFT. */
 uvec2 kd_critical_place(uvec2 pixel, uint ray)
 {
+    if (GENERATOR == 0)
+        return pixel * SHIFT + uvec2(ray % max(SHIFT, 1), ray / max(SHIFT, 1));
     return pixel * CRITICAL + uvec2(ray, (ray * GENERATOR + SHIFT) % max(CRITICAL, 1));
 }
 

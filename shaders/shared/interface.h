@@ -65,6 +65,14 @@
 #define KD_STAR_LEAST 0.03  /* of sky.brightness: images that brighten their pixel by less are left out */
 #define KD_STAR_PATCH 0.15  /* radians that a ray may stand for where images of stars are sought */
 
+/* Of between.comp: pixels of a list that lie in one band. */
+#define KD_BETWEEN_FIELDS_(F, U)                                                                               \
+    U(first) U(count)       /* which of them */                                                                \
+    U(stride) U(list)       /* as in a slice */                                                                \
+    U(marks)                /* pixels of the whole list, behind which the word of each is */                   \
+    U(width) U(row0)        /* pixels a row; first row of the band */                                          \
+    U(map_rows) U(map_stride) /* rows of the band; from plane to plane of its lens map */
+
 /* One of the radii that particles go round at: phases at the time of the picture in turns of 2^32, and the largest swings. */
 #define KD_GUIDE_FIELDS_(F, U)                                                                                 \
     U(phi) U(radial) U(vertical)                                                                               \

@@ -19,6 +19,9 @@
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0)                    \
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 
+/* Of between.comp. SIDE: rays along each side of a pixel; MARK: say only where they may be had so. */
+#define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
+
 /* SIDE: rays along each side of a pixel; LAYER, ORDER: of layers.comp, which layer (layers.h), and of which image order, KD_NO_ORDER: of the
  * first crossing that lies on the disk. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \

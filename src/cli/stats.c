@@ -48,6 +48,14 @@ static void add_accuracy(struct kd_json *json, const struct kd_stats *stats)
         kd_json_number(json, "radius_error_median", report->median);
         kd_json_number(json, "radius_error_worst", report->worst);
     }
+    if (report->pixel_sampled) {
+        kd_json_number(json, "followed", (double)report->followed);
+        kd_json_number(json, "refined", (double)report->refined);
+        kd_json_number(json, "between", (double)report->between);
+        kd_json_number(json, "pixel_sampled", report->pixel_sampled);
+        kd_json_number(json, "pixel_error", report->pixel_error);
+        kd_json_number(json, "pixel_error_worst", report->pixel_error_worst);
+    }
     kd_json_end(json);
 }
 

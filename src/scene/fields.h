@@ -151,7 +151,11 @@
 #define KD_IMAGE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                   \
     INT(image, width, LOOK, FRONT, 1280, 1, 32768, "pixels", "width of the picture")                                 \
     INT(image, height, LOOK, FRONT, 720, 1, 32768, "pixels", "height of the picture")                                \
-    INT(image, samples, LOOK, FRONT, 1, 1, 8, "1", "rays along each side of a pixel: n gives n x n rays, averaged")  \
+    INT(image, samples, LOOK, FRONT, 1, 1, 8, "1",                                                                   \
+        "rays along each side of a pixel: n gives n x n rays, averaged; auto: one, and 16 where the picture shows " \
+        "that one was not enough", "auto")                                                                                 \
+    REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1",                                                      \
+         "by how much of white a pixel of one ray may seem to be off before it is given more (samples: auto)")  \
     INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1",                                                           \
         "so many times as many along each side of the pixels that the critical curve passes, where the photon ring is thinner " \
         "than they are; at most 16 in all")                                                                          \
@@ -287,6 +291,8 @@
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
     SPAN("sky.milky_way", 0, 4)                                                                                      \
     SPAN("sky.seed", 0, 1000)                                                                                        \
+    FIRST("image.samples", 2)                                                                                        \
+    WITH("image.pixel_error", "samples", INFINITY)                                                                   \
     SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0)                                                       \
     SPAN("style.beam_uas", 0, 50)                                                                                    \
     WITH("style.colour_bar", "palette", KD_PALETTE_HEAT)                                                             \

@@ -56,7 +56,7 @@ static void write_field(struct kd_writer *w, const struct kd_field *field)
     char allowed[KD_ALLOWED_SIZE];
     kd_value_allowed(field, allowed);
     kd_write(w, "| `%s%s%s%s` | %s | %s | `", field->section, *field->section ? "." : "", field->stride ? "N." : "", field->name,
-             kd_natures[field->nature].word, types[field->kind]);
+             kd_natures[field->nature].word, field->kind == KD_FIELD_INT && field->words ? "whole number or word" : types[field->kind]);
     kd_write_value(w, field, field->initial);
     kd_write(w, "` | ");
     const char *whole = "whole numbers from "; /* the type column says so */

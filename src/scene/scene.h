@@ -101,6 +101,10 @@ bool kd_scene_is_flat(const struct kd_scene *scene);
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene);
 
+/* Count rays along each side of a pixel, those that all pixels have; and whether some may have more. */
+int32_t kd_scene_side(const struct kd_scene *scene);
+bool kd_scene_adapts(const struct kd_scene *scene);
+
 /* Says how wide the picture is on the sky, in microarcseconds, from the mass and the distance of the hole; NAN unless it is flat. In pinhole
  * it is the width of what the middle of the picture shows at the hole's distance, 2 r tan(fov/2), as if that were seen from spacetime.distance_pc:
  * the same picture as in plane where r is large. */

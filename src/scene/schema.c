@@ -73,24 +73,25 @@ static void write_type(struct kd_writer *w, const struct kd_field *field)
     switch (field->kind) {
     case KD_FIELD_REAL: write_range(w, "number", field); return;
     case KD_FIELD_INT:
+        if (field->words)
+            break;
         write_range(w, "integer", field);
         write_multiple(w, field);
         return;
     case KD_FIELD_BOOL: kd_write(w, "\"type\":\"boolean\""); return;
     case KD_FIELD_ENUM: write_words(w, field); return;
-    case KD_FIELD_WORD:
-        /* The word comes first: generators of clients take the first type that a default fits, and "infinity" reads as a number. */
-        kd_write(w, "\"anyOf\":[{\"const\":");
-        kd_write_string(w, field->words);
-        kd_write(w, "},{");
-        write_range(w, "number", field);
-        kd_write(w, "}]");
-        return;
+    case KD_FIELD_WORD: break;
     case KD_FIELD_ASSET:
         kd_write(w, "\"anyOf\":[{\"type\":\"null\"},{\"type\":\"string\",\"pattern\":\"^([A-Za-z][A-Za-z0-9._-]{0,62}|[0-9a-f]{64})$\"}]");
         return;
     case KD_FIELD_WORDS: write_many(w, field); return;
     }
+    /* The word first: generators of clients take the first type that a default fits, and "infinity" reads as a number. */
+    kd_write(w, "\"anyOf\":[{\"const\":");
+    kd_write_string(w, field->words);
+    kd_write(w, "},{");
+    write_range(w, field->kind == KD_FIELD_INT ? "integer" : "number", field);
+    kd_write(w, "}]");
 }
 
 static void write_group(struct kd_writer *w, const struct kd_section *section)

@@ -38,8 +38,8 @@ const char *const kd_groups[KD_GROUP_COUNT] = {
     { AT(s, n, of, at), .kind = KD_FIELD_REAL, .initial = d, RANGE(lo, hi, u), .help = h },
 #define WORD(s, n, of, at, d, lo, hi, u, h, w)                                                               \
     { AT(s, n, of, at), .kind = KD_FIELD_WORD, .initial = d, RANGE(lo, hi, u), .help = h, .words = w },
-#define INT(s, n, of, at, d, lo, hi, u, h)                                                                   \
-    { AT(s, n, of, at), .kind = KD_FIELD_INT, .initial = d, RANGE(lo, hi, u), .help = h },
+#define INT(s, n, of, at, d, lo, hi, u, h, ...)                                                              \
+    { AT(s, n, of, at), .kind = KD_FIELD_INT, .initial = d, RANGE(lo, hi, u), .help = h, __VA_OPT__(.words = __VA_ARGS__) },
 #define BOOL(s, n, of, at, d, h)                                                                             \
     { AT(s, n, of, at), .kind = KD_FIELD_BOOL, .initial = d, RANGE(0, 1, ""), .help = h },
 #define ENUM(s, n, of, at, d, h, w)                                                                          \
@@ -169,6 +169,9 @@ double kd_field_get(const struct kd_scene *scene, const struct kd_field *field, 
     case KD_FIELD_REAL:
     case KD_FIELD_WORD: return *(const double *)at;
     case KD_FIELD_INT:
+        if (field->words && !*(const int32_t *)at)
+            return INFINITY;
+        /* fall through */
     case KD_FIELD_ENUM: return *(const int32_t *)at;
     case KD_FIELD_BOOL: return *(const bool *)at;
     case KD_FIELD_ASSET: return *(const char *)at != 0;
@@ -184,7 +187,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
     case KD_FIELD_REAL:
     case KD_FIELD_WORD: *(double *)at = value == 0 ? 0 : value; break; /* no -0: equal scenes, equal text */
     case KD_FIELD_INT:
-    case KD_FIELD_ENUM: *(int32_t *)at = (int32_t)value; break;
+    case KD_FIELD_ENUM: *(int32_t *)at = isinf(value) ? 0 : (int32_t)value; break;
     case KD_FIELD_BOOL: *(bool *)at = value != 0; break;
     case KD_FIELD_ASSET:
         if (value == 0)
@@ -225,6 +228,9 @@ bool kd_field_holds(const struct kd_field *field, double value)
     case KD_FIELD_REAL: return in_range;
     case KD_FIELD_WORD: return in_range || value == INFINITY;
     case KD_FIELD_INT:
+        if (field->words && value == INFINITY)
+            return true;
+        /* fall through */
     case KD_FIELD_BOOL:
     case KD_FIELD_ASSET: return in_range && value == floor(value);
     case KD_FIELD_ENUM:

@@ -24,7 +24,7 @@ struct kd_field {
     double initial, minimum, maximum;
     const char *unit; /* "1": a pure number; "" for BOOL, ENUM, ASSET and WORDS */
     const char *help;
-    const char *words; /* WORD: the word for INFINITY; ENUM and WORDS: "a|b|c"; NULL otherwise */
+    const char *words; /* WORD: the word for INFINITY; INT: the same, kept as 0, or NULL; ENUM and WORDS: "a|b|c"; NULL otherwise */
 };
 
 struct kd_nature {
@@ -105,7 +105,7 @@ void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, si
 const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_words *words);
 
-/* True if value may be stored in field: in range, whole where that is asked for, INFINITY for WORD alone. */
+/* True if value may be stored in field: in range, whole where that is asked for, INFINITY where that is a word. */
 bool kd_field_holds(const struct kd_field *field, double value);
 
 /* An ENUM has words, and so have WORDS, as the row spells them. The text of a word is not NUL-terminated: print it with %.*s. */

@@ -86,7 +86,8 @@ void kd_value_allowed(const struct kd_field *field, char out[KD_ALLOWED_SIZE])
         snprintf(out, KD_ALLOWED_SIZE, "%s to %s%s%s, and \"%s\"", low, high, space, unit, field->words);
         return;
     case KD_FIELD_INT:
-        snprintf(out, KD_ALLOWED_SIZE, "whole numbers from %s to %s%s%s", low, high, space, unit);
+        snprintf(out, KD_ALLOWED_SIZE, field->words ? "whole numbers from %s to %s%s%s, and \"%s\"" : "whole numbers from %s to %s%s%s", low,
+                 high, space, unit, field->words);
         return;
     case KD_FIELD_BOOL: snprintf(out, KD_ALLOWED_SIZE, "true and false"); return;
     case KD_FIELD_ENUM: list_words(field, out); return;
@@ -103,11 +104,11 @@ static double convert(const struct kd_field *field, const struct kd_value *value
     bool string = value->kind == KD_VALUE_STRING, number = value->kind == KD_VALUE_NUMBER;
     switch (field->kind) {
     case KD_FIELD_WORD:
-        if (string && !strcmp(value->text, field->words))
+    case KD_FIELD_INT:
+        if (string && field->words && !strcmp(value->text, field->words))
             return INFINITY;
         /* fall through */
-    case KD_FIELD_REAL:
-    case KD_FIELD_INT: return number && isfinite(value->number) ? value->number : NAN;
+    case KD_FIELD_REAL: return number && isfinite(value->number) ? value->number : NAN;
     case KD_FIELD_BOOL: return value->kind == KD_VALUE_BOOL ? value->number : NAN;
     case KD_FIELD_ENUM: return string ? kd_field_word_index(field, value->text) : NAN;
     case KD_FIELD_ASSET:
@@ -122,7 +123,7 @@ static double convert(const struct kd_field *field, const struct kd_value *value
 /* Says whether a number was wanted. Of a field that takes a word too, only a number in quotes was meant for one. */
 static bool wants_number(const struct kd_field *field, const struct kd_value *value)
 {
-    if (field->kind == KD_FIELD_WORD)
+    if (field->kind != KD_FIELD_ENUM && field->words)
         return value->kind == KD_VALUE_STRING && kd_value_typed(value->text).kind == KD_VALUE_NUMBER;
     return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_INT;
 }

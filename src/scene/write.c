@@ -52,13 +52,13 @@ void kd_write_value(struct kd_writer *writer, const struct kd_field *field, doub
     }
     switch (field->kind) {
     case KD_FIELD_WORD:
+    case KD_FIELD_INT:
         if (isinf(value)) {
             kd_write_string(writer, field->words);
             return;
         }
         /* fall through */
-    case KD_FIELD_REAL:
-    case KD_FIELD_INT: kd_write_number(writer, value); return;
+    case KD_FIELD_REAL: kd_write_number(writer, value); return;
     case KD_FIELD_BOOL: kd_write(writer, "%s", value != 0 ? "true" : "false"); return;
     case KD_FIELD_ENUM:
         word = kd_field_word(field, (int)value);

@@ -125,6 +125,21 @@ class Pictures(Case):
         self.assertEqual(stats["accuracy"]["profile"], "balanced")
         self.assertTrue(stats["approximations"])
 
+    def test_stats_of_pixels_that_have_as_many_rays_as_they_need(self):
+        done = run("render", "-p", "smooth", "--size=320x180", "--set", "image.samples=auto", "--stats", "-o", self.path("a.png"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stderr)
+        self.assertEqual(found["rays"], 320 * 180)
+        self.assertIn("refine", found["device_ms"])
+        accuracy = found["accuracy"]
+        self.assertGreater(accuracy["refined"], 0)
+        self.assertGreater(accuracy["followed"], accuracy["refined"])
+        self.assertGreater(accuracy["pixel_sampled"], 96)
+        self.assertLess(accuracy["pixel_error"], 0.005)
+        finer = run("render", "--from", self.path("a.png"), "--set", "image.pixel_error=0.001", "--stats", "-o", self.path("b.png"))
+        self.assertGreater(json.loads(finer.stderr)["accuracy"]["between"], accuracy["between"])
+        self.bad(2, "image.samples", "render", "--set", "image.samples=autos", "-o", self.path("c.png"))
+
     def test_plan(self):
         plan = json.loads(self.good("plan", *SMALL, "--set", "image.samples=2"))
         self.assertEqual(plan["rays"], 4 * 64 * 36)

@@ -12,6 +12,7 @@ static const char *const scenes[] = {
     "{\"image\": {\"width\": 96, \"height\": 64}, \"sky\": {\"model\": \"grid\"}, \"style\": {\"exposure\": 0}}",
     "{\"image\": {\"width\": 96, \"height\": 64}, \"disk\": {\"model\": \"particles\", \"particles\": 100000}}",
     "{\"image\": {\"width\": 96, \"height\": 64}, \"spots\": [{\"brightness\": 1}]}",
+    "{\"image\": {\"width\": 96, \"height\": 64, \"samples\": \"auto\"}, \"camera\": {\"inclination_deg\": 61}}",
     "{\"image\": {\"width\": 96, \"height\": 64}, \"camera\": {\"r\": 3}}",
     "{\"image\": {\"width\": 96, \"height\": 64}, \"accuracy\": {\"engine\": \"ks-rk4\"}}",
 };

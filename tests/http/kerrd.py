@@ -162,7 +162,8 @@ class Kerrd(unittest.TestCase):
     def test_a_job_that_others_interrupt_is_the_same_picture(self):
         for scene in ({'image': {'width': 1600, 'height': 900, 'samples': 2}}, {'image': {'width': 1280, 'height': 720}, 'sky': {'model': 'grid'}},
                       {'image': {'width': 640, 'height': 360}, 'camera': {'r': 30}, 'accuracy': {'precision': 'f64'}},
-                      {'image': {'width': 1280, 'height': 720, 'samples': 2}, 'disk': {'model': 'particles'}, 'time': 300}):
+                      {'image': {'width': 1280, 'height': 720, 'samples': 2}, 'disk': {'model': 'particles'}, 'time': 300},
+                      {'image': {'width': 1280, 'height': 720, 'samples': 'auto'}, 'disk': {'gas': {'amplitude': 0.8}}}):
             with self.subTest(scene):
                 if scene.get('accuracy') and not self.has_float64():
                     self.skipTest('the device has no double precision')
@@ -203,6 +204,48 @@ class Kerrd(unittest.TestCase):
             pictures.append(answer.body)
         self.assertEqual(pictures[0][24], 8)
         self.assertEqual(pictures[0], pictures[1])
+
+    def test_pixels_have_as_many_rays_as_they_need(self):
+        scene = {'image': {'width': 320, 'height': 180, 'samples': 'auto'}, 'disk': {'gas': {'amplitude': 0.8}}}
+        plan = self.daemon.post('/v1/plan', scene).json()
+        self.assertIn('refine', [p['name'] for p in plan['passes']])
+        answer = self.daemon.post('/v1/render', scene)
+        said = dict(item.split('=') for item in answer.header('Kerrd-Accuracy').split())
+        self.assertEqual(answer.body, self.daemon.get('/v1/render?image.width=320&image.height=180&image.samples=auto&disk.gas.amplitude=0.8').body)
+        self.assertIn('refine;dur=', answer.header('Server-Timing'))
+        self.assertGreater(int(said['between']), 320 * 180 / 10)
+        uniform = self.daemon.post('/v1/plan', {**scene, 'image': {**scene['image'], 'samples': 4}}).json()
+        self.assertLessEqual(plan['rays'] + plan['critical_rays'] + int(said['followed']), (uniform['rays'] + uniform['critical_rays']) / 4)
+        self.assertLess(float(said['pixel_error']), 0.02)
+        self.assertGreaterEqual(float(said['pixel_error_worst']), float(said['pixel_error']))
+        off = self.daemon.post('/v1/plan', {'image': {'samples': 'auto', 'layers': ['g']}}).json()
+        self.assertNotIn('refine', [p['name'] for p in off['passes']])
+        self.assertTrue(any('one ray a pixel' in a for a in off['approximations']))
+        for samples, status in (('auto', 200), (8, 200), (0, 422), ('many', 422), (9, 422)):
+            found = self.daemon.post('/v1/plan', {'image': {'samples': samples}})
+            self.assertEqual(found.status, status, found.body)
+            if status == 422:
+                self.assertIn('1 to 8, and "auto"', found.json()['detail'])
+
+    def test_a_session_that_is_dragged_comes_to_rest_on_them(self):
+        session = self.open({'image': {'width': 1280, 'height': 720, 'samples': 'auto'}, 'disk': {'gas': {'amplitude': 0.8}}})
+        path, number, seen, patched = '/v1/sessions/' + session['id'], 0, [], 0
+        owner = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/json'}
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline:
+            frame = self.daemon.get(f'{path}/frame.png?after={number}&wait_ms=20000')
+            number = int(frame.header('Kerrd-Frame'))
+            refined = 'pixel_error=' in frame.header('Kerrd-Accuracy')
+            final = 'final=1' in frame.header('Kerrd-Quality')
+            self.assertEqual(refined, final, frame.header('Kerrd-Quality'))
+            seen.append(final)
+            if patched < 8:
+                patched += 1
+                self.daemon.request('PATCH', path, json.dumps({'camera': {'inclination_deg': 40 + patched}}), owner)
+            elif final:
+                break
+        self.assertTrue(seen[-1])
+        self.assertIn(False, seen[-8:-1])
 
     def test_particles_of_a_session(self):
         session = self.open({'disk': {'model': 'particles', 'particles': 300000}, 'spacetime': {'spin': 0.6}, 'motion': {'time_rate': 50}})

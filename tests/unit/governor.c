@@ -27,7 +27,7 @@ static void some_scene(struct kd_scene *scene)
     kd_scene_smooth(scene);
     scene->image.width = 1 + (int32_t)(uniform() * uniform() * 3000);
     scene->image.height = 1 + (int32_t)(uniform() * uniform() * 2000);
-    scene->image.samples = 1 + (int32_t)(uniform() * 8);
+    scene->image.samples = (int32_t)(uniform() * 9); /* 0: as many as each pixel needs */
     scene->accuracy.orders = 1 + (int32_t)(uniform() * 8);
     scene->accuracy.profile = (int32_t)(uniform() * 5);
     scene->accuracy.steps = uniform() < 0.2 ? 8 : 0;
@@ -47,13 +47,15 @@ static void assert_same_scene(const struct kd_scene *a, const struct kd_scene *b
     kd_buffer_finish(&text[1]);
 }
 
+static int rank(int samples) { return samples ? samples : 9; }
+
 /* What an order of qualities is for: nothing is given up before all of what goes before it is. */
 static void assert_order(const struct kd_quality *before, const struct kd_quality *after)
 {
-    bool scale = after->scale < before->scale, samples = after->samples < before->samples;
+    bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
     bool orders = after->orders < before->orders, profile = after->profile != before->profile;
     assert_int_equal(scale + samples + orders + profile, 1);
-    assert_true(after->scale <= before->scale && after->samples <= before->samples && after->orders <= before->orders);
+    assert_true(after->scale <= before->scale && rank(after->samples) <= rank(before->samples) && after->orders <= before->orders);
 }
 
 static void check_ladder(const struct kd_scene *asked, const struct kd_ladder_bounds *bounds)
@@ -74,7 +76,7 @@ static void check_ladder(const struct kd_scene *asked, const struct kd_ladder_bo
         assert_int_equal(q->final, i == 0);
         assert_true(i == 0 || q->width >= bounds->width || q->scale == 1);
         assert_true(q->scale >= bounds->scale);
-        assert_true(q->samples >= bounds->samples || q->samples == asked->image.samples);
+        assert_true(q->samples >= bounds->samples || q->samples == asked->image.samples || !asked->image.samples);
         assert_true(q->orders >= bounds->orders || q->orders == asked->accuracy.orders);
         assert_true(q->profile < 0 || q->profile >= bounds->profile);
         assert_int_equal(scene.accuracy.engine, asked->accuracy.engine);
@@ -130,6 +132,25 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
+}
+
+/* A view whose pixels have as many rays as they need moves with one each where that is too slow, and comes to rest on all; a small scale
+ * is not given for it. */
+static void adaptive_pictures_move_with_one_ray(void **state)
+{
+    (void)state;
+    const struct kd_ladder_bounds bounds = KD_LADDER_BOUNDS_DEFAULT;
+    struct kd_scene asked, moving;
+    struct kd_ladder ladder;
+    kd_scene_defaults(&asked);
+    asked.image.samples = 0;
+    kd_ladder_make(&asked, &bounds, &ladder);
+    kd_quality_apply(&ladder.rungs[1].quality, &asked, &moving);
+    assert_true(ladder.rungs[0].quality.final && ladder.rungs[0].quality.samples == 0);
+    assert_true(moving.image.samples == 1 && ladder.rungs[1].quality.scale == 1 && !ladder.rungs[1].quality.final);
+    assert_int_equal(ladder.n_steps, 2);
+    assert_true(ladder.steps[0].quality.samples == 1 && !ladder.steps[0].quality.final);
+    assert_true(ladder.steps[1].quality.samples == 0 && ladder.steps[1].quality.final);
 }
 
 /* Steady machines */
@@ -823,6 +844,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ladders_go_down_in_order_and_up_to_what_is_asked),
+        cmocka_unit_test(adaptive_pictures_move_with_one_ray),
         cmocka_unit_test(settles_on_a_steady_machine),
         cmocka_unit_test(settles_when_told_only_totals),
         cmocka_unit_test(begins_where_it_is_told_to_expect),

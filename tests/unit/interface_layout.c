@@ -9,6 +9,7 @@
 #include "beam_spread.spv.h"
 #include "bloom_bright.spv.h"
 #include "bloom_gather.spv.h"
+#include "between.spv.h"
 #include "footprint.spv.h"
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
@@ -184,6 +185,11 @@ static const struct field light_fields[] = { KD_LIGHT_FIELDS_(F, U) };
 static const struct field footprint_fields[] = { KD_FOOTPRINT_FIELDS_(F, U) };
 #undef F
 #undef U
+#define F(name) { #name, offsetof(struct kd_between_push, name), OP_TYPE_FLOAT },
+#define U(name) { #name, offsetof(struct kd_between_push, name), OP_TYPE_INT },
+static const struct field between_fields[] = { KD_BETWEEN_FIELDS_(F, U) };
+#undef F
+#undef U
 #define F(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_FLOAT },
 #define U(name) { #name, offsetof(struct kd_particles_push, name), OP_TYPE_INT },
 static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
@@ -194,7 +200,7 @@ static const struct field particles_fields[] = { KD_PARTICLES_FIELDS_(F, U) };
 static const struct field guide_fields[] = { KD_GUIDE_FIELDS_(F, U) };
 
 static const struct spirv transfer = SPIRV(transfer), post = SPIRV(post), bloom_bright = SPIRV(bloom_bright), bloom_gather = SPIRV(bloom_gather), particles = SPIRV(particles),
-                          light = SPIRV(photometry), footprint = SPIRV(footprint);
+                          light = SPIRV(photometry), footprint = SPIRV(footprint), between = SPIRV(between);
 
 static void camera(void **state)
 {
@@ -247,6 +253,13 @@ static void footprint_push(void **state)
     assert_int_equal(sizeof(struct kd_footprint_push), 4 * COUNT(footprint_fields));
 }
 
+static void between_push(void **state)
+{
+    (void)state;
+    same(&between, "kd_between", between_fields, COUNT(between_fields), 0);
+    assert_int_equal(sizeof(struct kd_between_push), 4 * COUNT(between_fields));
+}
+
 static void particles_kernel(void **state)
 {
     (void)state;
@@ -296,6 +309,7 @@ int main(void)
         cmocka_unit_test(post_push),
         cmocka_unit_test(beam_push), cmocka_unit_test(light_push),
         cmocka_unit_test(footprint_push),
+        cmocka_unit_test(between_push),
         cmocka_unit_test(particles_kernel),
         cmocka_unit_test(emission),
     };

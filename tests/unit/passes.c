@@ -34,6 +34,7 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
 /* A scene for each pass and each figure: who adds one adds a scene that has it. */
 static const char *const scenes[] = {
     "{}",
+    "{\"image\": {\"samples\": \"auto\"}}",
     "{\"sky\": {\"model\": \"grid\"}}",
     "{\"sky\": {\"model\": \"stars\"}}",
     "{\"disk\": {\"model\": \"particles\"}}",

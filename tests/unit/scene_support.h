@@ -64,9 +64,9 @@ static inline double support_value(const struct kd_field *field, uint64_t *state
         value = support_random(state) % 2 ? low : high;
     else if (pick == 1 && low < 0)
         value = 1e-300 * (support_uniform(state) - 0.5);
-    else if (pick == 2 && field->kind == KD_FIELD_WORD)
+    else if (pick == 2 && field->kind != KD_FIELD_ENUM && field->words)
         value = INFINITY;
-    if (field->kind >= KD_FIELD_INT)
+    if (field->kind >= KD_FIELD_INT && isfinite(value))
         value = floor(value + 0.5);
     return value < low ? low : value > high && isfinite(value) ? high : value;
 }

@@ -82,6 +82,10 @@ class Panel(Browser):
         self.assertEqual([seen(p) for p in ('sky.brightness', 'spots.0.r', 'disk.particles', 'camera.fov_deg', 'camera.field_m')],
                          [True, False, True, True, False])
         self.assertTrue(page.is_visible('#rest-sky'))
+        self.assertFalse(seen('image.pixel_error'))
+        page.check('[data-path="image.samples"] input[type=checkbox]')
+        self.assertTrue(seen('image.pixel_error'))
+        self.assertTrue(page.is_disabled('[data-path="image.samples"] input[type=range]'))
 
     def test_each_pass_has_a_name(self):
         page = self.open('lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1')

@@ -11,6 +11,7 @@
 #include "beam_spline_texels.spv.h"
 #include "beam_spread.spv.h"
 #include "beam_spread_texels.spv.h"
+#include "between.spv.h"
 #include "bloom_bright.spv.h"
 #include "bloom_bright_texels.spv.h"
 #include "bloom_down.spv.h"
@@ -63,6 +64,7 @@ static const struct {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1, sizeof(struct kd_footprint_push) },
+    [KD_KERNEL_BETWEEN] = { "between", kd_spv_between, sizeof kd_spv_between, 2, sizeof(struct kd_between_push) },
     [KD_KERNEL_RAYS_F32] = { "rays", kd_spv_rays, sizeof kd_spv_rays, 2, 8 },
     [KD_KERNEL_RAYS_F64] = { "rays f64", kd_spv_rays_f64, sizeof kd_spv_rays_f64, 2, 8 },
     [KD_KERNEL_RAYS_KS_F32] = { "rays Kerr-Schild", kd_spv_rays_kerr_schild, sizeof kd_spv_rays_kerr_schild, 2, 8 },

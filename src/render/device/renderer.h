@@ -38,6 +38,10 @@ struct kd_accuracy_report {
     uint32_t sampled, crossings; /* rays traced again; crossings compared */
     uint32_t differ;             /* crossings that one of the two has and the other has not; rays of another fate */
     double median, worst;        /* relative error of the radius */
+    uint64_t followed;           /* rays beyond those of the plan that were followed, on */
+    uint64_t refined, between;   /* pixels that were given more rays, followed or taken from between others; with image.samples "auto" alone, as what follows: */
+    uint32_t pixel_sampled;      /* pixels compared with 64 rays each */
+    double pixel_error, pixel_error_worst; /* how far off what is shown is there, of white: root mean square of the picture; worst of the sample */
 };
 
 /* Pictures that may be under way aside at once (render/frame/frame.h). */

@@ -201,6 +201,8 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
     if (plan->bloom.levels)
         KD_TRY(kd_store_at_least(vk, &store->bloom, plan->bloom.bytes, KD_VK_DEVICE, "spread light", error));
     KD_TRY(make_beam(store, plan, error));
+    if (plan->listed_bytes)
+        KD_TRY(kd_store_at_least(vk, &store->listed, plan->listed_bytes, KD_VK_DEVICE, "lens map of listed pixels", error));
     if (plan->light) {
         KD_TRY(kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error));
         KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error));
@@ -276,7 +278,7 @@ uint64_t kd_store_bytes(const struct kd_store *store)
         sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
     sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) + bytes_of(store->palette);
     sum += bytes_of_bands(&store->star_light) + bytes_of(store->star_pairs);
-    return sum + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
+    return sum + bytes_of(store->listed) + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
 }
 
 void kd_store_empty(struct kd_store *store)
@@ -310,4 +312,5 @@ void kd_store_finish(struct kd_store *store)
     bands_finish(&store->star_light, store->vk);
     kd_vk_buffer_destroy(store->vk, store->star_pairs);
     kd_vk_buffer_destroy(store->vk, store->undecided);
+    kd_vk_buffer_destroy(store->vk, store->listed);
 }

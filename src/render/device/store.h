@@ -51,6 +51,7 @@ struct kd_store {
     struct kd_vk_buffer *palette;          /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never was any */
     struct kd_bands star_light;            /* of the pixels of a band, KD_STAR_LIGHT words each; none: no frame had points of light */
     struct kd_vk_buffer *star_pairs;       /* rays, and stars that they may see */
+    struct kd_vk_buffer *listed;           /* lens map of listed pixels, part by part: nothing is kept in it */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
 };
 

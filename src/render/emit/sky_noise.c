@@ -34,7 +34,7 @@ bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
     if (!(r < KD_SKY_NEAR * kd_kerr_horizon(scene->spacetime.spin)) || scene->camera.observer == KD_OBSERVER_INFALL)
         return false;
     const struct kd_camera_exact camera = kd_camera_exact(scene);
-    uint32_t width = (uint32_t)(scene->image.width * scene->image.samples), height = (uint32_t)(scene->image.height * scene->image.samples);
+    uint32_t width = (uint32_t)(scene->image.width * kd_scene_side(scene)), height = (uint32_t)(scene->image.height * kd_scene_side(scene));
     unsigned seen = 0, lost = 0;
     for (uint32_t k = 0; k < COLUMNS * ROWS; k++) {
         uint32_t x = (uint32_t)((k % COLUMNS + 0.5) / COLUMNS * width), y = (uint32_t)((double)(k / COLUMNS + 0.5) / ROWS * height);

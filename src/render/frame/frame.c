@@ -5,6 +5,8 @@
 #include "base/clock.h"
 #include "render/device/prepare.h"
 
+#include <stdlib.h>
+
 /* Buffers for all of it, and what the kernels of light read. */
 static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacity *c, bool *reused)
 {
@@ -13,7 +15,7 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     /* Beside what is rendered aside there is a quarter to keep; of those each keeps its own lens map. */
     j->store->memory_bytes = j->aside ? j->plan->device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
-    KD_TRY(kd_store_frame(j->store, j->plan, kd_frame_bit_depth(j->frame), j->error));
+    KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
     kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
     KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
     KD_TRY(kd_frame_send_cameras(j));
@@ -47,6 +49,27 @@ done:
     return status;
 }
 
+/* That of the lens map; of the pixels there is something already. */
+static void report_accuracy(struct kd_frame_job *j)
+{
+    const struct kd_accuracy_report own = j->frame->accuracy;
+    j->frame->accuracy = j->lens->accuracy;
+    j->frame->accuracy.followed = own.followed;
+    j->frame->accuracy.refined = own.refined;
+    j->frame->accuracy.between = own.between;
+}
+
+/* Pixels are chosen at the exposure that the picture would have now. */
+static enum kd_status refine(struct kd_frame_job *j)
+{
+    enum kd_status status;
+    KD_TRY(kd_frame_beam(j));
+    KD_TRY(kd_frame_expose(j));
+    KD_TRY(kd_frame_refine(j));
+done:
+    return status;
+}
+
 static enum kd_status run(struct kd_frame_job *j)
 {
     struct kd_capacity c;
@@ -58,6 +81,8 @@ static enum kd_status run(struct kd_frame_job *j)
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);
     KD_TRY(kd_prepare(j->r, j->prepared, j->scene, j->plan, &c, j->error));
     KD_TRY(kd_frame_light(j, reused));
+    if (j->plan->adaptive)
+        KD_TRY(refine(j));
     if (j->plan->light)
         KD_TRY(kd_frame_add_light(j));
     if (!j->plan->unseen)
@@ -67,7 +92,9 @@ static enum kd_status run(struct kd_frame_job *j)
         KD_TRY(kd_frame_read_light(j));
     if (!reused)
         KD_TRY(judge_map(j));
-    j->frame->accuracy = j->lens->accuracy;
+    report_accuracy(j);
+    if (j->plan->adaptive)
+        KD_TRY(kd_frame_residual(j));
 done:
     return status;
 }
@@ -92,6 +119,8 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
     KD_TRY(run(job));
     *out = frame;
 done:
+    free(job->kinds);
+    job->kinds = NULL;
     if (!status)
         return status;
     kd_vk_discard(job->r->vk);

@@ -26,6 +26,7 @@ struct kd_frame_job {
     double done, weight; /* rows so far, of all passes */
     uint32_t lit;        /* rows of pixels from the top whose light is there */
     bool looking;        /* they are being looked at */
+    uint8_t *kinds;      /* of each pixel, KD_REFINED_...; NULL unless image.samples is "auto" */
     struct kd_frame *frame;
     struct kd_error *error;
 };
@@ -70,6 +71,20 @@ void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *job);
 /* The lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
+/* Light of listed pixels, row by row in the list, by so many rays each (view/critical_pixels.h); what they had before is lost. */
+struct kd_frame_list {
+    const struct kd_critical_pixels *pixels;
+    struct kd_critical_lattice lattice;  /* where each has how many, */
+    int camera;                          /* whose steps are those of this camera (view/layout.h) */
+    uint64_t most;                       /* pixels that one buffer holds the lens map of */
+    struct kd_vk_buffer *const *buffers; /* for the first `most` of them, the next, ... */
+    bool again;                          /* or one for all, in turn: nothing is kept */
+    bool between;                        /* their rays are not followed, but interpolated; on pixels where that is right (frame/lens.h) */
+    bool layers;                         /* layers of light likewise, or of the picture alone */
+    const char *pass;                    /* that their time counts for; NULL: as that of the others */
+};
+/* needed: the lens map is not there yet. */
+enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
 /* Footprints of rows of rays of a buffer, or of a range of rays on listed pixels, all of which are traced with those next to them.
  * Recorded, not submitted. Nothing where the plan has none. */
 struct kd_footprint_area {
@@ -91,6 +106,13 @@ enum kd_status kd_frame_read_light(struct kd_frame_job *job);
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* The exposure of what is lit; waits for the device where it is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
+/* More rays for the pixels that need them, at the frame's exposure: into j->kinds which have what. And how far off the picture is then, into the
+ * frame's accuracy; what is lit is no longer right afterwards. */
+enum { KD_REFINED_NOT, KD_REFINED_NOT_AT_CURVE, KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN, KD_REFINED_KINDS };
+enum kd_status kd_frame_refine(struct kd_frame_job *job);
+enum kd_status kd_frame_residual(struct kd_frame_job *job);
+/* The picture as it is shown, at 16 bits without dither, glare, beam or palette, row by row to the host; waits for the device. */
+enum kd_status kd_frame_bare(struct kd_frame_job *job, uint16_t *to);
 /* What a lens spreads of what is lit, in j->store->bloom, at the frame's exposure; nothing where the plan has no bloom. */
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Pixels of what is lit, on the host. */

@@ -39,22 +39,25 @@ static void draw_scales(struct kd_frame_job *j)
         kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
 }
 
+/* What is made of light: pixels of so many bits, dithered or not, with what a lens spreads or without. bare: of what is lit, without a beam
+ * and a palette; else they are those that were asked for. */
+struct look { bool wide, dither, bare; const struct kd_bloom *bloom; void *to; };
+
 /* Post and read back what is lit, one band at a time. */
-enum kd_status kd_frame_post(struct kd_frame_job *j)
+static enum kd_status post_as(struct kd_frame_job *j, const struct look *look)
 {
     struct kd_frame *frame = j->frame;
     struct kd_vk *vk = j->r->vk;
     struct kd_store *s = j->store;
     const struct kd_scene *scene = j->scene;
     const struct kd_vk_pipeline *post;
-    bool wide = kd_frame_bit_depth(frame) == 16;
-    size_t pixel_bytes = kd_layer_pixel_bytes(&frame->layers[0]);
-    const struct kd_bloom *bloom = &j->plan->bloom;
+    const size_t pixel_bytes = look->wide ? 6 : 3;
+    const struct kd_bloom *bloom = look->bloom;
     const struct kd_spec_post spec = {
-        .ACES = scene->style.tone_map == KD_TONE_ACES, .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL, .WIDE = wide,
+        .ACES = scene->style.tone_map == KD_TONE_ACES, .NEUTRAL = scene->style.tone_map == KD_TONE_NEUTRAL, .WIDE = look->wide,
         .TOGETHER = kd_bloom_together(bloom, j->plan->width),
     };
-    const bool heat = scene->style.palette == KD_PALETTE_HEAT;
+    const bool heat = !look->bare && scene->style.palette == KD_PALETTE_HEAT;
     const struct kd_vk_binding cells = { s->bloom, bloom->sums[0], 16ull * kd_bloom_cells(bloom, 0), false };
     const uint64_t band_pixels = (uint64_t)j->plan->width * j->plan->band_rows;
     const enum kd_kernel kernel = kd_kernel_post(kd_kernels_texels(vk, band_pixels) && kd_kernels_cells_as_texels(vk, bloom), bloom->levels, heat);
@@ -67,7 +70,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
         uint32_t first = frame->width * kd_frame_band_first(j, band);
         struct kd_post_push push = {
             .gain = (float)exp2(frame->exposure),
-            .dither = scene->style.dither,
+            .dither = look->dither,
             .pixels = pixels,
             .first = first,
             .pixels_x = frame->width,
@@ -80,7 +83,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
         const struct kd_vk_binding colours = { s->palette, 0, 0, false };
         const struct kd_vk_dispatch d = {
             kd_passes[KD_PASS_POST].name, post,
-            { { kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false },
+            { { look->bare ? s->radiance.buffers[band] : kd_frame_band_light(j, band), 0, kd_post_radiance_bytes(band_pixels), false },
               { s->words, 0, 0, true },
               bloom->levels ? cells : colours,
               colours },
@@ -90,11 +93,24 @@ enum kd_status kd_frame_post(struct kd_frame_job *j)
         KD_TRY(kd_vk_copy(vk, kd_passes[KD_PASS_READBACK].name, s->readback, 0, s->words, 0, (pixels * pixel_bytes + 3) / 4 * 4, j->error));
         KD_TRY(kd_vk_submit(vk, NULL, j->error));
         KD_TRY(kd_vk_wait(vk, 0, j->error));
-        memcpy((char *)kd_frame_pixels(frame) + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
-        KD_TRY(kd_frame_report(j, kd_frame_band_rows(j, band)));
+        memcpy((char *)look->to + first * pixel_bytes, kd_vk_buffer_map(s->readback), pixels * pixel_bytes);
+        KD_TRY(kd_frame_report(j, look->bare ? 0 : kd_frame_band_rows(j, band)));
     }
-    if (scene->style.colour_bar && !kd_plan_is_map(j->plan))
+    if (!look->bare && scene->style.colour_bar && !kd_plan_is_map(j->plan))
         draw_scales(j);
 done:
     return status;
+}
+
+enum kd_status kd_frame_post(struct kd_frame_job *j)
+{
+    const struct look look = { kd_frame_bit_depth(j->frame) == 16, j->scene->style.dither, false, &j->plan->bloom, kd_frame_pixels(j->frame) };
+    return post_as(j, &look);
+}
+
+enum kd_status kd_frame_bare(struct kd_frame_job *j, uint16_t *to)
+{
+    static const struct kd_bloom none;
+    const struct look look = { .wide = true, .bare = true, .bloom = &none, .to = to };
+    return post_as(j, &look);
 }

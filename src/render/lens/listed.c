@@ -175,12 +175,11 @@ static void make_rays(const struct kd_scene *scene, const struct kd_lens_rows *r
 
 static void make_critical(const struct kd_scene *scene, const struct kd_lens_rows *rows, uint32_t rays, struct work *w)
 {
-    const struct kd_critical_lattice lattice = kd_critical_lattice(rays);
-    const struct kd_scene steps = kd_critical_camera(scene, rays);
+    const struct kd_scene steps = kd_critical_camera(scene, kd_critical_steps(rows->lattice));
     const struct kd_camera_exact camera = kd_camera_exact(&steps);
     struct kd_camera_label label;
     for (size_t i = 0; i < w->n; i++) {
-        const struct kd_pixel step = kd_critical_place(&lattice, rows->pixels[rows->first + i / rays], (uint32_t)(i % rays));
+        const struct kd_pixel step = kd_critical_place(rows->lattice, rows->pixels[rows->first + i / rays], (uint32_t)(i % rays));
         kd_camera_label(&camera, step.x, step.y, &label);
         keep(w, i, &label);
     }
@@ -202,7 +201,7 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error)
 {
     struct work w;
-    uint32_t width = rows->pixels ? plan->critical : plan->width * plan->side;
+    uint32_t width = rows->pixels ? rows->lattice->rays : plan->width * plan->side;
     enum kd_status status = init(&w, scene, plan, (size_t)width * rows->count, error);
     if (status)
         return status;

@@ -7,8 +7,9 @@
 #include "render/rays/rays.h"
 
 struct kd_lens_rows {
-    uint32_t first, count;   /* rows of rays of the picture; or with `pixels`, which of those, each with plan->critical rays */
+    uint32_t first, count;   /* rows of rays of the picture; or with `pixels`, which of those, */
     const struct kd_pixel *pixels;
+    const struct kd_critical_lattice *lattice; /* with their rays */
     struct kd_vk_buffer *to; /* the band's planes */
     uint64_t offset, stride; /* rays before the first one in a plane; rays of a plane */
 };

@@ -7,7 +7,7 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     *out = *asked;
     out->image.width = (int32_t)quality->width;
     out->image.height = (int32_t)quality->height;
-    out->image.samples = quality->samples;
+    out->image.samples = quality->samples; /* 0: as many as each pixel needs */
     out->accuracy.orders = quality->orders;
     if (quality->profile < 0)
         return;
@@ -33,6 +33,8 @@ static double ray_cost(const struct kd_quality *quality, const struct kd_scene *
     return (named ? profile[p] : 2) * (2 + quality->orders);
 }
 
+#define ADAPTIVE_RAYS 2.5 /* of a pixel, about, where each has as many as it needs */
+
 static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders, int32_t profile)
 {
     struct kd_rung r = { .quality = { .scale = scale, .samples = samples, .orders = orders, .profile = profile } };
@@ -40,7 +42,7 @@ static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int3
     r.quality.height = (uint32_t)fmax(1, round(asked->image.height * scale));
     r.quality.final = scale == 1 && samples == asked->image.samples && orders == asked->accuracy.orders && profile < 0;
     r.pixels = (double)r.quality.width * r.quality.height;
-    r.rays = r.pixels * samples * samples * ray_cost(&r.quality, asked);
+    r.rays = r.pixels * (samples ? samples * samples : ADAPTIVE_RAYS) * ray_cost(&r.quality, asked);
     return r;
 }
 
@@ -60,6 +62,8 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
     int32_t samples = asked->image.samples, orders = asked->accuracy.orders;
     out->rungs[0] = make_rung(asked, scale, samples, orders, -1);
     out->n_rungs = 1;
+    if (!samples) /* then one */
+        add_rung(out, make_rung(asked, scale, samples = 1, orders, -1));
     while (samples > bounds->samples) {
         samples = samples / 2 > bounds->samples ? samples / 2 : bounds->samples;
         add_rung(out, make_rung(asked, scale, samples, orders, -1));
@@ -83,7 +87,8 @@ static void make_steps(const struct kd_scene *asked, struct kd_ladder *out)
     bool dear = !by_profile(a) || a->profile > KD_PROFILE_BALANCED;
     int32_t profile = dear ? KD_PROFILE_BALANCED : -1;
     out->n_steps = 0;
-    for (int32_t samples = 1; samples < asked->image.samples + dear; samples *= 2)
+    const int32_t most = asked->image.samples ? asked->image.samples + dear : 2;
+    for (int32_t samples = 1; samples < most; samples *= 2)
         out->steps[out->n_steps++] = make_rung(asked, 1, samples, a->orders, profile);
     struct kd_rung last = make_rung(asked, 1, asked->image.samples, a->orders, -1);
     while (out->n_steps && out->steps[out->n_steps - 1].rays >= last.rays) /* named steps may be few */

@@ -10,8 +10,11 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
                      (unsigned long long)report->undecided,
                      report->sampled);
     if (report->sampled)
-        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
+        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
                  report->differ, report->median, report->worst);
+    if (report->pixel_sampled)
+        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " followed=%llu refined=%llu between=%llu pixel_sampled=%u pixel_error=%.1e pixel_error_worst=%.1e",
+                 (unsigned long long)report->followed, (unsigned long long)report->refined, (unsigned long long)report->between, report->pixel_sampled, report->pixel_error, report->pixel_error_worst);
 }
 
 /* One sentence a line, as a reader of the file's properties sees them. */

@@ -6,7 +6,7 @@
 
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
  * worst=2.0e-05"; without the last four where nothing was sampled. */
-#define KD_ACCURACY_TEXT 200
+#define KD_ACCURACY_TEXT 320
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
 
 struct kd_notes {

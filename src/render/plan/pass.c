@@ -37,6 +37,12 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
     return (struct kd_pass_cost) { by->engine >= KD_ENGINE_KS_EULER ? "rays_kerr_schild.comp" : "rays.comp", ns_listed(by, c), KD_NS_NONE };
 }
 
+/* A ray that is followed and lit. */
+static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    return (struct kd_pass_cost) { "transfer.comp", trace(plan, c).ns + c->ns[KD_NS_SAMPLE_TRANSFER], KD_NS_NONE };
+}
+
 static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     (void)plan, (void)c;
@@ -74,6 +80,7 @@ INVOCATIONS(audited, plan->audit)
 INVOCATIONS(particles, kd_emit_invocations(scene, KD_EMITTER_particles))
 INVOCATIONS(lit, kd_plan_rays(plan))
 INVOCATIONS(starred, plan->points ? plan->rays : 0)
+INVOCATIONS(refined, plan->adaptive ? plan->rays * plan->adaptive / KD_PLAN_CHOSEN + KD_PLAN_SAMPLED : 0)
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)
 INVOCATIONS(layered, plan->n_layers * pixels(plan, scene))
 INVOCATIONS(added_up, plan->light ? pixels(plan, scene) : 0)

@@ -45,6 +45,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(PARTICLES, "particles", particles, WHOLE("particles.comp", PARTICLE), FIXED, FRAME)                                        \
     P(STARS, "stars", starred, PART("star_search.comp", SAMPLE_TRANSFER, 3), RAYS, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
+    P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
     P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \
     P(BEAM, "beam", beamed, BY(beam), PIXELS, FRAME)                                                                             \

@@ -43,7 +43,7 @@ static struct kd_light light_of(const struct kd_camera_exact *c, double side, do
 struct kd_light_report kd_light_of(const struct kd_scene *scene, const float *sums, size_t n)
 {
     const struct kd_camera_exact camera = kd_camera_exact(scene);
-    double side = scene->image.samples, pixel = kd_camera_pixel(scene), area = pixel * pixel;
+    double side = kd_scene_side(scene), pixel = kd_camera_pixel(scene), area = pixel * pixel;
     struct sums all = { 0 }, spots = { 0 };
     for (size_t i = 0; i < n; i++) {
         add(&all, sums + KD_LIGHT_SUMS * i);

@@ -22,6 +22,8 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
+WHEN(adapted, plan->adaptive)
+WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
 WHEN(film, scene->style.tone_map == KD_TONE_ACES && !kd_plan_is_map(plan))
 WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !kd_plan_is_map(plan))
 WHEN(bloom, plan->bloom.levels && !kd_plan_is_map(plan))
@@ -44,6 +46,8 @@ static const struct sentence {
     { "disk: image orders beyond accuracy.orders are left out", crossings },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
+    { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },
+    { "image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is \"auto\"", not_adapted },
     { "post: a film-like tone curve; pixel values are not proportional to radiance", film },
     { "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance", neutral },
     { "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave the picture stays "
@@ -89,7 +93,7 @@ static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scen
     const struct kd_setting *by = &plan->setting;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, a %a", plan->quantities, plan->orders,
-                            scene->image.width, scene->image.height, scene->image.samples, scene->image.critical_factor, (int)by->engine,
+                            scene->image.width, scene->image.height, (int)plan->side, scene->image.critical_factor, (int)by->engine,
                             (int)by->precision, by->steps, (int)plan->path, scene->spacetime.spin));
     for (size_t i = camera->first; i < camera->first + camera->count; i++)
         if (strcmp(kd_fields[i].name, "azimuth_deg"))
@@ -186,6 +190,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
 {
     uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
     uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
+    uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out; /* pixels are chosen by 16 bits */
     uint64_t row_layers = 4ull * plan->n_layers * plan->width;
     uint64_t widest = row_lens > row_light ? row_lens : row_light;
     widest = row_layers > widest ? row_layers : widest;
@@ -203,8 +208,8 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
     plan->lens_bytes = row_lens * plan->height + at_curve;
-    plan->host_bytes = (row_out + row_layers + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
-    uint64_t fixed = kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_out * plan->band_rows + 64) + (1 << 20) +
+    plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
+    uint64_t fixed = plan->listed_bytes + kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) + (1 << 20) +
                      plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
                      row_points * plan->height + (plan->points ? kd_plan_pair_bytes() : 0) +
                      plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
@@ -217,9 +222,8 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
                                struct kd_error *error)
 {
     struct kd_critical_pixels list;
-    uint64_t side = plan->side * (uint64_t)scene->image.critical_factor;
-    if (side > KD_CRITICAL_SIDE)
-        side = KD_CRITICAL_SIDE;
+    const uint64_t side = least(plan->side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
+    const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->ends)) /* the direct image is nowhere thin */
         return KD_OK;
     enum kd_status status = kd_critical_kept(scene, &list, error);
@@ -232,9 +236,21 @@ static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scen
     if (!most)
         return KD_OK;
     plan->critical = (uint32_t)(side * side);
+    plan->critical_dense = plan->adaptive ? (uint32_t)(dense * dense) : 0;
     plan->critical_pixels = n;
     plan->critical_part = n < most ? n : most;
     return KD_OK;
+}
+
+/* Pixels may have more rays than others; those of a ring are wide as it is. One buffer is for all, part by part. */
+static void adapt(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
+{
+    if (!kd_scene_adapts(scene) || plan->ring || plan->unseen || !plan->picture || !plan->planes)
+        return;
+    plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
+    plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES), buffer_bytes(c) - 64);
+    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* not one pixel */
+        plan->listed_bytes = 4ull * (plan->planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
 }
 
 /* A lens map keeps w = 1/r in 32 bits. */
@@ -361,7 +377,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     struct kd_plan plan = { 0 };
     plan.width = (uint32_t)scene->image.width;
     plan.height = (uint32_t)scene->image.height;
-    plan.side = (uint32_t)scene->image.samples;
+    plan.side = (uint32_t)kd_scene_side(scene);
     plan.rays = (uint64_t)plan.width * plan.height * plan.side * plan.side;
     if (!needs->unseen)
         plan.bloom = kd_bloom_of(plan.width, plan.height, scene->style.bloom);
@@ -393,6 +409,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     KD_TRY(beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
+    adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
     *out = plan;

@@ -48,8 +48,11 @@ struct kd_plan {
     uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
     uint64_t rays;                  /* of the grid */
     uint32_t critical;              /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as of any other */
+    uint32_t critical_dense;        /* where one is not enough (frame/refine.c); 0: all there have as many */
     uint64_t critical_pixels;       /* how many they are */
     uint64_t critical_part;         /* how many one buffer holds the lens map of */
+    uint32_t adaptive;              /* rays of a pixel for which one is not enough (frame/refine.c); 0: all have as many */
+    uint64_t listed_bytes;          /* of the buffer that holds the lens map of such pixels, part by part */
     enum kd_lens_path {
         KD_LENS_CLOSED, /* lens_closed.comp: closed forms, from outside the orbits of light */
         KD_LENS_MAP,    /* lens_map.comp: by steps */
@@ -108,6 +111,17 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan *plan)
     return 4ull * plan->critical_part * (plan->planes * plan->critical + 2);
 }
 
+/* Where image.samples is "auto" a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. Plans count on one pixel in KD_PLAN_CHOSEN. */
+#define KD_PLAN_ADAPTIVE_SIDE 4
+#define KD_PLAN_TRUTH_SIDE 8 /* of the rays that tell what is left, */
+#define KD_PLAN_SAMPLED_OF_EACH 48 /* on so many pixels of four kinds */
+#define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
+#define KD_PLAN_CHOSEN 10
+#define KD_PLAN_LISTED_BYTES (15u << 20) /* rays of all of which are fewer than 65535 workgroups */
+
+/* Pixels of so many rays whose lens map the buffer of listed pixels holds. */
+static inline uint64_t kd_plan_listed_most(const struct kd_plan *plan, uint32_t rays) { return plan->listed_bytes / (4ull * (plan->planes * rays + 2)); }
+
 static inline bool kd_plan_holds(const struct kd_plan *plan, uint32_t quantities) { return (plan->quantities & quantities) == quantities; }
 
 static inline bool kd_plan_has_footprints(const struct kd_plan *plan)
@@ -123,6 +137,13 @@ static inline bool kd_plan_is_radii(const struct kd_plan *plan)
 
 /* All that are followed. */
 static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->rays + plan->critical * plan->critical_pixels; }
+
+/* Rays that may be followed on such pixels: all together are then a quarter of those that a picture with 16 in each has. */
+static inline uint64_t kd_plan_followed_most(const struct kd_plan *plan)
+{
+    const uint64_t uniform = plan->adaptive * plan->rays + plan->critical_dense * plan->critical_pixels;
+    return uniform / 4 - plan->rays - plan->critical * plan->critical_pixels;
+}
 
 /* Of linear light, a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }

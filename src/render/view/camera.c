@@ -105,8 +105,8 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
 {
     struct kd_camera_exact o = { 0 };
     const struct kd_camera *c = &scene->camera;
-    double width = (double)scene->image.width * scene->image.samples;
-    double height = (double)scene->image.height * scene->image.samples;
+    double width = (double)scene->image.width * kd_scene_side(scene);
+    double height = (double)scene->image.height * kd_scene_side(scene);
     const struct kd_vantage at = kd_scene_vantage(scene);
 
     o.middle_x = 0.5 * width - 0.5;
@@ -120,9 +120,9 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     o.root = sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
     o.horizon = 1 / kd_kerr_horizon(scene->spacetime.spin);
     if (isinf(c->r)) {
-        plane(&o, c, kd_camera_pixel(scene) / scene->image.samples);
+        plane(&o, c, kd_camera_pixel(scene) / kd_scene_side(scene));
     } else {
-        near(&o, c, o.sight == KD_SIGHT_PINHOLE ? kd_camera_pixel(scene) / scene->image.samples : 1);
+        near(&o, c, o.sight == KD_SIGHT_PINHOLE ? kd_camera_pixel(scene) / kd_scene_side(scene) : 1);
         frame(&o, scene, &at);
     }
     return o;

@@ -239,6 +239,8 @@ static uint32_t apart(uint32_t rays, uint32_t generator)
 
 static uint32_t common(uint32_t a, uint32_t b) { return b ? common(b, a % b) : a; }
 
+struct kd_critical_lattice kd_critical_grid(uint32_t side) { return (struct kd_critical_lattice) { .rays = side * side, .shift = side }; }
+
 /* The shortest vector of the lattice that is no multiple of (bx, by); of any, where that is 0. */
 static void shortest(const struct kd_critical_lattice *l, int32_t bx, int32_t by, int32_t *x, int32_t *y)
 {
@@ -258,6 +260,8 @@ static void shortest(const struct kd_critical_lattice *l, int32_t bx, int32_t by
 
 struct kd_critical_neighbours kd_critical_neighbours(const struct kd_critical_lattice *lattice)
 {
+    if (!lattice->generator)
+        return (struct kd_critical_neighbours) { { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } } };
     struct kd_critical_neighbours n = { 0 };
     shortest(lattice, 0, 0, &n.to[0].x, &n.to[0].y);
     shortest(lattice, n.to[0].x, n.to[0].y, &n.to[1].x, &n.to[1].y);

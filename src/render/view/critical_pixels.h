@@ -40,9 +40,16 @@ struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays);
 struct kd_critical_lattice { uint32_t rays, generator, shift; };
 struct kd_critical_lattice kd_critical_lattice(uint32_t rays); /* 1 to 256 */
 
-/* In steps of kd_critical_camera. */
+/* The square grid of side x side rays, as all pixels have where image.samples is `side`: one whose generator is 0, and shift the side. */
+struct kd_critical_lattice kd_critical_grid(uint32_t side);
+/* Steps to a pixel, of kd_critical_camera. */
+static inline uint32_t kd_critical_steps(const struct kd_critical_lattice *l) { return l->generator ? l->rays : l->shift; }
+
+/* In these steps. */
 static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice *l, struct kd_pixel pixel, uint32_t ray)
 {
+    if (!l->generator)
+        return (struct kd_pixel) { pixel.x * l->shift + ray % l->shift, pixel.y * l->shift + ray / l->shift };
     return (struct kd_pixel) { pixel.x * l->rays + ray, pixel.y * l->rays + (ray * l->generator + l->shift) % l->rays };
 }
 

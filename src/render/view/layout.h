@@ -23,6 +23,7 @@ struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 struct kd_footprint_push { KD_FOOTPRINT_FIELDS_(F, U) };
 struct kd_stars_push { KD_STARS_FIELDS_(F, U) };
+struct kd_between_push { KD_BETWEEN_FIELDS_(F, U) };
 struct kd_guide { KD_GUIDE_FIELDS_(F, U) };
 struct kd_particles_push { KD_PARTICLES_FIELDS_(F, U) };
 struct kd_light_push { KD_LIGHT_FIELDS_(F, U) };
@@ -51,8 +52,9 @@ static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
 _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 && sizeof(struct kd_particles_push) <= 128 && sizeof(struct kd_light_push) <= 128 &&
                sizeof(struct kd_post_push) <= 128, "the push constants that every device has");
 
-/* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, and of those at the critical curve. */
-enum { KD_CAMERA_GRID, KD_CAMERA_CRITICAL, KD_CAMERAS, KD_CAMERA_BYTES = 256 };
+/* The cameras of a frame lie in one buffer, each where a binding may begin: of the rays of the grid, of those at the critical curve,
+ * of those of pixels that need more, on the grid and there, and of those that tell what is left. */
+enum { KD_CAMERA_GRID, KD_CAMERA_CRITICAL, KD_CAMERA_DENSE, KD_CAMERA_DENSE_CRITICAL, KD_CAMERA_TRUTH, KD_CAMERAS, KD_CAMERA_BYTES = 256 };
 _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next camera begins behind this one");
 
 /* Specialisation constants: a member each, at four times its id. */
@@ -64,6 +66,7 @@ _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next came
 #define CHECK_CLOSED(id, name, value) SPEC_CHECK(kd_spec_lens_closed, id, name)
 #define CHECK_MAP(id, name, value) SPEC_CHECK(kd_spec_lens_map, id, name)
 #define CHECK_FOOTPRINT(id, name, value) SPEC_CHECK(kd_spec_footprint, id, name)
+#define CHECK_BETWEEN(id, name, value) SPEC_CHECK(kd_spec_between, id, name)
 #define CHECK_TRANSFER(id, name, value) SPEC_CHECK(kd_spec_transfer, id, name)
 #define CHECK_RAYS(id, name, value) SPEC_CHECK(kd_spec_rays, id, name)
 #define CHECK_PARTICLES(id, name, value) SPEC_CHECK(kd_spec_particles, id, name)
@@ -78,6 +81,7 @@ _Static_assert(sizeof(struct kd_camera_block) <= KD_CAMERA_BYTES, "the next came
 SPEC(kd_spec_lens_closed, KD_SPEC_LENS_CLOSED, CHECK_CLOSED, )
 SPEC(kd_spec_lens_map, KD_SPEC_LENS_MAP, CHECK_MAP, )
 SPEC(kd_spec_footprint, KD_SPEC_FOOTPRINT, CHECK_FOOTPRINT, )
+SPEC(kd_spec_between, KD_SPEC_BETWEEN, CHECK_BETWEEN, )
 SPEC(kd_spec_transfer, KD_SPEC_TRANSFER, CHECK_TRANSFER, uint32_t traits[KD_EMITTERS(TRAIT, TRAIT, TRAIT, TRAIT)];)
 SPEC(kd_spec_rays, KD_SPEC_RAYS, CHECK_RAYS, )
 SPEC(kd_spec_particles, KD_SPEC_PARTICLES, CHECK_PARTICLES, )
@@ -95,6 +99,7 @@ _Static_assert(offsetof(struct kd_spec_transfer, traits) == 4 * KD_SPEC_TRAITS, 
 #undef CHECK_CLOSED
 #undef CHECK_MAP
 #undef CHECK_FOOTPRINT
+#undef CHECK_BETWEEN
 #undef CHECK_TRANSFER
 #undef CHECK_RAYS
 #undef CHECK_PARTICLES

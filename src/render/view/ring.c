@@ -14,8 +14,8 @@ struct kd_ring kd_ring_of(const struct kd_scene *scene)
         .middle = c->roll_deg * (M_PI / 180),
         .most = c->ring_decades_max,
         .least = c->ring_decades_min,
-        .width = (uint32_t)(scene->image.width * scene->image.samples),
-        .height = (uint32_t)(scene->image.height * scene->image.samples),
+        .width = (uint32_t)(scene->image.width * kd_scene_side(scene)),
+        .height = (uint32_t)(scene->image.height * kd_scene_side(scene)),
     };
 }
 

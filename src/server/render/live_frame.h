@@ -3,6 +3,7 @@
 #define KD_SERVER_RENDER_LIVE_FRAME_H
 
 #include "base/buffer.h"
+#include "render/output/notes.h"
 #include "server/render/queue.h"
 
 #include <stdatomic.h>
@@ -17,7 +18,7 @@ struct kd_live_frame {
     struct kd_buffer file;           /* of it */
     struct kd_buffer approximations; /* as the header has them */
     struct kd_buffer event;          /* the data of its event: JSON in one line */
-    char accuracy[200], timing[400], quality[160];
+    char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160];
 };
 
 /* What the frame was asked with, for its description. */

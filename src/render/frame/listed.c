@@ -1,0 +1,154 @@
+/* Pixels that have more rays than the others: the kernels of the grid once more, over a list of pixels, whose light is written anew. */
+#include "render/frame/lens.h"
+
+#include "render/lens/listed.h"
+
+static const char *pass_of(const struct kd_frame_part *part, enum kd_pass_id id) { return part->list->pass ? part->list->pass : kd_passes[id].name; }
+
+struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct kd_frame_list *list, uint64_t number)
+{
+    struct kd_frame_part part = {
+        .list = list, .first = number * list->most, .n = list->most,
+        .lens = list->buffers[list->again ? 0 : number],
+    };
+    if (part.n > list->pixels->n - part.first)
+        part.n = list->pixels->n - part.first;
+    part.push.stride = (uint32_t)(list->most * list->lattice.rays);
+    part.push.list = j->plan->planes * part.push.stride;
+    return part;
+}
+
+void kd_frame_part_in_band(const struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint64_t *from, uint64_t *to)
+{
+    const uint32_t row = kd_frame_band_first(j, band);
+    const uint64_t first = part->first, a = kd_critical_pixels_above(part->list->pixels, row);
+    const uint64_t b = kd_critical_pixels_above(part->list->pixels, row + kd_frame_band_rows(j, band));
+    *from = a > first ? a - first : 0;
+    *to = b < first ? 0 : b - first < part->n ? b - first : part->n;
+}
+
+/* Run the kernel that makes something over pixels `from` to `to` of a part in slices: rays are an invocation each, else pixels are. base:
+ * the dispatch but for its pipeline and size. */
+static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_part *part, uint64_t from, uint64_t to,
+                               const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
+{
+    const bool rays = makes == KD_MAKES_RAYS;
+    uint32_t step = kd_frame_slice(ns_per_ray * part->list->lattice.rays, (uint32_t)part->n);
+    enum kd_status status = KD_OK;
+    for (; from < to; from += step) {
+        struct kd_slice push = part->push;
+        struct kd_vk_dispatch d = *base;
+        push.row0 = (uint32_t)from;
+        push.rows = (uint32_t)(to - from < step ? to - from : step);
+        d.push = &push;
+        d.groups[0] = kd_frame_groups(rays ? (uint64_t)push.rows * part->list->lattice.rays : push.rows);
+        d.groups[1] = 1;
+        KD_TRY(rays ? kd_frame_trace_kernel(j, &part->list->lattice, &d.pipeline)
+                    : kd_frame_light_kernel(j, &part->list->lattice, makes, &d.pipeline));
+        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+        KD_TRY(kd_frame_report(j, 0));
+    }
+done:
+    return status;
+}
+
+enum kd_status kd_frame_upload_pixels(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    struct kd_vk_buffer *staging;
+    struct kd_vk *vk = j->r->vk;
+    uint64_t bytes = 8 * part->n;
+    enum kd_status status = kd_vk_buffer_create(vk, bytes, KD_VK_UPLOAD, "listed pixels", &staging, j->error);
+    if (status)
+        return status;
+    float *to = kd_vk_buffer_map(staging);
+    for (uint64_t i = 0; i < part->n; i++) {
+        to[2 * i] = (float)part->list->pixels->pixels[part->first + i].x;
+        to[2 * i + 1] = (float)part->list->pixels->pixels[part->first + i].y;
+    }
+    status = kd_vk_copy(vk, "upload", part->lens, 4ull * part->push.list, staging, 0, bytes, j->error);
+    kd_vk_buffer_destroy(vk, staging);
+    return status;
+}
+
+static enum kd_status list_part(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    const uint32_t rays = part->list->lattice.rays, step = kd_frame_slice(j->plan->trace_ns * rays, (uint32_t)part->n);
+    enum kd_status status = KD_OK;
+    for (uint64_t from = 0; from < part->n; from += step) {
+        const struct kd_lens_rows rows = {
+            .first = (uint32_t)(part->first + from), .count = (uint32_t)(part->n - from < step ? part->n - from : step),
+            .pixels = part->list->pixels->pixels, .lattice = &part->list->lattice, .to = part->lens, .offset = from * rays, .stride = part->push.stride,
+        };
+        KD_TRY(kd_frame_list_rays(j, &rows));
+        KD_TRY(kd_frame_report(j, 0));
+    }
+done:
+    return status;
+}
+
+/* Footprints of a part that is traced, in slices. */
+static enum kd_status footprint_part(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    struct kd_footprint_area area = {
+        .lens = part->lens, .lattice = &part->list->lattice,
+        .push = { .rows = (uint32_t)part->n, .list = part->push.list, .stride = part->push.stride },
+    };
+    const uint32_t rays = (uint32_t)(part->n * part->list->lattice.rays), step = kd_frame_slice(j->plan->trace_ns, rays);
+    enum kd_status status = KD_OK;
+    for (uint32_t from = 0; kd_plan_has_footprints(j->plan) && from < rays; from += step) {
+        area.push.first = from;
+        area.push.end = from + (rays - from < step ? rays - from : step);
+        KD_TRY(kd_frame_footprint(j, &area));
+        KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
+        KD_TRY(kd_frame_report(j, 0));
+    }
+done:
+    return status;
+}
+
+static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    enum kd_status status = kd_frame_upload_pixels(j, part);
+    if (status || part->list->between)
+        return status ? status : kd_frame_between(j, part);
+    if (j->plan->path == KD_LENS_LISTED)
+        return list_part(j, part);
+    struct kd_vk_dispatch d = kd_frame_trace(j, NULL, part->lens, part->list->camera);
+    d.pass = pass_of(part, KD_PASS_TRACE);
+    return run_part(j, part, 0, part->n, &d, KD_MAKES_RAYS, j->plan->trace_ns);
+}
+
+/* A pixel's light is written anew, for the picture or a layer of light. */
+static enum kd_status transfer_part(struct kd_frame_job *j, struct kd_frame_part *part, int makes, double ns)
+{
+    enum kd_status status = KD_OK;
+    for (uint32_t band = 0; band < j->plan->bands && !status; band++) {
+        uint64_t from, to;
+        kd_frame_part_in_band(j, part, band, &from, &to);
+        struct kd_vk_dispatch d = kd_frame_transfer(j, NULL, part->lens, band, part->list->camera, makes);
+        d.pass = makes < 0 ? pass_of(part, KD_PASS_TRANSFER) : d.pass;
+        part->push.band0 = kd_frame_band_first(j, band);
+        status = run_part(j, part, from, to, &d, makes, ns);
+    }
+    return status;
+}
+
+enum kd_status kd_frame_light_list(struct kd_frame_job *j, const struct kd_frame_list *list, bool needed)
+{
+    struct kd_capacity c;
+    enum kd_status status = KD_OK;
+    kd_renderer_capacity(j->r, &c);
+    for (uint64_t k = 0; k * list->most < list->pixels->n; k++) {
+        struct kd_frame_part part = kd_frame_part_of(j, list, k);
+        if (needed) {
+            KD_TRY(trace_part(j, &part));
+            KD_TRY(footprint_part(j, &part));
+        }
+        for (int makes = KD_MAKES_PICTURE; makes < (list->layers ? (int)j->plan->n_layers : 0); makes++)
+            if (makes == KD_MAKES_PICTURE || kd_layer_kinds[j->plan->layers[makes].kind].of == KD_OF_LIGHT)
+                KD_TRY(transfer_part(j, &part, makes, c.ns[KD_NS_SAMPLE_TRANSFER]));
+    }
+done:
+    return status;
+}
