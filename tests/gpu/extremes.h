@@ -1,4 +1,4 @@
-/* What the parts of the suite of extremes share: the table, the measure of an error, and the parts themselves. One thread. */
+/* The parts of the suite of extremes share this: the table, the measure of an error, and the parts themselves. One thread. */
 #ifndef KD_TEST_EXTREMES_H
 #define KD_TEST_EXTREMES_H
 

@@ -1,10 +1,12 @@
-/* What the tests of src/render share: one renderer under the validation layer, and silence of that layer at the end. */
+/* The tests of src/render share this: one renderer under the validation layer, and silence of that layer at the end. */
 #ifndef KD_TEST_RENDER_SUPPORT_H
 #define KD_TEST_RENDER_SUPPORT_H
 
 #include "support.h"
 
 #include "render/render.h"
+
+#include <math.h>
 
 static struct kd_renderer *renderer;
 
@@ -44,6 +46,28 @@ static inline struct kd_frame rendered(const struct kd_scene *scene)
     OK(kd_plan_make(scene, &c, &plan, &error));
     OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
     return frame;
+}
+
+/* What a pass of a frame took, ms; NAN: it did not run. */
+static inline double timing_of(const struct kd_frame *frame, const char *pass)
+{
+    for (size_t i = 0; i < frame->n_timings; i++)
+        if (!strcmp(frame->timings[i].name, pass))
+            return frame->timings[i].ms;
+    return NAN;
+}
+
+static inline bool ran(const struct kd_frame *frame, const char *pass) { return !isnan(timing_of(frame, pass)); }
+
+/* Linear light of an sRGB value in [0, 1] (IEC 61966-2-1); of a sample of 16 bits. */
+static inline double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
+static inline double shown(const uint16_t *picture, size_t i) { return decode(picture[i] / 65535.0); }
+
+/* An order of doubles for qsort. */
+static inline int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }
 
 /* The exit status of a group of which so many tests failed. */

@@ -1,4 +1,4 @@
-/* What the tests of src/vk share: a device or a printed skip, kernels, buffers with contents. */
+/* The tests of src/vk share this: a device or a printed skip, kernels, buffers with contents. */
 #ifndef KD_TEST_GPU_SUPPORT_H
 #define KD_TEST_GPU_SUPPORT_H
 

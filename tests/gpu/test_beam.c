@@ -11,8 +11,6 @@ enum { MOST = 640 * 360 };
 static float light[3 * MOST];
 static uint16_t pixels[3 * MOST], others[3 * MOST];
 
-static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
-static double shown(const uint16_t *picture, int i) { return decode(picture[i] / 65535.0); }
 
 /* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is there, 0: all. */
 struct look {
@@ -198,7 +196,7 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* Of a picture under way the rest is dark: what is lit looks as it would then, and a beam leaves light as it was for the next look. */
+/* The rest of a picture under way is dark: what is lit looks as it would then, and a beam leaves light as it was for the next look. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;

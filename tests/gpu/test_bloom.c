@@ -10,8 +10,6 @@ enum { MOST = 640 * 360 };
 static float light[3 * MOST];
 static uint16_t pixels[3 * MOST], others[3 * MOST];
 
-static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
-static double shown(const uint16_t *picture, int i) { return decode(picture[i] / 65535.0); }
 
 /* Light to pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)

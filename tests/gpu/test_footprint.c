@@ -179,12 +179,6 @@ static struct range range_at(const struct view *v, const struct kd_scene *scene,
 
 struct tally { int n, outside, edges; double errors[WIDTH * HEIGHT], shapes[WIDTH * HEIGHT]; };
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* noise: of the map's own arithmetic, over the size. */
 static void judge(struct tally *t, const struct range *range, int n, double got, double slack, double noise)
 {

@@ -220,7 +220,7 @@ static void test_ends(void **state)
 
 static double luminance(const float *rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
-/* Of each order the light that arrives; all of them and the sky are the picture's luminance, whatever rays it is the mean of. */
+/* Each order has the light that arrives of it; all of them and the sky are the picture's luminance, whatever rays it is the mean of. */
 static void test_light(void **state)
 {
     (void)state;

@@ -28,11 +28,6 @@ static struct lens trace(const struct kd_scene *scene)
     return lens;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 static double quantile(double *values, int n, double q)
 {
     qsort(values, (size_t)n, sizeof *values, by_value);

@@ -77,12 +77,6 @@ static struct lens trace(const struct view *v, const struct kd_needs *needs, int
 
 struct tally { int count, wrong; double worst; double errors[GRID * GRID]; };
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median(struct tally *t)
 {
     qsort(t->errors, (size_t)t->count, sizeof *t->errors, by_value);

@@ -86,12 +86,6 @@ static void labels(const struct kd_scene *scene)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Errors over what the crossing amplifies, as in test_lens_map.c. A ray that crosses more or less often when it is moved is unsure. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path, const char *engine)
 {

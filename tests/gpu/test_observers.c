@@ -177,15 +177,9 @@ static void whole_sky(void **state)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 struct judged { double errors[(ORDERS + 1) * RAYS * FACES]; size_t n, wrong, sky; };
 
-/* Of a place: Boyer-Lindquist less ingoing azimuth, the integral of a/Delta from r to infinity. */
+/* A place has this: Boyer-Lindquist less ingoing azimuth, the integral of a/Delta from r to infinity. */
 static double twist(const struct seer *seer)
 {
     double a = seer->spin, root = sqrt((1 - a) * (1 + a));

@@ -30,7 +30,7 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
     OK(kd_particles_places(renderer, scene, 5, 20000 / N, N, out, &error));
 }
 
-/* Of the i-th of them, about which it swings. */
+/* The i-th of them swings about this. */
 static double radius(const struct kd_scene *scene, int i)
 {
     struct kd_particle_grid grid = kd_particle_grid(scene);
@@ -135,14 +135,6 @@ static void test_periods(void **state)
     }
     printf("epicyclic periods from %d tracks: within %.2g (r), %.2g (theta)\n", judged, worst[0], worst[1]);
     assert_true(judged > 3 * N);
-}
-
-static bool ran(const struct kd_frame *frame, const char *pass)
-{
-    for (size_t i = 0; i < frame->n_timings; i++)
-        if (!strcmp(frame->timings[i].name, pass))
-            return true;
-    return false;
 }
 
 static double difference(const struct kd_frame *a, const struct kd_frame *b)

@@ -8,7 +8,6 @@
 #include <math.h>
 
 /* IEC 61966-2-1, from an encoded value to light. */
-static double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 
 /* Radiance through a kernel; words are `out`, room for whole groups. */
 static void post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push, void *out)

@@ -124,12 +124,6 @@ static void test_double(void **state)
     check(KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 1e-9, 2e-9, 1e-9, 1e-6);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median error of the crossing of an order by an engine in double precision. */
 static double median_error(enum kd_engine engine, uint32_t steps, int order)
 {

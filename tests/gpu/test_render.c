@@ -31,22 +31,7 @@ static struct kd_frame render_with(const struct kd_scene *scene, const struct kd
     return frame;
 }
 
-static struct kd_frame render(const struct kd_scene *scene)
-{
-    struct kd_capacity c = capacity();
-    struct kd_plan plan;
-    return render_with(scene, &c, &plan);
-}
-
 static size_t bytes(const struct kd_frame *f) { return (size_t)f->width * f->height * (kd_frame_bit_depth(f) == 16 ? 6 : 3); }
-
-static bool ran(const struct kd_frame *frame, const char *pass)
-{
-    for (size_t i = 0; i < frame->n_timings; i++)
-        if (!strcmp(frame->timings[i].name, pass))
-            return true;
-    return false;
-}
 
 static void assert_same(struct kd_frame *a, struct kd_frame *b)
 {
@@ -62,7 +47,7 @@ static void test_reuse(void **state)
     (void)state;
     struct kd_scene scene = small_scene();
     scene.camera.inclination_deg = 61.5; /* nobody has asked for this one before */
-    struct kd_frame first = render(&scene), again = render(&scene);
+    struct kd_frame first = rendered(&scene), again = rendered(&scene);
     assert_false(first.lens_reused);
     assert_true(again.lens_reused && ran(&first, "trace") && !ran(&again, "trace"));
     assert_false(ran(&again, "upload")); /* the device has its tables already */
@@ -72,7 +57,7 @@ static void test_reuse(void **state)
     scene.camera.azimuth_deg = 40;
     scene.style.exposure = 1;
     scene.image.bit_depth = 16;
-    first = render(&scene);
+    first = rendered(&scene);
     assert_true(first.lens_reused && ran(&first, "upload") == ran(&first, "transfer")); /* where there are timestamps */
     kd_frame_finish(&first);
 
@@ -80,7 +65,7 @@ static void test_reuse(void **state)
                                  &scene.camera.centre_beta };
     for (size_t i = 0; i < sizeof geometry / sizeof *geometry; i++) {
         *geometry[i] += 0.01;
-        first = render(&scene);
+        first = rendered(&scene);
         assert_false(first.lens_reused);
         kd_frame_finish(&first);
     }
@@ -93,13 +78,13 @@ static void test_the_curve_is_followed_once(void **state)
     struct kd_scene scene = small_scene();
     scene.camera.inclination_deg = 62.75; /* nobody has asked for this one before */
     uint64_t before = kd_critical_pixels_made();
-    struct kd_frame frame = render(&scene);
+    struct kd_frame frame = rendered(&scene);
     assert_false(frame.lens_reused);
     kd_frame_finish(&frame);
     assert_int_equal(kd_critical_pixels_made() - before, 1);
     scene.disk.peak_temperature_k = 12000;
     scene.accuracy.steps = 24; /* another lens map */
-    frame = render(&scene);
+    frame = rendered(&scene);
     assert_false(frame.lens_reused);
     kd_frame_finish(&frame);
     assert_int_equal(kd_critical_pixels_made() - before, 1);
@@ -126,7 +111,7 @@ static void test_bands(void **state)
         assert_true(plan.bands >= 12 && plan.cacheable);
         assert_same(&whole, &banded);
 
-        whole = render(&scene);
+        whole = rendered(&scene);
         c.memory_bytes = plan.device_bytes + (c.host_memory ? 2 * plan.host_bytes : 0) - 1; /* room for one band of the lens map only */
         banded = render_with(&scene, &c, &plan);
         assert_false(plan.cacheable);
@@ -146,7 +131,7 @@ static void test_slices(void **state)
     c.ns[KD_NS_RAY_RADIUS] = c.ns[KD_NS_RAY_FULL] = c.ns[KD_NS_SAMPLE_TRANSFER] = 1e5;
     struct kd_frame a = render_with(&scene, &c, &plan);
     scene.camera.azimuth_deg = 1;
-    struct kd_frame b = render(&scene);
+    struct kd_frame b = rendered(&scene);
     assert_same(&a, &b);
 }
 
@@ -160,7 +145,7 @@ static void test_sizes(void **state)
             scene.image.width = sizes[i][0];
             scene.image.height = sizes[i][1];
             scene.image.bit_depth = depth;
-            struct kd_frame f = render(&scene);
+            struct kd_frame f = rendered(&scene);
             assert_int_equal(f.width, sizes[i][0]);
             assert_int_equal(f.height, sizes[i][1]);
             kd_frame_finish(&f);
@@ -206,7 +191,7 @@ static void test_extremes(void **state)
                     scene.camera.observer = KD_OBSERVER_ZAMO;
                     scene.sky.model = sky;
                     scene.accuracy.orders = sky ? 8 : 3;
-                    struct kd_frame f = render(&scene);
+                    struct kd_frame f = rendered(&scene);
                     kd_frame_finish(&f);
                     check_lens(&scene);
                 }
@@ -284,7 +269,7 @@ static void test_glances(void **state)
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
         if (k == 2 && !has_float64("glances of f64 rays, of the closed form instead"))
             scene.accuracy.engine = KD_ENGINE_CLOSED + 1;
-        struct kd_frame whole = render(&scene), looked;
+        struct kd_frame whole = rendered(&scene), looked;
         struct kd_capacity narrow = c;
         OK(kd_plan_make(&scene, &c, &plan, &error));
         if (k % 3 == 1) {
@@ -299,14 +284,6 @@ static void test_glances(void **state)
         assert_in_range(glances.n, 12, 20);
         assert_same(&whole, &looked);
     }
-}
-
-static double timing_of(const struct kd_frame *frame, const char *pass)
-{
-    for (size_t i = 0; i < frame->n_timings; i++)
-        if (!strcmp(frame->timings[i].name, pass))
-            return frame->timings[i].ms;
-    return NAN;
 }
 
 struct others {
@@ -331,7 +308,7 @@ static bool let_others(void *user, double fraction)
             scene.image.width = scene.image.height = 8;
             scene.image.samples = side;
             scene.accuracy.orders = (int32_t)orders;
-            struct kd_frame frame = render(&scene);
+            struct kd_frame frame = rendered(&scene);
             kd_frame_finish(&frame);
         }
     return true;
@@ -425,7 +402,7 @@ static void test_audit(void **state)
     (void)state;
     struct kd_scene scene = small_scene();
     scene.camera.inclination_deg = 66;
-    struct kd_frame first = render(&scene), again = render(&scene);
+    struct kd_frame first = rendered(&scene), again = rendered(&scene);
     assert_true(again.lens_reused);
     assert_memory_equal(&first.accuracy, &again.accuracy, sizeof first.accuracy);
     assert_int_equal(first.accuracy.sampled, KD_AUDIT_RAYS);
@@ -436,9 +413,9 @@ static void test_audit(void **state)
 
     scene.camera.r = 15;
     scene.accuracy.orders = 1; /* near the critical curve rounding hides what the steps lose */
-    first = render(&scene);
+    first = rendered(&scene);
     scene.accuracy.steps = 4;
-    again = render(&scene);
+    again = rendered(&scene);
     scene.accuracy.steps = 0;
     scene.accuracy.profile = KD_PROFILE_DRAFT;
     assert_true(first.accuracy.median < 1e-6 && first.accuracy.differ == 0);
@@ -450,7 +427,7 @@ static void test_audit(void **state)
     scene.camera.r = 1.6;
     scene.camera.yaw_deg = 150;
     scene.camera.observer = KD_OBSERVER_ZAMO;
-    first = render(&scene);
+    first = rendered(&scene);
     assert_true(first.accuracy.sampled > 100 && first.accuracy.crossings > 20 && first.accuracy.differ == 0);
     assert_true(first.accuracy.median > 0 && first.accuracy.median < 1e-5);
     kd_frame_finish(&first);
@@ -492,7 +469,7 @@ static void test_plan(void **state)
     OK(kd_plan_make(&scene, &c, &plan, &error));
     assert_int_equal(plan.planes, 0);
     assert_string_equal(plan.passes[0].name, "transfer");
-    struct kd_frame f = render(&scene);
+    struct kd_frame f = rendered(&scene);
     for (size_t i = 0; i < bytes(&f); i++)
         assert_int_equal(((uint8_t *)kd_frame_pixels(&f))[i], 0);
     kd_frame_finish(&f);
