@@ -1,4 +1,4 @@
-/* The command line: finds the subcommand and hands over. */
+/* main finds the subcommand and hands over. */
 #include "base/slip.h"
 #include "cli/cli.h"
 

@@ -1,4 +1,4 @@
-// How wrong the picture is, where its time went, and what of it is modelled: in words.
+// This tells how wrong the picture is, where its time went, and what of it is modelled.
 import { byId, el } from './dom.js';
 import { number, said, t, tell, word } from './i18n.js';
 

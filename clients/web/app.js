@@ -45,7 +45,7 @@ function sayWrong(text) {
   status.dataset.wrong = true;
 }
 
-// Of what is missing of a view at its first opening its own section tells.
+// A view's own section tells what is missing of it at its first opening.
 function opener(view) {
   const fault = el('p', { class: 'fault', role: 'status' });
   if (views[view]) byId(view).prepend(fault);

@@ -1,4 +1,4 @@
-// Controls of a scene, made from the schema: a row a field, in the groups of the page.
+// The controls of a scene are made from the schema: a row a field, in the groups of the page.
 import { byId, el } from './dom.js';
 import { element, named, nature, number, section, t, tell, unit, word } from './i18n.js';
 import { beside_time, left_out, meansSomething } from './known.js';
@@ -171,7 +171,7 @@ export function buildControls(scene, living_root) {
   living_root.append(...beside_time.map(path => rows.find(r => r.path === path).node));
   byId('natures').append(...legend(scene.natures));
 
-  // Of a list, the elements that there are and the next one.
+  // A list shows the elements that there are and the next one.
   function grow({ name, most, groups, node }) {
     const wanted = Math.min(most, scene.count(name) + 1);
     for (let i = groups.length; i < wanted; i++) {

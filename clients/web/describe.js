@@ -1,4 +1,4 @@
-// What is seen, in words: for titles, and for those who have a picture read to them.
+// This tells what is seen, in words: for titles, and for those who have a picture read to them.
 import { byId } from './dom.js';
 import { number, said, t } from './i18n.js';
 

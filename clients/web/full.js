@@ -1,4 +1,4 @@
-// The picture alone, in all of the window: by the key F or a button, left by Esc. Where the browser can, the window takes all of the screen.
+// The picture alone fills all of the window: by the key F or a button, left by Esc. Where the browser can, the window takes all of the screen.
 import { byId } from './dom.js';
 import { t } from './i18n.js';
 import * as link from './link.js';

@@ -1,4 +1,4 @@
-// What the server says in English, in Italian. A sentence that is not here stays English and is marked as such.
+// This is in Italian what the server says in English. A sentence that is not here stays English and is marked as such.
 export const units = {
   degrees: '°',
   pixels: 'px',

@@ -9,7 +9,7 @@ const pace_ms = 200; // between two drawings
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
-// The track to scale, the hole's place in its middle, with a bar.
+// Draws the track to scale, the hole's place in its middle, with a bar.
 function drawTrack(picture, points, unit) {
   const track = points.map(p => p.middle).filter(([x, y]) => x != null && y != null);
   const reach = 1.25 * Math.max(...track.flat().map(Math.abs), 1e-6),

@@ -1,4 +1,4 @@
-// Lines over the picture. Each is made of numbers of /v1/physics: places on the image plane, or directions from a camera that is near;
+// Lines lie over the picture. Each is made of numbers of /v1/physics: places on the image plane, or directions from a camera that is near;
 // what is done with them here is to look through the camera at them.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t, tell } from './i18n.js';

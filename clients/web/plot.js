@@ -1,4 +1,4 @@
-// Line charts by uPlot. What is added here: curves that do not share their x, marks, a legend that hides curves and says their
+// uPlot draws the charts. What is added here: curves that do not share their x, marks, a legend that hides curves and says their
 // values, reading by keyboard, and the numbers as a table beside each.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
@@ -84,7 +84,7 @@ function table(spec) {
 
 const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 
-// Of what no address gives again.
+// No address gives this again.
 function sheet(spec) {
   const [{ x }] = spec.series,
     rows = [[spec.x.label, ...spec.series.map(s => s.name)].map(cell), ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])])];

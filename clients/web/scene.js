@@ -1,4 +1,4 @@
-// The scene of the page: what of it differs from the defaults of the server's schema, by dotted path. While time goes on the
+// The scene of the page is what differs from the defaults of the server's schema, by dotted path. While time goes on the
 // server knows how late it is; what it says of that is told as 'tick', what else it changes as 'settle', what anybody here
 // changes as 'change'.
 import { still } from './dom.js';

@@ -1,4 +1,4 @@
-// A ringdown for ears. What rings too low or too high for them is shifted by whole octaves, which makes all of it as much faster or
+// A ringdown is made for ears. What rings too low or too high for them is shifted by whole octaves, which makes all of it as much faster or
 // slower; and as it makes a swing or two before it is gone, its fading is stretched at the same pitch. Both are said.
 import { el } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';

@@ -1,4 +1,4 @@
-// Pictures of the scene from a live session. The scene goes to the session as it changes, one patch at a time and the latest
+// Pictures of the scene come from a live session. The scene goes to the session as it changes, one patch at a time and the latest
 // wins; pictures come by asking, again and again, for the one after that which is shown, so a slow device or a slow line never
 // falls behind. How fine each picture is while the scene changes is the server’s affair; at rest it has all pixels of the window
 // and several rays for each.

@@ -1,4 +1,4 @@
-// The camera by hand: drag to go round the hole, wheel or pinch to come nearer, keys for both.
+// The camera is moved by hand: drag to go round the hole, wheel or pinch to come nearer, keys for both.
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 

@@ -1,4 +1,4 @@
-/* Rows of cells as rows of light: the way back from beam_gather.comp. An invocation makes four pixels of a band, three times four floats. */
+/* This kernel makes rows of light of rows of cells: the way back from beam_gather.comp. An invocation makes four pixels of a band, three times four floats. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -20,7 +20,7 @@ vec3 cell(int i) { return lines[i].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Light { vec4 light[]; };
 
-/* Of the band's pixel n. The quotient as a float is wrong by one at most (post.comp). Behind the end of the band there are no others than its last. */
+/* This is the place of the band's pixel n. The quotient as a float is wrong by one at most (post.comp). Behind the end of the band there are no others than its last. */
 vec3 pixel(int n)
 {
     int width = int(push.pixels_x);

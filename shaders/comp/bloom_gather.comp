@@ -1,4 +1,4 @@
-/* Light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its own cell and to the eight round it, by where in its
+/* This kernel spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block gives to its own cell and to the eight round it, by where in its
  * cell its middle is, so that what is spread moves and widens evenly with it. What it would give to cells beyond the edge comes back to
  * those inside. An invocation makes two cells each way, which share what they read. */
 #version 450

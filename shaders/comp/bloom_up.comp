@@ -33,7 +33,7 @@ pair smoothed(int row, ivec4 x)
     return pair(p + 2 * q + r, q + 2 * r + s);
 }
 
-/* Of three coarse cells, the two fine ones in the middle, times 4. */
+/* Makes of three coarse cells the two fine ones in the middle, times 4. */
 pair finer(int row, ivec3 x)
 {
     vec3 p = coarse_cell(row + x.x), q = coarse_cell(row + x.y), r = coarse_cell(row + x.z);

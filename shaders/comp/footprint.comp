@@ -1,4 +1,4 @@
-/* The footprint of each ray: the size of what it stands for, on the disk for each crossing, and in the sky (shared/lens.h).
+/* This kernel finds the footprint of each ray: the size of what it stands for, on the disk for each crossing, and in the sky (shared/lens.h).
  *
  * A step of the camera is a square in the picture; the map takes it, to first order, to a parallelogram, and a disc one step across to
  * an ellipse. The footprint is the long axis of that ellipse: the largest singular value of the map's derivative J,
@@ -32,7 +32,7 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
-/* Where a ray comes to: of a crossing (w, phi), of the sky a unit vector. */
+/* A ray comes here: of a crossing (w, phi), of the sky a unit vector. */
 struct kd_spot { vec3 at; bool there; };
 
 /* n: which crossing; ORDERS: the sky. */
@@ -48,7 +48,7 @@ kd_spot spot(uint n, uint at, bool there)
     return kd_spot(vec3(s * phi.c, s * phi.s, u), there && escapes);
 }
 
-/* From the ray's own spot to another's, azimuths the short way round. */
+/* This is the way from the ray's own spot to another's, azimuths the short way round. */
 vec3 apart(uint n, kd_spot own, kd_spot other)
 {
     vec3 d = other.at - own.at;
@@ -94,7 +94,7 @@ struct kd_oval { float size, shape; };
 
 const kd_oval KD_NO_OVAL = kd_oval(KD_FOOTPRINT_EDGE, 1.0 + (1023.0 + 2048.0 * 1023.0) / 8388608.0);
 
-/* Of J J^T, whose components along r and phi these are; r grows as w falls. */
+/* These are ellipses of J J^T, whose components along r and phi these are; r grows as w falls. */
 kd_oval oval(float rr, float ff, float rf)
 {
     float size = longest(rr, ff, rf), i = rr / (rr + ff), j = 0.5 - 0.5 * rf * inversesqrt(rr * ff);

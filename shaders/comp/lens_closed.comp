@@ -1,4 +1,4 @@
-/* The lens map in closed form, for an observer at infinity or outside the photon orbits: radii of the crossings, and as the scene
+/* This kernel makes the lens map in closed form, for an observer at infinity or outside the photon orbits: radii of the crossings, and as the scene
  * requires their azimuths, radial slopes, the direction in which a ray escapes and its fate. Planes: shared/lens.h, all but the delay
  * and alpha.
  *

@@ -1,4 +1,4 @@
-/* The lens map by integration: radii of the crossings, and as the scene requires their azimuths, radial slopes, the direction in which a
+/* This kernel makes the lens map by integration: radii of the crossings, and as the scene requires their azimuths, radial slopes, the direction in which a
  * ray escapes and its fate; for an observer at any radius.
  *
  * When a ray crosses the plane is known in closed form (polar.glsl), so the steps end exactly on the crossings: each half

@@ -1,4 +1,4 @@
-/* Particles of the disk at one time: each from its number, in closed form, onto the grid or into a list (src/render/emit/particles.h).
+/* This kernel puts the particles of the disk where they are at one time: each from its number, in closed form, onto the grid or into a list (src/render/emit/particles.h).
  *
  * Phases are fractions of a turn in 32 bits, so that sums wrap exactly. A particle is shared out among the four nodes around it.
  * A word of the grid holds 16 bits for its node, from particles to the right of it, and 16 for its neighbour on the right, so that

@@ -1,4 +1,4 @@
-/* The light of a picture, for its sum and its centre. Over pixels at x and y steps from the middle, of luminance Y, and with
+/* This kernel adds up the light of a picture, for its sum and its centre. Over pixels at x and y steps from the middle, of luminance Y, and with
  * f = 1/|(1, x step, y step)| (1 in the image plane),
  *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
  * of the whole picture and of the hot spots' own light. f^3 is the solid angle of a pixel over that of the middle one, f times

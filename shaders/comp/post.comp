@@ -1,4 +1,4 @@
-/* Exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four pixels as whole words: RGB of 8 bits in
+/* This kernel makes pixels of light: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four pixels as whole words: RGB of 8 bits in
  * three, of 16 bits in six, packed without padding as a PNG encoder wants them. The invocations behind the last pixel write zeros.
  *
  * Eight kernels are made of this file: KD_TEXELS reads the radiance as texels of four floats, three of which are four pixels; KD_BLOOM
@@ -120,7 +120,7 @@ place next(place at)
 /* A threshold in [0, 1) that depends on the place alone: interleaved gradient noise (J. Jimenez 2014). */
 float threshold(place at) { return fract(52.9829189 * fract(0.06711056 * at.x + 0.00583715 * at.y)); }
 
-/* What a lens spreads to the four pixels of an invocation. */
+/* A lens spreads this to the four pixels of an invocation. */
 struct spread { vec3 a, b, c, d; };
 
 #ifdef KD_BLOOM

@@ -1,4 +1,4 @@
-/* End points of listed rays, by integration in Mino time; in single precision, and as double by shaders/to_double.py.
+/* This kernel finds the end points of listed rays, by integration in Mino time; in single precision, and as double by shaders/to_double.py.
  *
  * As lens_map.comp, each half period is STEPS steps that end on the crossing. Here u is integrated beside w: the smooth part
  * of the azimuth and of the delay need it. A second integration of w with half the steps, and the variation of w with

@@ -1,4 +1,4 @@
-/* Listed rays the common way: Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for comparison.
+/* This kernel follows listed rays the common way: Hamilton's equations in ingoing Cartesian Kerr-Schild coordinates, for comparison.
  *
  *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = 2r^3/(r^4 + a^2 z^2),  l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r)
  *

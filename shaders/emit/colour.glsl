@@ -1,4 +1,4 @@
-/* Colours of black bodies, by tables that no scene changes.
+/* The colours of black bodies are read from tables that no scene changes.
  *
  * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES): those are the floats whose low bits are zero, so that the place of a temperature in the
  * table is its bits. A row holds red and blue of linear sRGB of luminance 1, and what they grow by up to the next node; green follows from

@@ -1,4 +1,4 @@
-/* The smooth thin disk.
+/* The smooth thin disk shines here.
  *
  * An element at radius r shines as a black body of temperature T(r). Liouville: I_nu/nu^3 is constant along the ray, so that it is seen
  * as a black body of g T, its bolometric intensity g^4 F / pi. Radiance is in units of the brightest surface brightness at g = 1. */
@@ -21,7 +21,7 @@
 /* What shines at a crossing: its temperature over the disk's largest, as it is seen, and its opacity. */
 struct kd_gas { float t, alpha; };
 
-/* A black body of t, over the disk's largest temperature. */
+/* This is the light of a black body of t, over the disk's largest temperature. */
 vec3 kd_black_body(float t, uint traits)
 {
     kd_colour_place at = kd_colour_at(emission.disk.peak * t);
@@ -31,7 +31,7 @@ vec3 kd_black_body(float t, uint traits)
     return weight * kd_colour_of(at);
 }
 
-/* T r^(3/4) at r = 1/w, T over the disk's largest. */
+/* This is T r^(3/4) at r = 1/w, T over the disk's largest. */
 float kd_disk_heat(float w)
 {
     float y = sqrt(max(1.0 - emission.frame.r_isco * w, 0.0)) * float(KD_DISK_TABLE - 1);

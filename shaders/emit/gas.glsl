@@ -1,4 +1,4 @@
-/* Turbulent gas in place of the smooth disk: what shines is that disk, its temperature and its optical depth multiplied by a procedural
+/* Turbulent gas takes the place of the smooth disk: what shines is that disk, its temperature and its optical depth multiplied by a procedural
  * pattern, and each crossing is as opaque as the way of the ray through the gas is long.
  *
  * Pattern. Rings, KD_GAS_RING apart in ln r, turn rigidly with the Omega of their middle. Each holds noise of its own in the plane that
@@ -43,7 +43,7 @@
 const uint KD_GAS_TAKEN = TRAITS_gas >> KD_TRAIT_GAS_SHIFT;
 const bool KD_GAS_SLOW = (TRAITS_gas & KD_TRAIT_SLOW) != 0u;
 
-/* A gradient for each point of a lattice that repeats after 65536 cells, times 32768. */
+/* There is a gradient for each point of a lattice that repeats after 65536 cells, times 32768. */
 vec2 kd_gas_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -66,7 +66,7 @@ vec2 kd_gas_noise(vec2 p, vec4 at)
     return mix(low, high, t.y) * (5.677716904867669 / 32768.0); /* E[n^2] over gradients of the square and places of the cell */
 }
 
-/* A ring's plane, and what moves in it. */
+/* This is a ring's plane, and what moves in it. */
 struct kd_gas_ring { vec2 p; uint row; float ahead; };
 
 /* ln(r/r_j) = `off`. */
@@ -79,7 +79,7 @@ kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
     return kd_gas_ring(emission.gas.cells * exp(off) * vec2(psi.c, psi.s), row, ahead);
 }
 
-/* Of an octave: where its lattice has drifted to, by then. */
+/* The lattice of an octave has drifted to here by then. */
 vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
 {
     vec4 at = kd_table_row(gas, ring.row + 1u + octave);
@@ -138,7 +138,7 @@ float kd_gas_excess(kd_sample s)
     return sum;
 }
 
-/* The cosine of the angle to the normal at which light leaves gas on a circular orbit. */
+/* This is the cosine of the angle to the normal at which light leaves gas on a circular orbit. */
 float kd_gas_cosine(kd_sample s)
 {
     return sqrt(max(s.q, 0.0)) * s.w * kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);

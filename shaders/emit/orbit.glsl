@@ -1,4 +1,4 @@
-/* Redshift of gas on circular orbits, outside the ISCO.
+/* Gas on circular orbits, outside the ISCO, has this redshift.
  *
  *   g = nu_obs / nu_em = 1 / (u^t (E - Omega L)),   E, L per unit of energy that the observer measures,
  *   u^t = (1 + a r^-3/2) / sqrt(1 - 3/r + 2a r^-3/2),   Omega = 1/(r^3/2 + a)      (Bardeen, Press & Teukolsky 1972) */

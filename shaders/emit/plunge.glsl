@@ -1,4 +1,4 @@
-/* Gas that plunges from the ISCO with its energy E and angular momentum L: src/render/emit/plunging.h for the parcels it comes in.
+/* Gas plunges from the ISCO with its energy E and angular momentum L; src/render/emit/plunging.h says in which parcels.
  *
  * A grey body of one temperature, seen through by its optical depth, which is as its surface density, 1/(r |u^r|) times the
  * particles over those expected. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and of the light, D = Delta/r^2, J = L - aE,
@@ -38,14 +38,14 @@ kd_place kd_plunge_place(kd_sample s, float turn)
     return kd_place(emission.plunge.at, emission.plunge.rows, emission.plunge.columns, row, turn, turn);
 }
 
-/* u^r of the gas. */
+/* This is u^r of the gas. */
 float kd_plunge_speed(float w)
 {
     float r0 = emission.frame.r_isco, gap = max(r0 * w - 1.0, 1e-12);
     return -sqrt(gap * (2.0 / 3.0) / r0) * gap;
 }
 
-/* g, of the Doppler shift and of gravity, or with one factor and without the other. */
+/* This is g, of the Doppler shift and of gravity, or with one factor and without the other. */
 float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
 {
     float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);
@@ -71,6 +71,6 @@ kd_gas kd_plunge_gas(kd_sample s, float number)
     return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(depth)));
 }
 
-/* Whether a crossing lies where the gas plunges. */
+/* Says whether a crossing lies where the gas plunges. */
 bool kd_plunge_falls(kd_sample s) { return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last; }
 #endif

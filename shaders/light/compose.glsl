@@ -1,14 +1,14 @@
-/* Light along one ray, front to back, of whatever emitters the scene has. Knows the list and no names: kernels feed it samples, of
+/* This adds up light along one ray, front to back, of whatever emitters the scene has. Knows the list and no names: kernels feed it samples, of
  * crossings from a lens map (transfer.comp) or of places along the path. */
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* One place on a ray. ago: how long before that which shows the scene's time its light left it; energy, momentum, q: E, L and Carter's Q,
+/* This is one place on a ray. ago: how long before that which shows the scene's time its light left it; energy, momentum, q: E, L and Carter's Q,
  * by the energy that the observer measures; footprint, shape: of this ray there, 0 where no emitter needs it (shared/lens.h). */
 struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint, shape; uint order; };
-/* Where it ends, if it escapes; its footprint in radians; its energy by that which the observer measures; its pixel in the band. */
+/* It ends there, if it escapes; its footprint in radians; its energy by that which the observer measures; its pixel in the band. */
 struct kd_end { float u, phi, footprint, energy; uint pixel; };
-/* What one emitter adds at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
+/* One emitter adds this at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
 struct kd_glow { vec3 light; float alpha, apart; };
 /* A ray on its way: the light so far, and what all in front lets pass. */
 struct kd_beam { vec3 light; float apart, through; };
@@ -22,12 +22,12 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_EMIT_END_CODE
 #include "shared/emitters.h"
 
-/* Whether anything is to be seen at crossings, and whether the luminance of some of it is kept apart. */
+/* These say whether anything is to be seen at crossings, and whether the luminance of some of it is kept apart. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
 const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
 const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
-/* Whether anything shines where rays end. */
+/* This says whether anything shines where rays end. */
 const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 

@@ -18,7 +18,7 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* What is the same for all invocations, read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
+/* This is the same for all invocations, and read before the first branch: behind one lavapipe reads it anew for each lane and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
@@ -33,7 +33,7 @@ const bool SLOW = (QUANTITIES & KD_LENS_DELAY) != 0u;
 
 float quantity(uint which, uint at) { return (QUANTITIES & which) != 0u ? lens[at + kd_plane(which) * slice.stride] : 0.0; }
 
-/* Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
+/* This is Q by w'^2 = R(w) of kerr_ray.glsl, of a ray whose place in the picture does not tell it. */
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)
 {
     float w2 = w * w, ae = cam.spin * energy, j = momentum - ae;

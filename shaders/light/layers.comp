@@ -1,4 +1,4 @@
-/* One layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's number, NaN where there is none. LAYER says
+/* This kernel makes one layer of a frame (shared/layers.h), from the lens map: an invocation writes a pixel's number, NaN where there is none. LAYER says
  * which, ORDER of which crossing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +21,7 @@ layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_);
 const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_);
 
-/* Frequency as the observer measures it over that in the frame of the gas, whether a picture shows that or not. */
+/* This is the frequency as the observer measures it over that in the frame of the gas, whether a picture shows that or not. */
 float kd_layer_g(kd_sample s)
 {
     if (kd_plunge_falls(s))
@@ -29,7 +29,7 @@ float kd_layer_g(kd_sample s)
     return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
 }
 
-/* Of the black body that the gas shines as, in its own frame, K. */
+/* The gas shines as a black body of this temperature, in its own frame, K. */
 float kd_layer_temperature(kd_sample s)
 {
     if (kd_plunge_falls(s))
@@ -46,10 +46,10 @@ float kd_layer_depth(kd_sample s)
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
 
-/* Azimuth in (-pi, pi]. */
+/* Brings an azimuth to (-pi, pi]. */
 float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
 
-/* From its cosine. For the angle between the light and the normal of the disk, in the frame of the gas, that is g |p_theta| / r: the
+/* An angle is had from its cosine. For that between the light and the normal of the disk, in the frame of the gas, that is g |p_theta| / r: the
  * photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial plane, over its energy there, 1/g; gas that stays
  * in the plane, however it moves in it, sees the normal along theta (Carter 1968). */
 float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
@@ -67,7 +67,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
     return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
 }
 
-/* Luminance of a ray: of all that it sees, or of one order, as it arrives. */
+/* This is the luminance of a ray: of all that it sees, or of one order, as it arrives. */
 float light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -91,7 +91,7 @@ float light(uvec2 place, uint at, uint pixel)
     return given_up ? KD_NOTHING : dot(beam.light, vec3(0.2126, 0.7152, 0.0722));
 }
 
-/* Of a crossing, which lies on the disk. */
+/* The number of a crossing, which must lie on the disk. */
 float value_of(kd_sample s, float delay)
 {
 #define VALUE_(number, name, needs, value)                                                                     \

@@ -1,4 +1,4 @@
-/* Light: from the lens map to linear sRGB radiance. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. */
+/* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -27,7 +27,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 /* A map may hold where rays end for the sake of layers alone: then the picture is what it is without them. */
 const bool ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) * (QUANTITIES & KD_LENS_FATE) != 0u;
 
-/* What lies behind all crossings. */
+/* This lies behind all crossings. */
 vec3 background(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -39,7 +39,7 @@ vec3 background(uvec2 place, uint at, uint pixel)
     return beam.light;
 }
 
-/* One ray, light of its end included. */
+/* Follows one ray, light of its end included. */
 kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -56,7 +56,7 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
     return beam;
 }
 
-/* Where a pixel's light lies. */
+/* A pixel's light lies here. */
 uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x; }
 
 void store(uint at, vec3 light, float apart)
@@ -68,7 +68,7 @@ void store(uint at, vec3 light, float apart)
         radiance[3 * emission.frame.band_pixels + at] = apart;
 }
 
-/* KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which nothing can lie. Those where nothing shines are left as they
+/* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which nothing can lie. Those where nothing shines are left as they
  * are: they were made dark before.
  *
  * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the next crossing that

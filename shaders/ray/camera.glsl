@@ -1,4 +1,4 @@
-/* The camera, the rows at hand, and from a ray's place in the picture to its constants of motion. Needs KD_CAMERA_BINDING and the
+/* This holds the camera and the rows at hand, and leads from a ray's place in the picture to its constants of motion. Needs KD_CAMERA_BINDING and the
  * specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY: without the rows, for kernels with push constants of their own, which read
  * `cam` themselves. */
 #ifndef KD_CAMERA_GLSL

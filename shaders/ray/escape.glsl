@@ -1,4 +1,4 @@
-/* The end of a ray: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
+/* This follows a ray to its end: from a known point of its path to infinity or to the horizon, with the direction as a unit vector
  * n = (sin theta cos psi, sin theta sin psi, cos theta), which knows no pole:
  *   n'' = e u z - (Q + L^2 + 2 e u^2) n,   n.n = 1,   |n'|^2 = Q + L^2 + e u^2,   (n x n')_z = L,   e = a^2 E^2.
  * Needs camera.glsl and the specialisation constants STEPS and INGOING. */
@@ -103,7 +103,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             break;
         }
         if (q.y.w < 0.0) {
-            /* Where the cubic through both ends vanishes, by Newton; then one step to there. */
+            /* Finds where the cubic through both ends vanishes, by Newton; then one step to there. */
             float s = p.y.w / (p.y.w - q.y.w), d0 = h * p.v.w, d1 = h * q.v.w, dy = q.y.w - p.y.w;
             float c2 = 3.0 * dy - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * dy;
             for (int k = 0; k < 4; k++) {

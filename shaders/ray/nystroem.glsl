@@ -1,4 +1,4 @@
-/* Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors alike: from (y, v) over a step h to (y_out, v_out), T being
+/* These are Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors alike: from (y, v) over a step h to (y_out, v_out), T being
  * the type and PULL(m, y) the function f. KD_NYSTROEM_ORDER, which a kernel may define before as a specialisation constant:
  *   6: J. Albrecht's in five stages (1955, ZAMM 35, 100);
  *   4: E. J. Nystroem's in three, the fewest there are (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett & Wanner 1993, II.14).

@@ -1,4 +1,4 @@
-/* Where the planes of a lens map lie. Needs the specialisation constants QUANTITIES and ORDERS. */
+/* This says where the planes of a lens map lie. Needs the specialisation constants QUANTITIES and ORDERS. */
 #ifndef KD_PLANES_GLSL
 #define KD_PLANES_GLSL
 

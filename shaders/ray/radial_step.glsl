@@ -1,4 +1,4 @@
-/* The radial motion w'' = A w + 3K w^2 - 2D w^3, a step at a time, and the azimuth by which the hole drags a ray. */
+/* This follows the radial motion w'' = A w + 3K w^2 - 2D w^3 a step at a time, and the azimuth by which the hole drags a ray. */
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL
 
@@ -79,7 +79,7 @@ float kd_fall(float w, float root)
 }
 float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); }
 
-/* Where a ray ends, by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and
+/* A ray ends there by its constants alone. R' = 2w (A + 3Kw - 2Dw^2) vanishes once between infinity and the photon region, and
  * at the horizon R = W^2: a ray on one side of that place comes to the other exactly if R > 0 there. R = W^2 - D K w^2 holds its
  * digits next to the horizon too. `noise`: what rounding may have done to it, in units of the roundoff. */
 struct kd_barrier {

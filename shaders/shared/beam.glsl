@@ -1,4 +1,4 @@
-/* What the kernels of a telescope's beam share: beam_*.comp. */
+/* The kernels of a telescope's beam share this: beam_*.comp. */
 #ifndef KD_BEAM_GLSL
 #define KD_BEAM_GLSL
 

@@ -1,4 +1,4 @@
-/* The emitters: what sends light along a ray, takes it away or changes it. One line each, in the order in which they are composed at one
+/* Emitters are what sends light along a ray, takes it away or changes it. Each has a line here, in the order in which they are composed at one
  * place; the number is that of the specialisation constant TRAITS_name behind KD_SPEC_TRAITS.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity

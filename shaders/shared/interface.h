@@ -1,9 +1,9 @@
-/* Layouts and constants that C and GLSL share. 4-byte scalars only; each list is written once and expanded by both
+/* C and GLSL share these layouts and constants. 4-byte scalars only; each list is written once and expanded by both
  * sides; a test compares the offsets in the SPIR-V with offsetof. */
 #ifndef KD_INTERFACE_H
 #define KD_INTERFACE_H
 
-/* Invocations of a workgroup in every kernel: eight lavapipe vectors, two NVIDIA warps, one AMD wave. */
+/* A workgroup has so many invocations in every kernel: eight lavapipe vectors, two NVIDIA warps, one AMD wave. */
 #define KD_GROUP_SIZE 64
 
 /* How a camera looks: at infinity over a plane; at a finite radius through a pinhole; all round it, longitude across and latitude
@@ -13,7 +13,7 @@
 #define KD_SIGHT_SPHERE 2
 #define KD_SIGHT_DOME 3
 
-/* Camera and constants of the hole: a uniform block of the tracing and transfer kernels.
+/* The camera and constants of the hole are a uniform block of the tracing and transfer kernels.
  * A ray at (x, y), in steps from the middle of the picture, y upwards, has the direction c0 + x cx + y cy; at infinity its
  * first two components are alpha and beta, at a finite radius it is normalised to the look direction k = (k_r, k_theta, k_phi)
  * in the observer's local frame. On a sphere and a dome the steps are angles, and c0, cx and cy ahead, to the right and up: the direction is cos(y)
@@ -34,7 +34,7 @@
     U(width)                /* rays a row */                                                                   \
     U(sight)                /* KD_SIGHT_, which kernels have as a constant */
 
-/* The rows of rays at hand: the push constants of these kernels. */
+/* The rows of rays at hand are the push constants of these kernels. */
 #define KD_SLICE_FIELDS_(F, U)                                                                                 \
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */                    \
     U(band0)                /* first row of the band that the buffers hold */                                  \
@@ -42,7 +42,7 @@
     U(list)                 /* of listed pixels, where it begins in the lens map. Of these, row0 is the first of a slice, rows \
                                how many, band0 the first row of pixels of the band that light is written to */
 
-/* Of footprint.comp. Rows are those of rays that the buffer holds. */
+/* footprint.comp takes these. Rows are those of rays that the buffer holds. */
 #define KD_FOOTPRINT_FIELDS_(F, U)                                                                             \
     U(width)                /* rays a row */                                                                   \
     U(rows)                 /* all of them; of listed pixels how many these are */                             \
@@ -149,7 +149,7 @@
     F(narrow)                /* 1/(2 sigma^2) */                                                               \
     F(weight)                /* of the whole sum */
 
-/* Of photometry.comp, each of whose invocations adds up so many pixels of a band to twice four sums. */
+/* photometry.comp takes these, each of whose invocations adds up so many pixels of a band to twice four sums. */
 #define KD_LIGHT_FIELDS_(F, U)                                                                                 \
     U(pixels_x) U(pixels)     /* a row, and of the band */                                                     \
     U(row0)                   /* of the band in the picture */                                                 \
@@ -159,17 +159,17 @@
 #define KD_LIGHT_PIXELS 64
 #define KD_LIGHT_SUMS 8
 
-/* Histogram of luminance for auto exposure, eight bins a stop: a bin is the exponent and the first three bits of the
+/* The histogram of luminance for auto exposure has eight bins a stop: a bin is the exponent and the first three bits of the
  * fraction of the float. Bin 0 is black; bin FIRST stands for 2^-40. */
 #define KD_HISTOGRAM_BINS 512
 #define KD_HISTOGRAM_FIRST 696 /* (127 - 40) * 8 */
 
-/* Values of the fate plane. */
+/* The fate plane has these values. */
 #define KD_FATE_ESCAPED 0.0
 #define KD_FATE_CAPTURED 1.0
 #define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
 
-/* Of the records of trace.glsl: numbers in front, numbers a record, and the stages. A stage 0, 1, ... is a step on the way to
+/* Records of trace.glsl have these: numbers in front, numbers a record, and the stages. A stage 0, 1, ... is a step on the way to
  * the crossing of that order, in w and u; the others hold the unit vector n and w. */
 #define KD_TRACE_HEADER 8
 #define KD_TRACE_RECORD 11

@@ -1,4 +1,4 @@
-/* The layers of a frame besides "rgb": maps of numbers, one a pixel. A line each; the number is the place of its name among the words of
+/* A frame has these layers besides "rgb": maps of numbers, one a pixel. A line each; the number is the place of its name among the words of
  * image.layers (src/scene/fields.h), where "rgb" is 0. What it is called, its unit and its colours: src/render/plan/layer_kinds.c, by the name.
  *
  *   LIGHT(number, name, needs)             of all rays of a pixel, their mean (light/layers.comp)

@@ -1,4 +1,4 @@
-/* The quantities of a lens map, in the order in which their planes lie: first those of each crossing, a plane for each image order,
+/* A lens map holds these quantities, in the order in which their planes lie: first those of each crossing, a plane for each image order,
  * then those of each ray, one plane. A map holds the quantities of a set of bits. C and GLSL expand both lists.
  *
  *   W        1/r of the crossing; 0: there is none, below 0: the ray was given up on the way to it

@@ -1,4 +1,4 @@
-/* Specialisation constants of the kernels: U(id, name, value) an unsigned one, B(id, name, value) a flag. Each list is written once;
+/* Kernels have these specialisation constants: U(id, name, value) an unsigned one, B(id, name, value) a flag. Each list is written once;
  * GLSL declares its constants by it and C a struct of 32-bit members, whose places a compile-time check compares with the ids. */
 #ifndef KD_SPEC_H
 #define KD_SPEC_H
@@ -30,7 +30,7 @@
 #define KD_SPEC_TRAITS 9
 #define KD_NO_ORDER 0xffffffffu
 
-/* Of rays.comp and rays_kerr_schild.comp: METHOD is a Nystroem order, or one of Kerr-Schild's. */
+/* In rays.comp and rays_kerr_schild.comp METHOD is a Nystroem order, or one of Kerr-Schild's. */
 #define KD_SPEC_RAYS(U, B) U(0, ORDERS, 3) U(1, STEPS, 16) U(2, METHOD, 6)
 
 /* SWING: there are epicycles; LIST: places instead of a deposit; PLUNGE: those at hand fall, of a list those with low numbers. */
@@ -51,7 +51,7 @@
  * the four pixels of an invocation lie beside one another, within two cells of what a lens spreads. */
 #define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) B(3, TOGETHER, false)
 
-/* Of beam_gather.comp and beam_spread.comp: cells are larger than pixels. */
+/* beam_gather.comp and beam_spread.comp are told whether cells are larger than pixels. */
 #define KD_SPEC_BEAM(U, B) B(0, COARSE, true)
 
 /* ROWS: along columns, from row to row. */

@@ -1,4 +1,4 @@
-/* Doubles as decimal text: the fewest digits that read back as the same double, and of those the nearest. Any thread.
+/* Doubles become decimal text: the fewest digits that read back as the same double, and of those the nearest. Any thread.
  *
  * For bulk output: some fifty times as fast as trying printf at 15, 16 and 17 digits. Raffaello Giulietti, "The
  * Schubfach way to render doubles", 2020. */

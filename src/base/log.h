@@ -1,4 +1,4 @@
-/* One line on stderr per event. Any thread. The level is set once, at start. */
+/* An event is one line on stderr. Any thread. The level is set once, at start. */
 #ifndef KD_BASE_LOG_H
 #define KD_BASE_LOG_H
 

@@ -1,4 +1,4 @@
-/* A file read as a whole. Any thread. */
+/* This reads a file as a whole. Any thread. */
 #ifndef KD_BASE_READ_H
 #define KD_BASE_READ_H
 

@@ -1,4 +1,4 @@
-/* A file written as a whole. Any thread. */
+/* This writes a file as a whole. Any thread. */
 #ifndef KD_BASE_REPLACE_H
 #define KD_BASE_REPLACE_H
 

@@ -1,4 +1,4 @@
-/* --asset NAME=FILE: the files that a scene's names of assets stand for. Main thread only. */
+/* --asset NAME=FILE gives the files that a scene's names of assets stand for. Main thread only. */
 #ifndef KD_CLI_ASSET_OPTIONS_H
 #define KD_CLI_ASSET_OPTIONS_H
 

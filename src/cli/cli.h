@@ -1,4 +1,4 @@
-/* What the subcommands of kerrd share. Main thread only.
+/* The subcommands of kerrd share this. Main thread only.
  *
  * A subcommand gets its own arguments, argv[0] being "kerrd NAME", and returns an exit code. Usage errors
  * leave through argp with KD_EXIT_USAGE. */

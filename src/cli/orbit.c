@@ -1,4 +1,4 @@
-/* kerrd orbit: timelike geodesics. */
+/* kerrd orbit follows timelike geodesics. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"

@@ -1,4 +1,4 @@
-/* kerrd physics: quantities by name. */
+/* kerrd physics gives quantities by name. */
 #include "base/slip.h"
 #include "cli/cli.h"
 #include "cli/file.h"

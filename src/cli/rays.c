@@ -1,4 +1,4 @@
-/* kerrd rays: end points of listed rays. */
+/* kerrd rays gives the end points of listed rays. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"

@@ -1,4 +1,4 @@
-/* kerrd render: a scene to a PNG file. */
+/* kerrd render makes a picture file of a scene. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"

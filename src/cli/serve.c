@@ -1,4 +1,4 @@
-/* kerrd serve: the HTTP service until a signal ends it. */
+/* kerrd serve runs the HTTP service until a signal ends it. */
 #include "cli/cli.h"
 #include "render/selftest/first_start.h"
 #include "server/server.h"

@@ -1,4 +1,4 @@
-/* The steps of one ray as text. Any thread. */
+/* This writes the steps of one ray as text. Any thread. */
 #ifndef KD_CLI_TRACE_H
 #define KD_CLI_TRACE_H
 

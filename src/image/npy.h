@@ -1,4 +1,4 @@
-/* NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
+/* This writes NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
  *
  * Numbers are floats of 8 and 4 bytes, and bytes; an element is one number or a record of named ones, some of them short arrays
  * themselves. Whatever else NumPy can store is refused by name. */

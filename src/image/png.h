@@ -1,4 +1,4 @@
-/* PNG files through libpng: 8- or 16-bit RGB, sRGB, with text chunks. Any thread.
+/* This reads and writes PNG files through libpng: 8- or 16-bit RGB, sRGB, with text chunks. Any thread.
  *
  * Pixels are rows from the top, three channels, no padding; 16-bit samples are uint16_t of this machine. */
 #ifndef KD_IMAGE_PNG_H

@@ -1,4 +1,4 @@
-/* Orbits as text and bytes. Pure; any thread.
+/* This writes orbits as text and bytes. Pure; any thread.
  *
  * A document has a head (what is known before the first step), the series and a result (what integrating it showed):
  *

@@ -28,7 +28,7 @@ enum { KD_ORBIT_N_SETTINGS = 10, KD_ORBIT_N_FIELDS = 17 };
 extern const struct kd_orbit_field kd_orbit_settings[KD_ORBIT_N_SETTINGS]; /* of struct kd_orbit_params */
 extern const struct kd_orbit_field kd_orbit_fields[KD_ORBIT_N_FIELDS];     /* of struct kd_orbit_spec */
 
-/* Of a field that is a word, those that it may be; NULL behind the last. */
+/* A field that is a word may be one of these; NULL behind the last. */
 const char *kd_orbit_field_word(const struct kd_orbit_field *field, int i);
 
 /* Store a value in its struct, or KD_EINVAL with the pointer, the value and what is allowed. */

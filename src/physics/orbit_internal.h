@@ -1,4 +1,4 @@
-/* What the files orbit*.c share. Private to src/physics. */
+/* The files orbit*.c share this. Private to src/physics. */
 #ifndef KD_PHYSICS_ORBIT_INTERNAL_H
 #define KD_PHYSICS_ORBIT_INTERNAL_H
 

@@ -1,4 +1,4 @@
-/* An answer as comma-separated values. */
+/* This writes an answer as comma-separated values. */
 #include "quantity/text.h"
 
 static void write_point(struct kd_writer *w, const struct kd_quantity_answer *answer, size_t point)

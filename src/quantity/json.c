@@ -1,4 +1,4 @@
-/* An answer as JSON, and the list of quantities. */
+/* This writes an answer as JSON, and the list of quantities. */
 #include "quantity/text.h"
 
 static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const struct kd_axis *axis)

@@ -1,4 +1,4 @@
-/* docs/physics-quantities.md, from the tables. */
+/* This writes docs/physics-quantities.md, from the tables. */
 #include "quantity/sound.h"
 #include "quantity/text.h"
 

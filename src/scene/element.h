@@ -1,4 +1,4 @@
-/* Elements of a list by their index, as documents and paths write it. Any thread. */
+/* Elements of a list are known by their index, as documents and paths write it. Any thread. */
 #ifndef KD_SCENE_ELEMENT_H
 #define KD_SCENE_ELEMENT_H
 

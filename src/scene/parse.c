@@ -1,4 +1,4 @@
-/* Scene documents: JSON in. */
+/* Scene documents come in as JSON. */
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/scan.h"

@@ -1,4 +1,4 @@
-/* The table behind kd_scene_preset. Internal to src/scene. */
+/* This is the table behind kd_scene_preset. Internal to src/scene. */
 #ifndef KD_SCENE_PRESETS_H
 #define KD_SCENE_PRESETS_H
 

@@ -1,4 +1,4 @@
-/* JSON Schema of the scene document, from the table. */
+/* This writes the JSON Schema of the scene document, from the table. */
 #include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"

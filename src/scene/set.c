@@ -1,4 +1,4 @@
-/* One field by its dotted path: --set and query parameters. */
+/* This sets one field by its dotted path: --set and query parameters. */
 #include "scene/element.h"
 #include "scene/hint.h"
 #include "scene/style.h"

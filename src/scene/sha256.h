@@ -1,4 +1,4 @@
-/* SHA-256 (FIPS 180-4) as text, by nettle. Any thread. */
+/* This is SHA-256 (FIPS 180-4) as text, by nettle. Any thread. */
 #ifndef KD_SCENE_SHA256_H
 #define KD_SCENE_SHA256_H
 

@@ -1,4 +1,4 @@
-/* Styles: what style.name sets, the table KD_SCENE_STYLES of scene/fields.h. A style is a preset of fields: a document that names one sets these fields to the style's values, but for
+/* Styles are what style.name sets, by the table KD_SCENE_STYLES of scene/fields.h. A style is a preset of fields: a document that names one sets these fields to the style's values, but for
  * those that the same document sets itself; the canonical form shows each of them, and nothing else reads the name. Constant data and
  * pure functions, any thread. */
 #ifndef KD_SCENE_STYLE_H

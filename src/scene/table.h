@@ -101,7 +101,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_field *field, size_t i
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_asset(struct kd_scene *scene, const struct kd_field *field, size_t index, const char *text);
 
-/* Of a WORDS field (scene/words.h). */
+/* Read and write a WORDS field (scene/words.h). */
 const struct kd_words *kd_field_words(const struct kd_scene *scene, const struct kd_field *field, size_t index);
 void kd_field_put_words(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_words *words);
 

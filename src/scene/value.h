@@ -1,4 +1,4 @@
-/* A value from a document or a command line, checked against its field's row and stored. Any thread. */
+/* A value comes from a document or a command line, is checked against its field's row and stored. Any thread. */
 #ifndef KD_SCENE_VALUE_H
 #define KD_SCENE_VALUE_H
 

@@ -16,7 +16,7 @@ bool kd_words_hold(const struct kd_field *field, const struct kd_words *words);
 /* How a word is spelt. */
 void kd_words_spell(const struct kd_field *field, struct kd_numbered_word word, char out[KD_WORD_SIZE]);
 
-/* Of the field's words: how many letters one has without its "_N", and whether it has that. */
+/* Says of the field's words: how many letters one has without its "_N", and whether it has that. */
 int kd_words_length(const struct kd_field *field, int index, bool *numbered);
 
 #endif

@@ -1,4 +1,4 @@
-/* Scene documents: canonical JSON out, and its hash. */
+/* Scene documents go out as canonical JSON, and have its hash. */
 #include "scene/asset.h"
 #include "scene/number.h"
 #include "scene/sha256.h"

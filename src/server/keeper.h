@@ -1,4 +1,4 @@
-/* The thread that watches the clock: deadlines, clients that went away, and the way down. */
+/* One thread watches the clock: deadlines, clients that went away, and the way down. */
 #ifndef KD_SERVER_KEEPER_H
 #define KD_SERVER_KEEPER_H
 

@@ -1,4 +1,4 @@
-/* The one place that records barriers. */
+/* Barriers are recorded here, and nowhere else. */
 #ifndef KD_VK_BARRIER_H
 #define KD_VK_BARRIER_H
 

@@ -1,4 +1,4 @@
-/* Which of the listed devices to use: a pure function of the list and the wish. */
+/* This says which of the listed devices to use: a pure function of the list and the wish. */
 #ifndef KD_VK_CHOOSE_H
 #define KD_VK_CHOOSE_H
 

@@ -1,4 +1,4 @@
-/* What Vulkan makes of a kind of binding. Pure. */
+/* This says what Vulkan makes of a kind of binding. Pure. */
 #ifndef KD_VK_KIND_H
 #define KD_VK_KIND_H
 

@@ -1,4 +1,4 @@
-/* Device memory: a few large blocks, cut into buffers. */
+/* Device memory is a few large blocks, cut into buffers. */
 #ifndef KD_VK_MEMORY_H
 #define KD_VK_MEMORY_H
 

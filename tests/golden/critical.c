@@ -25,7 +25,7 @@ static struct kd_frame shot(const struct kd_scene *base, int samples, int critic
 
 struct distance { double rms, mean, elsewhere; }; /* at the curve; elsewhere the largest */
 
-/* Of linear light, from another picture. */
+/* Compares linear light with another picture's. */
 static struct distance distance(const struct kd_frame *a, const struct kd_frame *b, const struct kd_critical_pixels *list)
 {
     struct distance d = { 0 };

@@ -1,4 +1,4 @@
-/* What the picture tests share: one renderer, scenes from text, pixels as numbers. One thread. */
+/* The picture tests share this: one renderer, scenes from text, pixels as numbers. One thread. */
 #ifndef KD_TESTS_STUDIO_H
 #define KD_TESTS_STUDIO_H
 

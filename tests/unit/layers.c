@@ -188,7 +188,7 @@ static void plans_have_what_is_asked_for(void **state)
     assert_int_equal(plan.orders, 3); /* a ray is followed though nothing shines */
 }
 
-/* Of a frame that was made by hand: records in the order of the words, each number where it belongs. */
+/* A frame that was made by hand has records in the order of the words, each number where it belongs. */
 static void npy_has_the_numbers(void **state)
 {
     (void)state;

@@ -14,7 +14,7 @@
 
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
-/* Of exact size, so that a sanitizer sees a byte too far. */
+/* The copy is of exact size, so that a sanitizer sees a byte too far. */
 static enum kd_status read_exact(const char *text, size_t length, struct kd_orbit_request *request, struct kd_error *error)
 {
     char *copy = malloc(length ? length : 1);

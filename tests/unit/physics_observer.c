@@ -233,7 +233,7 @@ static void what_it_is_called_after(const struct kd_observer_motion *m, const st
     }
 }
 
-/* Of what falls, p^r and E - Omega_H L all but cancel in these coordinates. */
+/* For what falls p^r and E - Omega_H L all but cancel in these coordinates. */
 static double cancelled(const struct kd_observer_motion *m, const struct kd_vantage *at, const vector p, const vector x)
 {
     long double size = 0;
@@ -342,7 +342,7 @@ static void constants(void **state)
     everywhere(constants_at);
 }
 
-/* Of the observer past one of zero angular momentum. */
+/* This is the speed of the observer past one of zero angular momentum. */
 static double square_gamma(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);

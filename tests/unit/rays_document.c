@@ -16,7 +16,7 @@ static const char document[] =
     " { \"spin\" : -0.5 , \"note\\u0041\":1, \"observer\":{\"r\":40,\"inclination_deg\":3e1},\"rays\":[[1,2],\n[-3.5,4e-1] , [0,0]],"
     "\"orders\":5,\"accuracy\":{\"engine\":\"ks-rk4\",\"precision\":\"f32\",\"steps\":16}}";
 
-/* Of exact size, so that a sanitizer sees a byte too far. */
+/* The copy is of exact size, so that a sanitizer sees a byte too far. */
 static enum kd_status read_exact(const char *text, size_t length, struct kd_rays_request *request, struct kd_error *error)
 {
     char *copy = malloc(length + 1);

@@ -278,7 +278,7 @@ static void schema_names_each_field(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Of each group of the page some fields stand in front, so that none opens on nothing; and what is known to be of a nature is. */
+/* Some fields of each group of the page stand in front, so that none opens on nothing; and what is known to be of a nature is. */
 static void natures_and_groups(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What the tests of the scene document share. */
+/* The tests of the scene document share this. */
 #ifndef KD_TESTS_SCENE_SUPPORT_H
 #define KD_TESTS_SCENE_SUPPORT_H
 

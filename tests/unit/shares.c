@@ -153,7 +153,7 @@ static void a_picture_beside_living_sessions(void **state)
     assert_true(worst <= 300 && live_worst <= 200);
 }
 
-/* Of one client and class: the short before the long, but not for ever. */
+/* In one client and class the short come before the long, but not for ever. */
 static void short_first(void **state)
 {
     (void)state;

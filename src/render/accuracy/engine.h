@@ -1,4 +1,4 @@
-/* What traces rays, and what a wish for accuracy comes to. Plain values, pure functions; any thread. */
+/* This says what traces rays, and what a wish for accuracy comes to. Plain values, pure functions; any thread. */
 #ifndef KD_RENDER_ACCURACY_ENGINE_H
 #define KD_RENDER_ACCURACY_ENGINE_H
 

@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-/* From weights to densities, on one of the grids: from byte `at` of both, what its rows expect from byte `expected`. */
+/* Makes densities of weights, on one of the grids: from byte `at` of both, what its rows expect from byte `expected`. */
 static enum kd_status divide(struct kd_renderer *r, const struct kd_particles *p, uint64_t at, uint64_t expected, uint32_t rows,
                              uint32_t columns, struct kd_error *error)
 {

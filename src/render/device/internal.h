@@ -1,4 +1,4 @@
-/* What the files of src/render share about a renderer. */
+/* The files of src/render share this about a renderer. */
 #ifndef KD_RENDER_DEVICE_INTERNAL_H
 #define KD_RENDER_DEVICE_INTERNAL_H
 
@@ -25,7 +25,7 @@ struct kd_prepared {
     struct kd_sky_buffers sky;
 };
 
-/* What one kd_render_aside works in. Its lens maps are kept for whoever can use them, until their memory is needed. */
+/* One kd_render_aside works in this. Its lens maps are kept for whoever can use them, until their memory is needed. */
 struct kd_aside {
     struct kd_store store;
     struct kd_prepared prepared;

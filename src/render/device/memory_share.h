@@ -5,7 +5,7 @@
 #include "base/memory_limit.h"
 #include "render/plan/plan.h"
 
-/* Of what pictures may take in all, two thirds are what one may be planned with, its capacity. Large ones that are rendered side by
+/* Two thirds of what pictures may take in all are what one may be planned with, its capacity. Large ones that are rendered side by
  * side have no more than that between them; a third is for small ones, and for what is kept from earlier ones (server/render/queue.h,
  * frame/frame.c). Pure. */
 static inline uint64_t kd_memory_main(uint64_t all) { return all / 3 * 2; }

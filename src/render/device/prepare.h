@@ -1,4 +1,4 @@
-/* What emitters make on the device before light is: buffers of their own, which the transfer pass reads. The device's side of
+/* Emitters make things on the device before light is: buffers of their own, which the transfer pass reads. The device's side of
  * struct kd_emitter (render/emit/emitter.h): one that says by `device_bytes` that it has any has a line in the table of prepare.c, a
  * member in struct kd_prepared (internal.h), and a file here like deposit.c. Frames fold over the table and know no names. Render
  * thread only. */
@@ -26,7 +26,7 @@ struct kd_preparation {
 /* NULL: the emitter has no buffers. */
 extern const struct kd_preparation *const kd_preparations[KD_EMITTER_COUNT];
 
-/* Of all emitters that the plan's scene has. */
+/* Prepares all emitters that the plan's scene has. */
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);
 /* Buffers for the kernels of light, by their numbers; NULL: of emitters that the scene has not. */

@@ -1,4 +1,4 @@
-/* Device buffers of a renderer: lens maps that are kept between frames, and the frame's working set.
+/* A renderer has these device buffers: lens maps that are kept between frames, and the frame's working set.
  * Render thread only. */
 #ifndef KD_RENDER_DEVICE_STORE_H
 #define KD_RENDER_DEVICE_STORE_H
@@ -12,7 +12,7 @@
 
 struct kd_emit_data;
 
-/* One buffer a band of the picture. */
+/* There is one buffer a band of the picture. */
 struct kd_bands {
     struct kd_vk_buffer **buffers;
     uint32_t count;
@@ -69,17 +69,17 @@ enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer,
                                  const char *name, struct kd_error *error);
 /* Record copies that bring the transfer buffer up to date: of the parameters and of the tables, each if it has changed. */
 enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error);
-/* The same of the cameras, in a buffer that is made when first there are any. */
+/* It does the same for the cameras, in a buffer that is made when first there are any. */
 enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS], struct kd_error *error);
 /* A frame is given up: what it was to bring may be lost. */
 void kd_store_give_up(struct kd_store *store);
-/* Bytes that it holds of the device's memory, about. */
+/* Counts the bytes that it holds of the device's memory, about. */
 uint64_t kd_store_bytes(const struct kd_store *store);
-/* Whether kd_store_lens_map would find the plan's lens map. */
+/* Says whether kd_store_lens_map would find the plan's lens map. */
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
 /* The plan's lens map, if `from` has it, becomes one of `to`. */
 void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan);
-/* As it was made. */
+/* It is then as it was made. */
 void kd_store_empty(struct kd_store *store);
 void kd_store_finish(struct kd_store *store);
 

@@ -16,7 +16,7 @@ struct kd_verdict {
     char worst[160];          /* the first check that failed, "" if none has */
 };
 
-/* Of a new renderer: what is known of its device, and what its passes cost when it was last used. */
+/* A new renderer is told what is known of its device, and what its passes cost when it was last used. */
 void kd_verdict_recall(struct kd_renderer *renderer);
 /* Write the renderer's verdict, with the costs of this capacity if they were measured. */
 void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capacity);

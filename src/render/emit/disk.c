@@ -1,4 +1,4 @@
-/* The smooth disk as an emitter: shaders/emit/disk.glsl. */
+/* This is the smooth disk as an emitter: shaders/emit/disk.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/colour.h"

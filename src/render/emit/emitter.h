@@ -1,4 +1,4 @@
-/* Emitters: what sends light along a ray, takes it away or changes it. The table of shaders/shared/emitters.h on the C side, one file
+/* Emitters are what sends light along a ray, takes it away or changes it. This is the table of shaders/shared/emitters.h on the C side, one file
  * each; plan, needs, motion, numbers and tables for the device, and approximations fold over it and know no names.
  *
  * To add one: its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`, and its
@@ -16,7 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* An approximation, and whether it is in force in a scene that has the emitter, followed by these rays; NULL: always. */
+/* This is an approximation, and whether it is in force in a scene that has the emitter, followed by these rays; NULL: always. */
 struct kd_sentence {
     const char *text;
     bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);
@@ -105,7 +105,7 @@ uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* Finds the largest effective temperature of the disk in K, in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* The inner edge of the disk, M. */
+/* Gives the inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);
 /* Fill in the colours of black bodies, and how luminous they are. No scene changes them; 15 ms each. */
 void kd_colour_tables(struct kd_emit_tables *out);

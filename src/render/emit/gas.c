@@ -1,4 +1,4 @@
-/* Turbulent gas as an emitter: shaders/emit/gas.glsl. */
+/* This is turbulent gas as an emitter: shaders/emit/gas.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/kerr.h"

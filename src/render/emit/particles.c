@@ -82,7 +82,7 @@ static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene
     return (uint32_t)fmin(radii, g->count - g->plunging);
 }
 
-/* In one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and those of the plunge. */
+/* These lie in one buffer, each at a multiple of 256: the guiding orbits, what the rows of the grid expect, and those of the plunge. */
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *g) { return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256; }
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *g) { return kd_particle_guides_bytes(g) + 2 * KD_PARTICLE_EXPECTED_BYTES; }
 

@@ -1,4 +1,4 @@
-/* The disk as particles. Each has a guiding orbit, one of `radii` circular ones that hold equal shares of the particles, an
+/* The disk may be made of particles. Each has a guiding orbit, one of `radii` circular ones that hold equal shares of the particles, an
  * azimuth, and small epicycles in r and theta, all from a hash of its number and the seed: nothing is stored. A share of them,
  * those with the lowest numbers, falls from the ISCO instead (render/emit/plunging.h), and begins anew at another azimuth, a hash of
  * its number and of how often it has fallen. Where it is at any time t is a closed form. Angular frequencies are known in

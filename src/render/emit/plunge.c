@@ -1,4 +1,4 @@
-/* Gas that plunges from the ISCO as an emitter: shaders/emit/plunge.glsl. */
+/* This is gas that plunges from the ISCO as an emitter: shaders/emit/plunge.glsl. */
 #include "render/emit/emitter.h"
 
 #include "render/emit/particles.h"

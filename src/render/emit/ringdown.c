@@ -1,4 +1,4 @@
-/* A struck hole as a factor of light: shaders/emit/ringdown.glsl. */
+/* This is a struck hole as a factor of light: shaders/emit/ringdown.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/ringdown.h"

@@ -1,4 +1,4 @@
-/* Hot spots as an emitter: shaders/emit/spots.glsl. */
+/* These are hot spots as an emitter: shaders/emit/spots.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/kerr.h"

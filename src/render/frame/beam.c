@@ -1,4 +1,4 @@
-/* The pass that convolves light with a telescope's beam (render/plan/beam.h). */
+/* This pass convolves light with a telescope's beam (render/plan/beam.h). */
 #include "render/frame/job.h"
 
 #include <math.h>

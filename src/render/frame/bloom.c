@@ -32,7 +32,7 @@ static enum kd_status brighten_band(struct kd_frame_job *j, uint32_t band)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* Of what is lit, band by band. */
+/* It is done of what is lit, band by band. */
 static enum kd_status brighten(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;

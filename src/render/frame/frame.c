@@ -1,4 +1,4 @@
-/* The order of a frame's passes. */
+/* This file has the order of a frame's passes. */
 #include "render/frame/job.h"
 
 #include "render/lens/audit.h"

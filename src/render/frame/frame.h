@@ -25,7 +25,7 @@ struct kd_frame {
 };
 void kd_frame_finish(struct kd_frame *frame);
 
-/* Of the first layer. */
+/* These are of the first layer. */
 static inline void *kd_frame_pixels(const struct kd_frame *frame) { return frame->layers[0].data; }
 static inline int kd_frame_bit_depth(const struct kd_frame *frame) { return frame->layers[0].type == KD_LAYER_U16 ? 16 : 8; }
 

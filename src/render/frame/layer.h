@@ -1,4 +1,4 @@
-/* What a frame holds: layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown,
+/* A frame holds layers, each a value or a few for every pixel. The first is "rgb", the picture as it is shown,
  * which is the one map that is asked for in false colour; behind it may be "radiance", linear sRGB in units of the brightest surface
  * brightness of the disk at g = 1, and maps by their names (plan/layer_kinds.h), where NaN stands for nothing. */
 #ifndef KD_RENDER_FRAME_LAYER_H
@@ -26,7 +26,7 @@ static inline size_t kd_layer_pixel_bytes(const struct kd_layer *layer)
 }
 
 struct kd_frame;
-/* One more layer of the frame's size, its data not yet set. KD_ENOMEM. */
+/* Adds one more layer of the frame's size, its data not yet set. KD_ENOMEM. */
 enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
                                   struct kd_error *error);
 const struct kd_layer *kd_frame_layer(const struct kd_frame *frame, const char *name); /* NULL: it has none of that name */

@@ -1,4 +1,4 @@
-/* Maps of numbers: from the device to the frame's layers, and of one of them a picture in false colour. */
+/* Maps of numbers go from the device to the frame's layers, and of one of them a picture in false colour. */
 #include "render/frame/job.h"
 
 #include "image/legend.h"
@@ -21,7 +21,7 @@ enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan 
     return status;
 }
 
-/* One band of a layer, as far as there is light. */
+/* Reads one band of a layer, as far as there is light. */
 static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *from, uint64_t offset, const struct kd_layer *to)
 {
     struct kd_vk *vk = j->r->vk;
@@ -50,7 +50,7 @@ static enum kd_status read_all(struct kd_frame_job *j)
     return status;
 }
 
-/* Least and largest of the numbers, of a logarithmic scale those above 0; 0 and 1, or 1 and 10, where there are none. */
+/* Finds the least and largest of the numbers, of a logarithmic scale those above 0; 0 and 1, or 1 and 10, where there are none. */
 static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };

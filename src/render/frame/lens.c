@@ -65,7 +65,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
 /* Rows of pixels of a band, traced and lit in one go. */
 struct slice { uint32_t band, first, count; };
 
-/* Whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
+/* Says whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
 static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !p->ends; }
 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
@@ -168,7 +168,7 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     return d;
 }
 
-/* Of a slice that was just traced, the rows that can be finished. Footprints need the row of rays below too, and two at the upper edge:
+/* Some rows of a slice that was just traced can be finished. Footprints need the row of rays below too, and two at the upper edge:
  * they are held back by so much, until the band ends. */
 static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
@@ -232,7 +232,7 @@ static enum kd_status light_slice(struct kd_frame_job *j, const struct slice *s)
     return status ? status : kd_vk_submit(j->r->vk, NULL, j->error);
 }
 
-/* A band, slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
+/* Lights a band slice by slice, so that what is done of a long picture can be looked at. ns: of a ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double ns)
 {
     const struct kd_plan *p = j->plan;
@@ -324,7 +324,7 @@ done:
     return status;
 }
 
-/* Rays of the whole map that were given up. */
+/* Counts the rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *j, uint64_t *out)
 {
     struct kd_store *s = j->store;

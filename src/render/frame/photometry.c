@@ -1,4 +1,4 @@
-/* The pass that adds up the light of a picture: flux and centroid (render/plan/photometry.h). */
+/* This pass adds up the light of a picture: flux and centroid (render/plan/photometry.h). */
 #include "render/frame/job.h"
 
 #include "render/view/camera.h"

@@ -1,4 +1,4 @@
-/* The pass that makes pixels of light, and their way to the host. */
+/* This pass makes pixels of light, and brings them to the host. */
 #include "render/frame/job.h"
 
 #include "image/legend.h"

@@ -1,4 +1,4 @@
-/* What is told of a picture on its way: how far it is, how it looks so far, and how long its passes took. */
+/* This is told of a picture on its way: how far it is, how it looks so far, and how long its passes took. */
 #include "render/frame/job.h"
 
 #include "base/clock.h"

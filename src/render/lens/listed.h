@@ -1,4 +1,4 @@
-/* The lens map of a picture from listed rays: by any engine, in double precision, from a camera in double. Slower than the kernels
+/* This makes the lens map of a picture from listed rays: by any engine, in double precision, from a camera in double. Slower than the kernels
  * that make each ray from its pixel, by the way through the host: for pictures that ask for it. Render thread. */
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H

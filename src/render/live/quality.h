@@ -1,4 +1,4 @@
-/* How much of a scene a live frame shows, and the ladder of such qualities from all of it downwards. Plain values, pure functions;
+/* This says how much of a scene a live frame shows, and the ladder of such qualities from all of it downwards. Plain values, pure functions;
  * any thread. Which rung is in force is governor.h's to say. */
 #ifndef KD_RENDER_LIVE_QUALITY_H
 #define KD_RENDER_LIVE_QUALITY_H

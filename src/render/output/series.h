@@ -1,4 +1,4 @@
-/* What a job makes of its frames: pictures or arrays of their layers, each a file of its own, or one table with a row of each. Any thread.
+/* A job makes one of these of its frames: pictures or arrays of their layers, each a file of its own, or one table with a row of each. Any thread.
  *
  * A series is one C file that defines it, and its line in the table of series.c. */
 #ifndef KD_RENDER_OUTPUT_SERIES_H

@@ -1,4 +1,4 @@
-/* A telescope's beam (style.beam_uas): light convolved with a round Gaussian, before exposure, glare and curves. Any thread.
+/* A telescope's beam (style.beam_uas) is light convolved with a round Gaussian, before exposure, glare and curves. Any thread.
  *
  * The beam decides how fine the work is, not the picture. Where the Gaussian's standard deviation sigma is KD_BEAM_CELLS cells of two pixels or
  * more, light is put on a grid of square cells, blurred there, and seen through the grid. Both ways are quadratic B-splines, which move nothing and
@@ -22,13 +22,13 @@ struct kd_beam_grid {
     uint32_t reach;         /* of it, in cells: 5 sigma, beyond which it has 6e-7 of its weight */
 };
 
-/* Of a valid scene's picture. */
+/* Gives that of a valid scene's picture. */
 struct kd_beam_grid kd_beam_of(const struct kd_scene *scene);
 
 /* Bytes of rows of cells, one for each row of pixels; and of one grid. */
 static inline uint64_t kd_beam_lines_bytes(const struct kd_beam_grid *beam) { return 16ull * beam->columns * beam->height; }
 static inline uint64_t kd_beam_cells_bytes(const struct kd_beam_grid *beam) { return 16ull * beam->columns * beam->rows; }
-/* Of the buffers of a plan: with larger cells two grids, else one. */
+/* Count the bytes of the buffers of a plan: with larger cells two grids, else one. */
 static inline uint64_t kd_beam_grids_bytes(const struct kd_beam_grid *beam)
 {
     return beam->cell > 1 ? (kd_beam_cells_bytes(beam) + 255) / 256 * 256 + kd_beam_cells_bytes(beam) : kd_beam_cells_bytes(beam);

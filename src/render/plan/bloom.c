@@ -5,7 +5,7 @@
 /* Cells along a side that the coarsest grid divides, at least one of its own. */
 static uint32_t cells(double wanted, uint32_t unit) { return unit * (uint32_t)fmax(round(wanted / unit), 1); }
 
-/* Where so many cells begin, behind those before. */
+/* So many cells begin here, behind those before. */
 static uint64_t reserve(struct kd_bloom *bloom, uint64_t n)
 {
     const uint64_t at = bloom->bytes;

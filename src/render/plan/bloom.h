@@ -1,4 +1,4 @@
-/* The glare of a lens (style.bloom): which part of the light it spreads how far. Any thread.
+/* A lens has a glare (style.bloom): this says which part of the light it spreads how far. Any thread.
  *
  * A grid of KD_BLOOM_ROWS rows of square cells covers the picture, and grids of half as many cells each way follow it. Each grid holds the light as
  * a quadratic B-spline, is smoothed once, and is seen through such a spline: what is spread from a point falls off as a sum of near
@@ -24,7 +24,7 @@ struct kd_bloom {
     uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 
-/* Of a picture of so many pixels. strength: style.bloom, 0: none. */
+/* Gives that of a picture of so many pixels. strength: style.bloom, 0: none. */
 struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength);
 
 static inline uint32_t kd_bloom_cells(const struct kd_bloom *bloom, uint32_t level) { return (bloom->columns >> level) * (bloom->rows >> level); }
@@ -36,7 +36,7 @@ static inline uint64_t kd_bloom_most(const struct kd_bloom *bloom)
     return blocks > cells ? blocks : cells;
 }
 
-/* Whether four pixels beside one another see five columns of cells at most, all in one row of the picture: the pass post then reads fewer. */
+/* Says whether four pixels beside one another see five columns of cells at most, all in one row of the picture: the pass post then reads fewer. */
 static inline bool kd_bloom_together(const struct kd_bloom *bloom, uint32_t width)
 {
     return bloom->levels && width % KD_POST_PIXELS == 0 && 3 * bloom->columns <= 2 * width;

@@ -1,4 +1,4 @@
-/* The passes of a frame and what they cost, each written once. Plan, capacity, what frames teach, the device's JSON, what is kept of
+/* These are the passes of a frame and what they cost, each written once. Plan, capacity, what frames teach, the device's JSON, what is kept of
  * it from start to start, and sessions fold over these two lists. Constant data and pure functions, any thread.
  *
  * To add a pass: its line here, in pass.c how many invocations a plan has of it, its file in src/render/frame/, and its call in

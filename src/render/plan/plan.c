@@ -18,7 +18,7 @@
 
 _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 
-/* Approximations that are no emitter's. */
+/* These approximations are no emitter's. */
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
 WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
@@ -84,7 +84,7 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
             say(plan, sentences[i].text);
 }
 
-/* A hash of what the lens map depends on: the hole, the camera but for its azimuth, which adds a constant to all azimuths and is added
+/* The key is a hash of what the lens map depends on: the hole, the camera but for its azimuth, which adds a constant to all azimuths and is added
  * where light is made, the rays, how they are followed, and the quantities that it holds. */
 static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scene)
 {
@@ -166,7 +166,7 @@ static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_ba
                         "image.samples", (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
 }
 
-/* Of a picture of a beam, which goes through rows of cells and grids of them. */
+/* Counts the bytes of a beam, which goes through rows of cells and grids of them. */
 static uint64_t beam_bytes(const struct kd_plan *plan)
 {
     if (!plan->beam.cell)
@@ -217,7 +217,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     return fits(plan, fixed, one_band, c, error);
 }
 
-/* The pixels at the critical curve, where the image orders that are thinner than a pixel would show. */
+/* Plans the pixels at the critical curve, where the image orders that are thinner than a pixel would show. */
 static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
                                struct kd_error *error)
 {
@@ -370,7 +370,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
     return map ? KD_OK : may_list(scene, by, error);
 }
 
-/* All but what depends on the pixels at the critical curve. */
+/* Plans all but what depends on the pixels at the critical curve. */
 static enum kd_status outline(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error)
 {

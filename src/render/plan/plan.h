@@ -129,13 +129,13 @@ static inline bool kd_plan_has_footprints(const struct kd_plan *plan)
     return plan->quantities & (KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT);
 }
 
-/* Whether the lens map is one of crossing radii alone, by the closed form: the cheapest there is. */
+/* Says whether the lens map is one of crossing radii alone, by the closed form: the cheapest there is. */
 static inline bool kd_plan_is_radii(const struct kd_plan *plan)
 {
     return plan->path == KD_LENS_CLOSED && !(plan->quantities & ~(uint32_t)KD_LENS_W);
 }
 
-/* All that are followed. */
+/* Counts all that are followed. */
 static inline uint64_t kd_plan_rays(const struct kd_plan *plan) { return plan->rays + plan->critical * plan->critical_pixels; }
 
 /* Rays that may be followed on such pixels: all together are then a quarter of those that a picture with 16 in each has. */
@@ -153,22 +153,22 @@ static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return 
 static inline uint64_t kd_plan_star_bytes(const struct kd_plan *plan) { return 24ull * plan->width * plan->band_rows; }
 static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
 
-/* Of one layer, a band of pixels: a multiple of what a binding may begin at. */
+/* Counts the bytes of one layer, a band of pixels: a multiple of what a binding may begin at. */
 static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->width * plan->band_rows + 255) / 256 * 256; }
 
-/* What layers need to come to the host a band at a time. */
+/* Counts the bytes that layers need to come to the host a band at a time. */
 static inline uint64_t kd_plan_readback_bytes(const struct kd_plan *plan)
 {
     return (plan->radiance ? 12ull : plan->n_layers ? 4ull : 0) * plan->width * plan->band_rows;
 }
 
-/* Whether the one layer that is asked for is a map: then the picture is that in false colour. */
+/* Says whether the one layer that is asked for is a map: then the picture is that in false colour. */
 static inline bool kd_plan_is_map(const struct kd_plan *plan) { return plan->n_layers == 1 && !plan->picture; }
 
-/* Stops to apply where the picture alone would have `stops`. */
+/* Gives the stops to apply where the picture alone would have `stops`. */
 double kd_plan_exposure(const struct kd_plan *plan, double stops);
 
-/* What the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
+/* These say what the lens map must hold. kd_plan_make derives it from the scene; benchmarks and tests ask for more. */
 struct kd_needs {
     uint32_t quantities; /* KD_LENS_... */
     bool light;          /* and that flux and centroid be measured, as they are whenever some light is kept apart */
@@ -179,11 +179,11 @@ struct kd_needs kd_needs_of(const struct kd_scene *scene);
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* Sentences of plans that are no emitter's. */
+/* These are the sentences of plans that are no emitter's. */
 size_t kd_plan_sentence_count(void);
 const char *kd_plan_sentence(size_t index);
 
-/* The plan as the JSON of POST /v1/plan. */
+/* Writes the plan as the JSON of POST /v1/plan. */
 enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* docs/approximations.md, from the sentences of emitters and plans. */
+/* This writes docs/approximations.md, from the sentences of emitters and plans. */
 #include "render/emit/emitter.h"
 #include "render/plan/plan.h"
 #include "render/plan/reference.h"

@@ -1,4 +1,4 @@
-/* Listed rays on the device: upload, trace in slices, read back. */
+/* The device follows listed rays: upload, trace in slices, read back. */
 #include "render/rays/device.h"
 
 #include "interface.h"

@@ -1,4 +1,4 @@
-/* The long array of a request, [[alpha, beta], ...], read without a tree of nodes. Private to src/render. */
+/* This reads the long array of a request, [[alpha, beta], ...], without a tree of nodes. Private to src/render. */
 #ifndef KD_RENDER_RAYS_LIST_H
 #define KD_RENDER_RAYS_LIST_H
 

@@ -1,4 +1,4 @@
-/* From the camera of a scene to the constants from which a kernel makes each ray. Double precision, pure, any thread. */
+/* This leads from the camera of a scene to the constants from which a kernel makes each ray. Double precision, pure, any thread. */
 #ifndef KD_RENDER_VIEW_CAMERA_H
 #define KD_RENDER_VIEW_CAMERA_H
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the list depends on. The azimuth of the camera is no part of it: nothing is where the hole is but the hole. */
+/* The list depends on this. The azimuth of the camera is no part of it: nothing is where the hole is but the hole. */
 struct key {
     struct kd_spacetime spacetime;
     struct kd_camera camera;

@@ -1,4 +1,4 @@
-/* The pixels that the critical curve passes, and the rays there. Image orders from 2 on, and from far away order 1, are rings
+/* The critical curve passes these pixels, which have rays of their own. Image orders from 2 on, and from far away order 1, are rings
  * thinner than a pixel: one ray a pixel finds them here and there and shows dots. So these pixels are given more rays than the
  * others. Double precision; pure, any thread.
  *
@@ -22,7 +22,7 @@ struct kd_critical_pixels {
     size_t n;
 };
 
-/* Of a picture of a valid scene, plane or pinhole. KD_ENOMEM. */
+/* Lists those of a picture of a valid scene, plane or pinhole. KD_ENOMEM. */
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out, struct kd_error *error);
 uint64_t kd_critical_pixels_made(void); /* lists, by this process so far: tests ask */
 void kd_critical_pixels_finish(struct kd_critical_pixels *pixels);

@@ -1,4 +1,4 @@
-/* The C side of what shaders/shared lists: structs of interface.h, specialisation constants of spec.h, planes of lens.h. */
+/* This is the C side of what shaders/shared lists: structs of interface.h, specialisation constants of spec.h, planes of lens.h. */
 #ifndef KD_RENDER_VIEW_LAYOUT_H
 #define KD_RENDER_VIEW_LAYOUT_H
 
@@ -36,7 +36,7 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* Of post.comp: workgroups for so many pixels, bytes of radiance that they read, in blocks of four pixels, and bytes of packed
+/* post.comp takes these: workgroups for so many pixels, bytes of radiance that they read, in blocks of four pixels, and bytes of packed
  * pixels that they write, whole groups of them. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {

@@ -1,4 +1,4 @@
-/* The ring projection: across, the angle round the critical curve; upwards, the distance to it as a signed logarithm. Every image
+/* This is the ring projection: across, the angle round the critical curve; upwards, the distance to it as a signed logarithm. Every image
  * order is then as wide as the first. Double precision; pure, any thread. The scene must be valid and project a ring.
  *
  * Across, left to right: a turn about the curve's centre, camera.roll_deg in the middle, 0 where alpha > 0 is (physics/critical.h).

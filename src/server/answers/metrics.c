@@ -1,4 +1,4 @@
-/* GET /metrics: counters and gauges in Prometheus's text format 0.0.4. */
+/* This answers GET /metrics: counters and gauges in Prometheus's text format 0.0.4. */
 #include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/queue.h"

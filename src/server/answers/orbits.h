@@ -1,4 +1,4 @@
-/* POST /v1/orbits. */
+/* This answers POST /v1/orbits. */
 #ifndef KD_SERVER_ANSWERS_ORBITS_H
 #define KD_SERVER_ANSWERS_ORBITS_H
 

@@ -1,4 +1,4 @@
-/* A listening TCP socket from a numeric address. */
+/* This opens a listening TCP socket from a numeric address. */
 #ifndef KD_SERVER_HTTP_LISTEN_H
 #define KD_SERVER_HTTP_LISTEN_H
 

@@ -1,4 +1,4 @@
-/* Header values that choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any thread. */
+/* These header values choose an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any thread. */
 #ifndef KD_SERVER_HTTP_NEGOTIATE_H
 #define KD_SERVER_HTTP_NEGOTIATE_H
 

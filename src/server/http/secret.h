@@ -1,4 +1,4 @@
-/* Unguessable names. Any thread. */
+/* This makes unguessable names. Any thread. */
 #ifndef KD_SERVER_HTTP_SECRET_H
 #define KD_SERVER_HTTP_SECRET_H
 

@@ -1,4 +1,4 @@
-/* What the parts of the HTTP service share. Private to src/server.
+/* The parts of the HTTP service share this. Private to src/server.
  *
  * Threads: the front (front.h) accepts connections; one thread of libmicrohttpd runs the handlers of the health routes, another
  * every other handler ("the HTTP thread"); the render queue has its render threads and

@@ -1,4 +1,4 @@
-/* A request target taken apart: the path and the query's pairs, percent-decoded. */
+/* This takes a request target apart: the path and the query's pairs, percent-decoded. */
 #ifndef KD_SERVER_HTTP_TARGET_H
 #define KD_SERVER_HTTP_TARGET_H
 

@@ -5,7 +5,7 @@
 const struct kd_job_format kd_job_as_zip = { "zip", "application/zip" };
 const struct kd_job_format kd_job_as_stream = { "stream", "application/x-kerrd-frames" };
 
-/* Of one series: its tables; or what holds its files, and these by themselves. */
+/* These are of one series: its tables; or what holds its files, and these by themselves. */
 static bool of_series(const struct kd_series *series, size_t i, struct kd_job_format *out)
 {
     const struct kd_job_format files[] = { kd_job_as_zip, { series->frame->name, series->frame->media_type }, kd_job_as_stream };

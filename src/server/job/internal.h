@@ -1,4 +1,4 @@
-/* What jobs.c, run.c and watch.c share. */
+/* jobs.c, run.c and watch.c share this. */
 #ifndef KD_SERVER_JOB_INTERNAL_H
 #define KD_SERVER_JOB_INTERNAL_H
 

@@ -1,4 +1,4 @@
-/* GET /v1/jobs/{id}/result: a frame as a file, all of them as ZIP, or as they come; a table of their rows. */
+/* This answers GET /v1/jobs/{id}/result: a frame as a file, all of them as ZIP, or as they come; a table of their rows. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"
 #include "server/http/reply.h"
@@ -243,7 +243,7 @@ static bool read_row(struct kd_job *job, unsigned frame, void *out, size_t row)
     return whole;
 }
 
-/* Of a job that is done. */
+/* Answers of a job that is done. */
 static enum MHD_Result send_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                   const struct kd_table_format *table)
 {

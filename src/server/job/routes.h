@@ -1,4 +1,4 @@
-/* What routes.c and result.c share. HTTP thread. */
+/* routes.c and result.c share this. HTTP thread. */
 #ifndef KD_SERVER_JOB_ROUTES_H
 #define KD_SERVER_JOB_ROUTES_H
 

@@ -1,4 +1,4 @@
-/* The frames of jobs on their way through the render queue. */
+/* The frames of jobs go through the render queue. */
 #include "server/job/internal.h"
 
 #include "render/output/series.h"

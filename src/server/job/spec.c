@@ -231,7 +231,7 @@ static double value_at(const struct kd_job_spec *spec, size_t key, const struct 
     return kd_field_get(&spec->keys[key].scene, field, index);
 }
 
-/* Of the straight line from a key to the next; NAN where there is none: a word, or no next. */
+/* Gives the slope of the straight line from a key to the next; NAN where there is none: a word, or no next. */
 static double secant(const struct kd_job_spec *spec, size_t key, const struct kd_field *field, size_t index)
 {
     if (key + 1 >= spec->n_keys)

@@ -1,4 +1,4 @@
-/* What a job renders: listed scenes, or one scene that keyframes change. Pure; any thread.
+/* A job renders one of these: listed scenes, or one scene that keyframes change. Pure; any thread.
  *
  * {"scene": {...}}                one picture
  * {"scenes": [{...}, ...]}        a picture each

@@ -251,7 +251,7 @@ static void begin_response(struct kd_json *json, unsigned status, const char *de
     kd_json_string(json, "description", description);
 }
 
-/* Of routes whose media types stand in a table; each once. */
+/* Writes those of routes whose media types stand in a table; each once. */
 static void add_formats(struct kd_json *json, enum kd_gives gives)
 {
     struct kd_job_format format;

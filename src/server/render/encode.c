@@ -1,4 +1,4 @@
-/* From frames to files: the encoders behind the device. */
+/* Frames become files here: the encoders behind the device. */
 #include "base/clock.h"
 #include "server/render/internal.h"
 

@@ -1,4 +1,4 @@
-/* What the files of the render queue share. */
+/* The files of the render queue share this. */
 #ifndef KD_SERVER_RENDER_INTERNAL_H
 #define KD_SERVER_RENDER_INTERNAL_H
 

@@ -1,4 +1,4 @@
-/* POST /v1/plan, and /v1/render from the scene to the picture. */
+/* This answers POST /v1/plan, and /v1/render from the scene to the picture. */
 #include "render/output/notes.h"
 #include "server/http/negotiate.h"
 #include "server/render/planned.h"

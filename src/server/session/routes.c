@@ -1,4 +1,4 @@
-/* POST /v1/sessions; GET, PATCH and DELETE of one. */
+/* These routes are POST /v1/sessions, and GET, PATCH and DELETE of one. */
 #include "render/emit/motion.h"
 #include "render/emit/told.h"
 #include "scene/number.h"

@@ -1,4 +1,4 @@
-/* The frames of sessions, through the render queue. */
+/* The frames of sessions go through the render queue. */
 #include "base/clock.h"
 #include "server/session/internal.h"
 #include "server/session/sessions.h"

@@ -1,4 +1,4 @@
-/* Live sessions: a scene that its owner changes, the newest frame of it, and those who watch.
+/* A live session is a scene that its owner changes, the newest frame of it, and those who watch.
  *
  * A session is rendered only while somebody waits for a newer frame, and only if a newer one would differ: the scene has
  * changed, goes on by itself, or a finer picture of it is still to come. One frame is traced while the one before is
