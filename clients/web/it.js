@@ -492,6 +492,17 @@ export const sentences = {
   'sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky':
     'cielo: la luce fra le stelle è una Via Lattea inventata; nessun suo luogo è un luogo del cielo',
   'sky: the light between the stars is shifted as that of black bodies of 5600 K': 'cielo: la luce fra le stelle è spostata come quella di corpi neri di 5600 K',
+  "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads more than 0.1 rad away":
+    'cielo: da così vicino all’orizzonte è rumore: per la maggior parte dei pixel che lo vedono il successivo, o l’ultima cifra delle costanti del raggio, porta a più di 0,1 rad di distanza',
+  'image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots':
+    'immagine: pochi raggi per i pixel attraversati dalla curva critica; un anello di fotoni più sottile di loro appare a punti',
+  'post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance':
+    'resa: una curva dei toni neutra; la luce oltre 0,8 del bianco è compressa, e i valori dei pixel non sono proporzionali alla radianza',
+  "post: a lens's glare; part of the bright light is spread round its place, its sum is kept, and what would leave the picture stays at its edge":
+    'resa: l’alone di un obiettivo; parte della luce viva è sparsa attorno al suo posto, la sua somma si conserva, e ciò che uscirebbe dall’immagine resta al bordo',
+  'layers: maps of places and angles are those of one ray a pixel, and no means over it':
+    'mappe: quelle di luoghi e angoli sono di un solo raggio per pixel, non medie su di esso',
+  'layers: a picture of a map has false colours; NPY has its numbers': 'mappe: l’immagine di una mappa è in falsi colori; NPY ne contiene i numeri',
   'post: a film-like tone curve; pixel values are not proportional to radiance':
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
   "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge":

@@ -1,5 +1,7 @@
 """What all views share: two languages, small windows, Back, who reads by ear: pages.py KERRD FOLDER (browser.py)."""
 import json
+import pathlib
+import re
 
 from browser import AT_REST, FINE, READY, VIEWS, Browser, main, rows
 
@@ -57,6 +59,14 @@ class Pages(Browser):
             self.assertNotIn('{', told)
         self.assertGreater(len(seen), 11)
         self.assertEqual(len(buttons), 2)
+
+    def test_each_approximation_has_its_italian(self):
+        page = self.open('lang=it')
+        text = (pathlib.Path(__file__).resolve().parents[2] / 'docs/approximations.md').read_text()
+        sentences = re.findall(r'^\| ([a-z]+: .*?) \| ', text, re.M)
+        self.assertGreater(len(sentences), 40)
+        left = page.evaluate('async all => { const { sentences } = await import("./web/it.js"); return all.filter(text => !sentences[text]); }', sentences)
+        self.assertEqual(left, [])
 
     def test_phone(self):
         phone = {'viewport': {'width': 390, 'height': 844}, 'device_scale_factor': 2, 'has_touch': True, 'is_mobile': True}
