@@ -513,6 +513,10 @@ export const sentences = {
     'resa: falsi colori; la luminosità è quella della banda del modello, e non una temperatura di brillanza a una frequenza radio',
   'projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale':
     'proiezione: distanze dalla curva critica in scala logaritmica; nessun occhio la vede così, e le aree non sono in scala',
+  'image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample':
+    'immagine: 16 raggi per i pixel che differiscono dalla media dei vicini del doppio di image.pixel_error, uno per gli altri; dove la mappa della lente è liscia vi sono interpolati; quel che resta è misurato su un campione',
+  'image: one ray a pixel, in maps, the ring projection and light curves, where image.samples is "auto"':
+    'immagine: un raggio per pixel, nelle mappe, nella proiezione ad anello e nelle curve di luce, dove image.samples è "auto"',
   'projection: angles as distances, over half the sky or all of it; areas are not to scale':
     'proiezione: angoli come distanze, su metà del cielo o su tutto; le aree non sono in scala',
   'arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate':
