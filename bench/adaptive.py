@@ -155,9 +155,9 @@ class Server:
     def ms(self, scene):
         self.http.request("POST", "/v1/render", json.dumps(scene), {"Content-Type": "application/json"})
         answer = self.http.getresponse()
-        answer.read()
+        body = answer.read()
         if answer.status != 200:
-            sys.exit(f"{answer.status} for {scene}")
+            sys.exit(f"{answer.status}: {body.decode()} for {scene}")
         return float(re.search(r"total;dur=([\d.]+)", answer.getheader("Server-Timing"))[1])
 
 

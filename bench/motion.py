@@ -85,7 +85,7 @@ def main():
     text = measure.head_markdown("Gas moved by a tenth of a pixel a frame, against 64 rays a pixel", h)
     text += f"{WIDTH} × {HEIGHT}, {FRAMES} frames of the default scene's gas, square roots of linear light; 1 is the truth's.\n\n"
     text += measure.table(["inclination", "rays a pixel", "variance in time", "of the finest tenth", "steps from frame to frame", "off by, of white"],
-                          [[f"{f['inclination_deg']:g}°", f["rays"], f"{f['variance']:.3f}", f"{f['variance_finest']:.3f}", f"{f['steps']:.2f}", f"{f['off']:.3f}"]
+                          [[f"{f['inclination_deg']:g}°", str(f["rays"]), f"{f['variance']:.3f}", f"{f['variance_finest']:.3f}", f"{f['steps']:.2f}", f"{f['off']:.3f}"]
                            for f in found])
     measure.save(o.out, "motion", h, {"figures": found}, text)
 

@@ -9,9 +9,9 @@
  * Half the second difference counts as well: where the map turns back within a step it has a size all the same. It is of second
  * order, too.
  *
- * Rays on listed pixels stand on a lattice or a square grid (ray/place.glsl). There J is the linear map that fits best, by least squares, the differences to
- * the neighbours in this pixel and those beside it, for a step of the side of the area that one ray has; what the fit leaves is counted like the
- * second difference.
+ * Rays on listed pixels stand on a square grid, which is taken by itself for each pixel, or on a lattice (ray/place.glsl). On a lattice J is the
+ * linear map that fits best, by least squares, the differences to the neighbours in this pixel and those beside it, for a step of the side
+ * of the area that one ray has; what the fit leaves is counted like the second difference.
  *
  * Differences are those of 32-bit numbers: a footprint of less than some 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450
@@ -103,10 +103,13 @@ kd_oval oval(float rr, float ff, float rf)
     return kd_oval(size, 1.0 + (floor(2047.0 * clamp(i, 0.0, 1.0) + 0.5) + 2048.0 * floor(2047.0 * clamp(j, 0.0, 1.0) + 0.5)) / 8388608.0);
 }
 
-kd_oval on_grid(uint n, uint at, uint x, uint y)
+/* The ray's place in a grid, all of which lies in the map row by row. */
+struct kd_grid { uint x, y, width, rows; };
+
+kd_oval on_grid(uint n, uint at, kd_grid grid)
 {
     kd_spot own = spot(n, at, true);
-    kd_change across = change(n, own, at, x, push.width, 1), down = change(n, own, at, y, push.rows, push.width);
+    kd_change across = change(n, own, at, grid.x, grid.width, 1), down = change(n, own, at, grid.y, grid.rows, grid.width);
     vec3 m = scale(n, own), i = m * across.slope, j = m * down.slope, bend_i = m * across.bend, bend_j = m * down.bend;
     kd_oval o = kd_oval(longest(dot(i, i) + dot(bend_i, bend_i), dot(j, j) + dot(bend_j, bend_j), dot(i, j)), 0.0);
     if (SHAPED && n < ORDERS) {
@@ -135,10 +138,9 @@ kd_beside beside(uint pixel)
 /* Count the neighbour of ray k in the pixel that is a vector away. */
 void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
-    uint side = GENERATOR == 0 ? SHIFT : CRITICAL;
-    int x = int(GENERATOR == 0 ? k % max(SHIFT, 1) : k) + vx, y = int(GENERATOR == 0 ? k / max(SHIFT, 1) : (k * GENERATOR + SHIFT) % max(CRITICAL, 1)) + vy;
-    bool inside = (x >= 0 || all.left) && (x < int(side) || all.right) && y >= 0 && y < int(side);
-    kd_spot other = spot(n, inside ? at + (GENERATOR == 0 ? vx + vy * int(SHIFT) : vx) : at, inside);
+    int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
+    bool inside = (x >= 0 || all.left) && (x < int(CRITICAL) || all.right) && y >= 0 && y < int(CRITICAL);
+    kd_spot other = spot(n, inside ? at + vx : at, inside);
     vec3 d = m * apart(n, own, other), v = vec3(vx, vy, 0.0);
     float there = other.there ? 1.0 : 0.0;
     if (!other.there)
@@ -156,15 +158,13 @@ void count(inout kd_fit fit, uint n, kd_spot own, vec3 m, kd_beside all, uint at
 kd_oval on_lattice(uint n, uint at)
 {
     uint k = at % max(CRITICAL, 1);
-    kd_beside all = kd_beside(false, false);
-    if (GENERATOR > 0) /* on a grid all have two neighbours that do not lie in line with them */
-        all = beside(at / max(CRITICAL, 1));
+    kd_beside all = beside(at / max(CRITICAL, 1));
     kd_spot own = spot(n, at, true);
     kd_fit fit = kd_fit(0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     vec3 m = scale(n, own);
 #define BOTH(vx, vy) count(fit, n, own, m, all, at, k, int(vx), int(vy)); count(fit, n, own, m, all, at, k, -int(vx), -int(vy));
     BOTH(X1, Y1) BOTH(X2, Y2) BOTH(X3, Y3) BOTH(X4, Y4)
-    float area = GENERATOR == 0 ? 1.0 : float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
+    float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy; /* of one ray; at least area^2, or 0 */
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
     kd_oval o = kd_oval(longest(area * dot(i, i) + left, area * dot(j, j) + left, area * dot(i, j)), KD_NO_OVAL.shape);
@@ -176,19 +176,22 @@ kd_oval on_lattice(uint n, uint at)
     return o;
 }
 
-kd_oval footprint(uint n, uint at, uint x, uint y)
+kd_oval footprint(uint n, uint at, kd_grid grid)
 {
-    if (CRITICAL > 0)
+    if (CRITICAL > 0 && GENERATOR > 0)
         return on_lattice(n, at);
-    return on_grid(n, at, x, y);
+    return on_grid(n, at, grid);
 }
 
 void main()
 {
     push = push_;
     uint x = gl_GlobalInvocationID.x, y = push.first + gl_WorkGroupID.y, at = y * push.width + x;
+    kd_grid grid = kd_grid(x, y, push.width, push.rows);
     if (CRITICAL > 0) {
         at = push.first + x;
+        uint k = at % max(CRITICAL, 1), side = max(SHIFT, 1);
+        grid = kd_grid(k % side, k / side, side, side);
         if (at >= push.end)
             return;
     } else if (x >= push.width) {
@@ -199,7 +202,7 @@ void main()
         for (; n < ORDERS; n++) { /* crossings come without gaps */
             if (lens[at + n * push.stride] <= 0.0)
                 break;
-            kd_oval o = footprint(n, at, x, y);
+            kd_oval o = footprint(n, at, grid);
             lens[plane + n * push.stride] = o.size;
             if (SHAPED)
                 lens[at + (kd_plane(KD_LENS_SHAPE) + n) * push.stride] = o.shape;
@@ -209,6 +212,6 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u) {
         bool escapes = lens[at + kd_plane(KD_LENS_FATE) * push.stride] == KD_FATE_ESCAPED;
-        lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, x, y).size : 0.0;
+        lens[at + kd_plane(KD_LENS_SKY_FOOTPRINT) * push.stride] = escapes ? footprint(ORDERS, at, grid).size : 0.0;
     }
 }

@@ -3,7 +3,7 @@
 
 static enum kd_status kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
 {
-    const struct kd_critical_neighbours n = l ? kd_critical_neighbours(l) : (struct kd_critical_neighbours) { 0 };
+    const struct kd_critical_neighbours n = l && l->generator ? kd_critical_neighbours(l) : (struct kd_critical_neighbours) { 0 };
     struct kd_spec_footprint spec = { .QUANTITIES = j->plan->quantities, .ORDERS = j->plan->orders };
     if (l) {
         spec.CRITICAL = l->rays;

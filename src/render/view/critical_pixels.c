@@ -260,8 +260,6 @@ static void shortest(const struct kd_critical_lattice *l, int32_t bx, int32_t by
 
 struct kd_critical_neighbours kd_critical_neighbours(const struct kd_critical_lattice *lattice)
 {
-    if (!lattice->generator)
-        return (struct kd_critical_neighbours) { { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } } };
     struct kd_critical_neighbours n = { 0 };
     shortest(lattice, 0, 0, &n.to[0].x, &n.to[0].y);
     shortest(lattice, n.to[0].x, n.to[0].y, &n.to[1].x, &n.to[1].y);

@@ -53,7 +53,7 @@ static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice
     return (struct kd_pixel) { pixel.x * l->rays + ray, pixel.y * l->rays + (ray * l->generator + l->shift) % l->rays };
 }
 
-/* Four vectors from a ray to neighbours of it, one of which is at (x, y) and at (-x, -y) each: the two shortest of the lattice that do
+/* These are, on a lattice and not on a grid, four vectors from a ray to neighbours of it, one of which is at (x, y) and at (-x, -y) each: the two shortest of the lattice that do
  * not point the same way, their sum and their difference. */
 struct kd_critical_neighbours { struct { int32_t x, y; } to[4]; };
 struct kd_critical_neighbours kd_critical_neighbours(const struct kd_critical_lattice *lattice);
