@@ -1,5 +1,5 @@
-/* Rays between rays: the lens map of a square grid of rays on listed pixels, by interpolation in the map of the picture's grid, which has
- * one ray in the middle of each pixel. No light is followed: what this saves is rays, and what it gives is the source across the
+/* This kernel puts rays between rays: it makes the lens map of a square grid of rays on listed pixels by interpolation in the map of the picture's
+ * grid, which has one ray in the middle of each pixel. No light is followed: what this saves is rays, and what it gives is the source across the
  * pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001, appendix A.2) does to first order.
  *
  * Through a pixel and its eight neighbours goes one biquadratic polynomial, for w and for the azimuth of each crossing, and so on; of directions in
@@ -124,7 +124,7 @@ bool may(uint x, uint y, uint at)
 /* An invocation is a pixel, whose patches serve all of its rays. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
-/* Of crossing n: w, and what comes with it. */
+/* This writes w of crossing n, and what comes with it. */
 void interpolate(uint n, uint quantity, uint at, uint to)
 {
     kd_biquadratic p = patch_of(n, quantity, at);

@@ -1,5 +1,5 @@
-/* Light that a lens takes from its places (shared/bloom.glsl), added up over blocks of BLOCK_X times BLOCK_Y pixels, which are smaller than the cells of the finest
- * grid. An invocation takes four columns of pixels, or one block where that is larger.
+/* This kernel adds up the light that a lens takes from its places (shared/bloom.glsl) over blocks of BLOCK_X times BLOCK_Y pixels, which are smaller
+ * than the cells of the finest grid. An invocation takes four columns of pixels, or one block where that is larger.
  *
  * A block's rows may lie in two bands or more: each band adds its rows to what those before it have left, one after the other, so that the sum
  * does not depend on where bands end.

@@ -1,5 +1,5 @@
-/* A grid of half as many cells each way from the next finer one: weights 1, 3, 3, 1 over 8, so that each fine cell gives all that it
- * has, and that a quadratic B-spline of the fine grid becomes one of the coarse grid. */
+/* This kernel makes a grid of half as many cells each way from the next finer one: weights are 1, 3, 3, 1 over 8, so that each fine cell gives all
+ * that it has, and that a quadratic B-spline of the fine grid becomes one of the coarse grid. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

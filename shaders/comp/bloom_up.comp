@@ -1,4 +1,4 @@
-/* What is spread by the cells of one grid, and of all coarser ones: this grid's share, and the coarser grid's sum on this one.
+/* This kernel adds up what the cells of one grid spread, and of all coarser ones: this grid's share, and the coarser grid's sum on this one.
  *
  * The coarser sum: weights 3 and 1 over 4 (G. Chaikin 1974) are those by which a quadratic B-spline is one of half the spacing: all grids
  * together are a sum of such splines, whatever grid they are looked up on. The share is smoothed by 1, 2, 1 over 4 each way, which has a

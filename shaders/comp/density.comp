@@ -1,4 +1,4 @@
-/* Makes of the weights that particles.comp has counted the density at each node, over the one expected there. */
+/* This kernel makes of the weights that particles.comp has counted the density at each node, over the one expected there. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

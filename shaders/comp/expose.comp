@@ -1,5 +1,5 @@
-/* Counts the picture's luminance into a histogram, for auto exposure. Integer counts: the same on every run. Of a large picture
- * each `skip`-th pixel is counted, a number that shares no factor with usual widths, so that all columns have their turn. */
+/* This kernel counts the picture's luminance into a histogram, for auto exposure. Integer counts: the same on every run. Of a large picture each
+ * `skip`-th pixel is counted, a number that shares no factor with usual widths, so that all columns have their turn. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

@@ -1,5 +1,5 @@
-/* Images of stars. Of each pair of star_search.comp: the places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map
- * takes to the star; and there the star's light, magnified, over the nearest pixels.
+/* This kernel spreads the images of stars over pixels. Of each pair of star_search.comp: the places in the ray's cell of the picture, [-1/2, 1/2]^2
+ * steps, that the lens map takes to the star; and there the star's light, magnified, over the nearest pixels.
  *
  * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic projection): coefficients by
  * the eight rays round it, least squares for the first ones, second differences for the others; beside rays that do not escape, and at edges,

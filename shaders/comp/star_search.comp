@@ -1,5 +1,5 @@
-/* Pairs of a ray and a star that it may see. A ray stands for a cell of the picture one step wide, which the lens map takes to a patch of
- * the sky; here are the stars in a parallelogram about that patch, by its first derivatives. star_images.comp finds their places.
+/* This kernel lists pairs of a ray and a star that it may see. A ray stands for a cell of the picture one step wide, which the lens map takes to a
+ * patch of the sky; here are the stars in a parallelogram about that patch, by its first derivatives. star_images.comp finds their places.
  *
  * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first (shared/faces.h). A star whose light,
  * by the mean magnification of a ray's patch, would brighten the pixel by less than KD_STAR_LEAST of the unit of sky.brightness ends the

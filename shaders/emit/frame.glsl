@@ -1,4 +1,4 @@
-/* What all emitters may need: numbers of the picture and of the hole. */
+/* All emitters may read these numbers of the picture and of the hole. */
 #ifndef KD_BLOCK_frame
 #define KD_BLOCK_frame(F, U, A)                                                                                 \
     U(pixels_x)            /* a row */                                                                         \

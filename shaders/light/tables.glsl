@@ -1,4 +1,4 @@
-/* The tables of all emitters, at binding 2. Needs shared/emitters.h. */
+/* Kernels of light read the tables of all emitters at binding 2. Needs shared/emitters.h. */
 #ifndef KD_TABLES_GLSL
 #define KD_TABLES_GLSL
 

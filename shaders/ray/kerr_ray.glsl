@@ -1,4 +1,4 @@
-/* A null geodesic of Kerr in Mino time tau, with w = M/r and u = cos(theta), M = 1, traced from the observer.
+/* A ray is a null geodesic of Kerr in Mino time tau, with w = M/r and u = cos(theta), M = 1, traced from the observer.
  *
  *   w'^2 = R(w) = E^2 + A w^2 + 2 K w^3 - D w^4     A = a^2 E^2 - L^2 - Q,  K = Q + (L - aE)^2,  D = a^2 Q
  *   u'^2 = U(u) = Q + A u^2 - a^2 E^2 u^4

@@ -1,5 +1,5 @@
-/* Which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation
- * constants CRITICAL, GENERATOR and SHIFT.
+/* This finds which ray an invocation is for. Needs camera.glsl, the lens map as `lens`, and the specialisation constants CRITICAL, GENERATOR and
+ * SHIFT.
  *
  * CRITICAL = 0: rays are on the picture's grid, and a row of workgroups is a row of rays. Otherwise they are on the listed pixels,
  * CRITICAL on each, on a lattice or, if GENERATOR is 0, a square grid (src/render/view/critical_pixels.h); the list, x and y of each pixel, is in the lens map behind its planes. */

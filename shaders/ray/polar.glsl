@@ -1,4 +1,4 @@
-/* The polar motion in closed form: when a ray crosses the equatorial plane.
+/* The polar motion has a closed form, which says when a ray crosses the equatorial plane.
  *
  * u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
  *   x'^2 = p^2 cos^2 x + q^2 sin^2 x,    q^2 = (s - A)/2,  p^2 = q^2 + e U+ = s,  s = sqrt(A^2 + 4 e Q),

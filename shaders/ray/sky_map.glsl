@@ -1,4 +1,4 @@
-/* What kernels share that look for stars in a lens map: the map, and numbers and tables of the emitters. Bindings 0, 1, 2. Needs the
+/* Kernels that look for stars in a lens map share these bindings: the map, and numbers and tables of the emitters. Bindings 0, 1, 2. Needs the
  * specialisation constants QUANTITIES and ORDERS. */
 #ifndef KD_SKY_MAP_GLSL
 #define KD_SKY_MAP_GLSL

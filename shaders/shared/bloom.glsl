@@ -1,4 +1,4 @@
-/* The light that a lens spreads, and how a point of the picture finds what has been spread to it: bloom_*.comp and post.comp.
+/* This finds the light that a lens spreads to a point of the picture; bloom_*.comp and post.comp share it.
  *
  * Spread light is on a grid of cells that covers the picture exactly, a vec4 a cell, rows from the top. Beyond the edge the grid is
  * its own mirror image: what would leave the picture stays at its edge. */

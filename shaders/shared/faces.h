@@ -1,6 +1,6 @@
-/* The six faces of a cube about the sphere, each a grid of cells. A direction belongs to the face of its largest component, where it has a
- * place (p, q) in [-1, 1]: the two others over that one. Each face goes on beyond its edges, to KD_FACE_EDGE, so that what lies
- * near a direction lies on the direction's own face: stars are on up to three of them. */
+/* The sphere is divided into cells by the six faces of a cube about it, each a grid. A direction belongs to the face of its largest component, where
+ * it has a place (p, q) in [-1, 1]: the two others over that one. Each face goes on beyond its edges, to KD_FACE_EDGE, so that what lies near a
+ * direction lies on the direction's own face: stars are on up to three of them. */
 #ifndef KD_FACES_GLSL
 #define KD_FACES_GLSL
 

@@ -51,7 +51,7 @@
     U(list)                 /* where the listed pixels are */
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than all that is */
 
-/* Of star_search.comp and star_images.comp. Rows are those of rays that the buffer holds. */
+/* star_search.comp and star_images.comp are told this. Rows are those of rays that the buffer holds. */
 #define KD_STARS_FIELDS_(F, U)                                                                                 \
     U(width)                /* rays a row */                                                                   \
     U(rows)                 /* all of them */                                                                  \
@@ -65,7 +65,7 @@
 #define KD_STAR_LEAST 0.03  /* of sky.brightness: images that brighten their pixel by less are left out */
 #define KD_STAR_PATCH 0.15  /* radians that a ray may stand for where images of stars are sought */
 
-/* Of between.comp: pixels of a list that lie in one band. */
+/* between.comp is told this of the pixels of a list that lie in one band. */
 #define KD_BETWEEN_FIELDS_(F, U)                                                                               \
     U(first) U(count)       /* which of them */                                                                \
     U(stride) U(list)       /* as in a slice */                                                                \

@@ -19,7 +19,7 @@
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0)                    \
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 
-/* Of between.comp. SIDE: rays along each side of a pixel; MARK: say only where they may be had so. */
+/* between.comp has these. SIDE: rays along each side of a pixel; MARK: say only where they may be had so. */
 #define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
 
 /* SIDE: rays along each side of a pixel; LAYER, ORDER: of layers.comp, which layer (layers.h), and of which image order, KD_NO_ORDER: of the
@@ -39,7 +39,7 @@
 /* APART: the luminance of some emitter is kept apart as well; FINITE: solid angles from a near observer. */
 #define KD_SPEC_PHOTOMETRY(U, B) B(0, APART, false) B(1, FINITE, false)
 
-/* Of star_search.comp and star_images.comp. VISIBLE: brightness as the eye weighs it. */
+/* star_search.comp and star_images.comp have these. VISIBLE: brightness as the eye weighs it. */
 #define KD_SPEC_STARS(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0) B(4, VISIBLE, false)
 
 /* BLOCK_X, BLOCK_Y: pixels along the sides of a block, 1, 2 or a multiple of 4; BEGUN: the first row of blocks has rows in the bands before. TAPS_X, TAPS_Y: blocks along

@@ -1,4 +1,4 @@
-/* A growing byte buffer. Owned by whoever initialised it; not thread-safe.
+/* A buffer holds bytes and grows as they come. Owned by whoever initialised it; not thread-safe.
  *
  *     struct kd_buffer b = { 0 };
  *     if (kd_buffer_append(&b, data, n)) ... KD_ENOMEM ...

@@ -1,4 +1,4 @@
-/* Status codes and the one sentence that explains them.
+/* A status code says what kind of failure it was, and one sentence explains it.
  *
  * A function that can fail returns enum kd_status and fills the caller's
  * struct kd_error (which may be NULL). Only the server maps a status to an

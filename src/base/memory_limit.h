@@ -1,4 +1,4 @@
-/* How much memory this process may take without being killed for it. Linux. Any thread.
+/* This finds how much memory this process may take without being killed for it. Linux. Any thread.
  *
  * The least of what the machine says is available (MemAvailable in proc_meminfo(5)) and what each control group above the process
  * has left of its memory.max, or memory.limit_in_bytes in version 1 of control groups (Documentation/admin-guide/cgroup-v2.rst and

@@ -1,4 +1,4 @@
-/* kerrd bench: what this device can do, measured. */
+/* kerrd bench measures what this device can do. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"

@@ -1,4 +1,4 @@
-/* kerrd doctor: what this machine can do, what it lacks, and a tiny picture as the proof; or a table of known numbers. */
+/* kerrd doctor says what this machine can do and what it lacks, with a tiny picture as the proof; or checks a table of known numbers. */
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/selftest.h"

@@ -1,4 +1,4 @@
-/* Whole files in and out; "-" is standard input or output. Main thread only. */
+/* These read and write whole files; "-" is standard input or output. Main thread only. */
 #ifndef KD_CLI_FILE_H
 #define KD_CLI_FILE_H
 

@@ -1,4 +1,4 @@
-/* kerrd light-curve: how bright a scene is and where its light comes from, as time goes on. */
+/* kerrd light-curve tells how bright a scene is and where its light comes from, as time goes on. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"

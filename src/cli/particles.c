@@ -1,4 +1,4 @@
-/* kerrd particles: where the particles of a scene are, as an array for NumPy. */
+/* kerrd particles lists where the particles of a scene are, as an array for NumPy. */
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/scene_options.h"

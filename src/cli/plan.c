@@ -1,4 +1,4 @@
-/* kerrd plan: what a scene would cost on this device. */
+/* kerrd plan says what a scene would cost on this device. */
 #include "cli/cli.h"
 #include "cli/scene_options.h"
 #include "render/render.h"

@@ -1,4 +1,4 @@
-/* kerrd scene, kerrd presets: what would be rendered, without a device. */
+/* kerrd scene and kerrd presets print what would be rendered, without a device. */
 #include "cli/cli.h"
 #include "cli/scene_options.h"
 

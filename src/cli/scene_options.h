@@ -1,4 +1,4 @@
-/* The options that choose a scene, the same for render, plan and scene. Main thread only.
+/* These options choose a scene, and are the same for render, plan and scene. Main thread only.
  *
  * Merged in this order, each over what came before: the defaults or --preset; the document SCENE, or
  * the one inside the picture of --from; every --set and --size as given. Then names of assets are resolved by --asset. */

@@ -1,4 +1,4 @@
-/* kerrd doctor --selftest. Main thread only. */
+/* kerrd doctor --selftest prints what the self-test of a device finds. Main thread only. */
 #ifndef KD_CLI_SELFTEST_H
 #define KD_CLI_SELFTEST_H
 

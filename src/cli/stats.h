@@ -1,4 +1,4 @@
-/* What `kerrd render --stats` prints: one picture's times and accuracy. Any thread. */
+/* `kerrd render --stats` prints this: one picture's times and accuracy. Any thread. */
 #ifndef KD_CLI_STATS_H
 #define KD_CLI_STATS_H
 

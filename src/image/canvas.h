@@ -1,4 +1,4 @@
-/* What is drawn on a finished picture: rectangles, letters, and panels that are darkened behind them. Pure functions, any thread. */
+/* This draws on a finished picture: rectangles, letters, and panels that are darkened behind them. Pure functions, any thread. */
 #ifndef KD_IMAGE_CANVAS_H
 #define KD_IMAGE_CANVAS_H
 

@@ -1,4 +1,4 @@
-/* Colours for numbers: maps whose lightness L* (CIE 1976) is what the table says and their hue that of CIELAB, found inside the gamut of
+/* These maps give colours for numbers: their lightness L* (CIE 1976) is what the table says and their hue that of CIELAB, found inside the gamut of
  * sRGB (CIE 15:2004, IEC 61966-2-1). No table and no fit: each colour is computed. Pure functions, any thread.
  *
  *   SEQUENTIAL   L* from 8 to 94 at a constant rate, violet, blue, green, yellow: an order that is also one in grey

@@ -1,5 +1,5 @@
-/* zlib streams (RFC 1950) in a hurry: whole buffers, by libraries that are several times faster than zlib. image/png.h, which
- * writes files, does not use this.
+/* This makes zlib streams (RFC 1950) in a hurry: of whole buffers, by libraries that are several times faster than zlib. image/png.h, which writes
+ * files, does not use this.
  *
  * One thread at a time uses a struct kd_deflate; it keeps its working memory from one call to the next. */
 #ifndef KD_IMAGE_DEFLATE_H

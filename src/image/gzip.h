@@ -1,4 +1,4 @@
-/* A gzip stream (RFC 1952) in place of what is in a buffer. Any thread. */
+/* This puts a gzip stream (RFC 1952) in place of what is in a buffer. Any thread. */
 #ifndef KD_IMAGE_GZIP_H
 #define KD_IMAGE_GZIP_H
 

@@ -1,4 +1,4 @@
-/* The little of text encodings that PNG chunks need. Any thread. */
+/* PNG chunks need this little of text encodings. Any thread. */
 #ifndef KD_IMAGE_UTF8_H
 #define KD_IMAGE_UTF8_H
 

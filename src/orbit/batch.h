@@ -1,4 +1,4 @@
-/* Many orbits, followed a few at a time by any thread that has time. */
+/* A batch is many orbits, followed a few at a time by any thread that has time. */
 #ifndef KD_ORBIT_BATCH_H
 #define KD_ORBIT_BATCH_H
 

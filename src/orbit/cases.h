@@ -1,4 +1,4 @@
-/* Orbits known by name. Any thread. */
+/* These orbits are known by name. Any thread. */
 #ifndef KD_ORBIT_CASES_H
 #define KD_ORBIT_CASES_H
 

@@ -1,4 +1,4 @@
-/* The fields of a request for orbits, a row each. Private to src/orbit. */
+/* A request for orbits has these fields, a row each. Private to src/orbit. */
 #ifndef KD_ORBIT_FIELDS_H
 #define KD_ORBIT_FIELDS_H
 

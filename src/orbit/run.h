@@ -1,4 +1,4 @@
-/* One orbit followed from its start to the end of what was asked for, in pieces. A run belongs to one thread at a time. */
+/* A run follows one orbit from its start to the end of what was asked for, in pieces. A run belongs to one thread at a time. */
 #ifndef KD_ORBIT_RUN_H
 #define KD_ORBIT_RUN_H
 

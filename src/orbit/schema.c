@@ -144,7 +144,7 @@ void kd_orbit_request_schema(struct kd_json *json, const char *name, const char 
 {
     const struct rows rows = { kd_orbit_settings, KD_ORBIT_N_SETTINGS, KD_ORBIT_FORMS };
     begin_object(json, name);
-    /* Of orbit and orbits. No oneOf: generators of clients would make a union of it, and no class with the fields. */
+    /* A request has either orbit or orbits. It is no oneOf: generators of clients would make a union of it, and no class with the fields. */
     raw(json, "if", "{\"required\":[\"orbits\"]}");
     raw(json, "then", "{\"not\":{\"required\":[\"orbit\"]}}");
     raw(json, "else", "{\"required\":[\"orbit\"]}");

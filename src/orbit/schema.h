@@ -1,4 +1,4 @@
-/* JSON Schema of requests for orbits, from the table of their fields. Any thread. */
+/* This writes the JSON Schema of requests for orbits, from the table of their fields. Any thread. */
 #ifndef KD_ORBIT_SCHEMA_H
 #define KD_ORBIT_SCHEMA_H
 

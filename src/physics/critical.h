@@ -1,6 +1,5 @@
-/* The critical curve of Kerr: where on an observer's sky light comes from the spherical photon orbits. Inside it a ray traced
- * back falls into the hole, outside it leaves; it is the edge of the shadow. Double precision; pure functions, any thread.
- * Units G = c = M = 1, angles in radians.
+/* The critical curve of Kerr is where on an observer's sky light comes from the spherical photon orbits. Inside it a ray traced back falls into the
+ * hole, outside it leaves; it is the edge of the shadow. Double precision; pure functions, any thread. Units G = c = M = 1, angles in radians.
  *
  * An orbit of the photon shell with lambda, eta is seen by an observer at inclination i (u = cos i, s = sin i) at
  *

@@ -1,5 +1,5 @@
-/* Bending of light in the equatorial plane of Kerr. Double precision, pure functions, any thread. G = c = M = 1; impact
- * parameter b = |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns against it. Angles in radians.
+/* This is by how much light bends in the equatorial plane of Kerr. Double precision, pure functions, any thread. G = c = M = 1; impact parameter b =
+ * |L|/E > 0; the light turns towards +phi, so that a < 0 is a hole that turns against it. Angles in radians.
  *
  * Sources: C. G. Darwin 1959, Proc. R. Soc. Lond. A 249, 180 (Schwarzschild); S. V. Iyer & E. C. Hioki 2009,
  * arXiv:0907.0352 (Kerr, and the weak field to the second order in M/b); V. Bozza 2002, Phys. Rev. D 66, 103001 (the strong

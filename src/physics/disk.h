@@ -1,5 +1,5 @@
-/* The thin accretion disk: radial flux, temperature, redshift factor. Double precision, pure, any thread.
- * G = c = M = 1; spin signed as in physics/kerr.h; the gas turns towards +phi. */
+/* The thin accretion disk has this radial flux, temperature and redshift factor. Double precision, pure, any thread. G = c = M = 1; spin signed as
+ * in physics/kerr.h; the gas turns towards +phi. */
 #ifndef KD_PHYSICS_DISK_H
 #define KD_PHYSICS_DISK_H
 

@@ -1,5 +1,5 @@
-/* Legendre's elliptic integrals and Jacobi's elliptic functions, in the parameter m = k^2. Double precision, pure
- * functions, any thread, no units.
+/* This computes Legendre's elliptic integrals and Jacobi's elliptic functions, in the parameter m = k^2. Double precision, pure functions, any
+ * thread, no units.
  *
  *   F(phi|m)    = Int_0^phi dx / sqrt(1 - m sin^2 x)
  *   E(phi|m)    = Int_0^phi sqrt(1 - m sin^2 x) dx

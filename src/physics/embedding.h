@@ -1,5 +1,5 @@
-/* The equatorial plane of Kerr at a moment of t as a surface of revolution in flat space: Flamm's paraboloid (L. Flamm 1916,
- * Phys. Z. 17, 448) and its like for a != 0. Double precision, pure, any thread. G = c = M = 1; r at or outside the horizon.
+/* This embeds the equatorial plane of Kerr at a moment of t in flat space, as a surface of revolution: Flamm's paraboloid (L. Flamm 1916, Phys. Z.
+ * 17, 448) and its like for a != 0. Double precision, pure, any thread. G = c = M = 1; r at or outside the horizon.
  *
  * Boyer & Lindquist 1967: dl^2 = r^2/Delta dr^2 + R^2 dphi^2 with R^2 = r^2 + a^2 + 2a^2/r, so that dz^2 = r^2/Delta dr^2 - dR^2
  * and R^2 Delta (dz/dr)^2 = 2r^3 + 4a^2 r - 4a^2 + 2a^4/r - a^4/r^2 + 2a^4/r^3 - a^6/r^4. Each negative term is outweighed by

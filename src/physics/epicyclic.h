@@ -1,5 +1,5 @@
-/* Small oscillations about a circular equatorial orbit of Kerr, as angular frequencies of coordinate time. Double precision,
- * pure, any thread. G = c = M = 1; spin signed as in physics/kerr.h. Domain: r outside the photon orbit.
+/* Small oscillations about a circular equatorial orbit of Kerr have these angular frequencies of coordinate time. Double precision, pure, any
+ * thread. G = c = M = 1; spin signed as in physics/kerr.h. Domain: r outside the photon orbit.
  *
  *     kappa^2     = Omega^2 (1 - 6/r + 8a r^(-3/2) - 3a^2/r^2)       radial
  *     Omega_th^2  = Omega^2 (1 - 4a r^(-3/2) + 3a^2/r^2)             vertical

@@ -1,4 +1,5 @@
-/* The clock of what falls freely into Kerr: proper time by quadrature of Sigma/(Sigma r'). Double precision, pure, any thread. G = c = M = 1. */
+/* This reads the clock of what falls freely into Kerr: proper time by quadrature of Sigma/(Sigma r'). Double precision, pure, any thread.
+ * G = c = M = 1. */
 #ifndef KD_PHYSICS_INFALL_H
 #define KD_PHYSICS_INFALL_H
 

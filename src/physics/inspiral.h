@@ -1,5 +1,5 @@
-/* Two masses that spiral together under gravitational radiation. Double precision, pure functions, any thread.
- * G = c = 1 and the total mass is 1; a is the semi-major axis, e the eccentricity, eta = m1 m2 (0 < eta <= 1/4).
+/* Two masses spiral together under gravitational radiation. Double precision, pure functions, any thread. G = c = 1 and the total mass is 1; a is
+ * the semi-major axis, e the eccentricity, eta = m1 m2 (0 < eta <= 1/4).
  *
  * Leading order: the quadrupole formula on a Kepler ellipse, averaged over an orbit. Its relative error is of the order of
  * 1/a and grows to tens of per cent at the last stable orbit, a = 6, where a chirp given here ends.

@@ -1,6 +1,6 @@
-/* The Kerr hole: scalars that depend on spin, and circular equatorial orbits. Double precision, pure functions,
- * any thread. Units G = c = M = 1. The spin a is signed: a < 0 means that the orbit or disk, which always
- * turns towards +phi, is retrograde to the hole. Domain |a| < 1; outside it the result is NaN.
+/* The Kerr hole has these scalars that depend on spin, and these circular equatorial orbits. Double precision, pure functions, any thread. Units G =
+ * c = M = 1. The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the hole. Domain |a| < 1;
+ * outside it the result is NaN.
  *
  * Sources: Bardeen, Press & Teukolsky 1972, ApJ 178, 347 [BPT]; Chandrasekhar 1983. */
 #ifndef KD_PHYSICS_KERR_H

@@ -1,5 +1,5 @@
-/* The lensing bands of Kerr: which part of the image plane sees the equatorial plane, between two radii, in its n-th image.
- * Observer at infinity. Double precision; pure functions, any thread. Units G = c = M = 1.
+/* The lensing bands of Kerr say which part of the image plane sees the equatorial plane, between two radii, in its n-th image. Observer at infinity.
+ * Double precision; pure functions, any thread. Units G = c = M = 1.
  *
  * Order n counts the crossings of the plane back from the eye, as null_geodesic.h does. For n >= 1 the image of the plane
  * between r_in and r_out is a ring round or beside the critical curve (Gralla, Holz & Wald 2019, arXiv:1906.00873, for a = 0;

@@ -1,6 +1,6 @@
-/* Light in Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when, and where it came
- * from. Double precision; pure functions, any thread. Lengths and times in M (G = c = M = 1), angles in radians. No
- * integrator is involved and nothing is shared with the shaders: this is what they are judged by.
+/* This follows light in Kerr in closed form: where the ray seen at (alpha, beta) crosses the equatorial plane, when, and where it came from. Double
+ * precision; pure functions, any thread. Lengths and times in M (G = c = M = 1), angles in radians. No integrator is involved and nothing is shared
+ * with the shaders: this is what they are judged by.
  *
  * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881 (the motion in Mino time, four cases of roots) and 1910.12873; Kapec &
  * Lupsasca 2019, arXiv:1905.11406; Carlson 1995 and DLMF 19.29 (the integrals). The parts are null_quartic.h,

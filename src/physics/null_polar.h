@@ -1,5 +1,4 @@
-/* The polar motion of a null geodesic of Kerr in Mino time, in closed form. Units G = c = M = 1, E = 1. Pure functions, any
- * thread.
+/* This is the polar motion of a null geodesic of Kerr in Mino time, in closed form. Units G = c = M = 1, E = 1. Pure functions, any thread.
  *
  * With u = cos(theta), v = u^2 (Gralla & Lupsasca 2020, arXiv:1910.12881, section III; Kapec & Lupsasca 2019),
  *

@@ -1,5 +1,5 @@
-/* The radial motion of a null geodesic of Kerr in Mino time, in closed form, outside the horizon. Units G = c = M = 1,
- * E = 1. Pure functions, any thread.
+/* This is the radial motion of a null geodesic of Kerr in Mino time, in closed form, outside the horizon. Units G = c = M = 1, E = 1. Pure
+ * functions, any thread.
  *
  *   (dr/dtau)^2 = R(r)        phi' = a (2r - a lambda)/Delta        t' = r^2 + 2r + 4 + ((8 - 2 a lambda) r - 4a^2)/Delta
  *

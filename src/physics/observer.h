@@ -1,5 +1,5 @@
-/* Observers at a finite radius: what they are called, where they exist, and the frame in which they measure. Whoever offers a choice of
- * observers offers these, by this table: camera.observer of a scene, /v1/physics, the frame of an orbit's velocity.
+/* This table says of observers at a finite radius what they are called, where they exist, and in which frame they measure. Whoever offers a choice
+ * of observers offers these, by this table: camera.observer of a scene, /v1/physics, the frame of an orbit's velocity.
  *
  * One is added by a row here and by the function of its frame, frame_WORD in observer.c; words, enumerators, help, rules
  * and the sentences of errors follow. Double precision, pure functions, any thread. */

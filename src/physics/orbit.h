@@ -1,5 +1,5 @@
-/* Timelike geodesics of Kerr: constants of motion, turning points, fate. Double precision, pure functions, any thread.
- * Units G = c = M = 1, unit rest mass; Boyer-Lindquist coordinates. The spin a is signed, the orbit's sense is that of its L.
+/* A timelike geodesic of Kerr has these constants of motion, turning points and fate. Double precision, pure functions, any thread. Units G = c = M
+ * = 1, unit rest mass; Boyer-Lindquist coordinates. The spin a is signed, the orbit's sense is that of its L.
  *
  * In Mino time (dtau_proper = Sigma dlambda) with w = 1/r and u = cos(theta), K = Q + (L - aE)^2 and b = 1 - E^2,
  *

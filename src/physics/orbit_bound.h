@@ -1,4 +1,4 @@
-/* Bound timelike geodesics of Kerr in closed form: place and time at any Mino time, and the fundamental frequencies. Double
+/* Bound timelike geodesics of Kerr have a closed form: this gives place and time at any Mino time, and the fundamental frequencies. Double
  * precision, pure functions, any thread. Units G = c = M = 1.
  *
  * R. Fujita & W. Hikida 2009, arXiv:0906.1420 (r, theta, t, phi by elliptic functions; frequencies as S. Drasco & S. A. Hughes

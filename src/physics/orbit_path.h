@@ -1,4 +1,4 @@
-/* Timelike geodesics of Kerr, integrated. Double precision, any thread; a path belongs to one thread at a time.
+/* This integrates timelike geodesics of Kerr. Double precision, any thread; a path belongs to one thread at a time.
  *
  * In Mino time, with b = 1 - E^2, w = 1/r and y = cos(theta)/sqrt(z), -1 <= y <= 1 (orbit.h),
  *

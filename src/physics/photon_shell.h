@@ -1,5 +1,5 @@
-/* The spherical photon orbits of Kerr: light that stays at one Boyer-Lindquist radius, and what a ray that all but stays
- * there gains in each half orbit. Double precision; pure functions, any thread. Units G = c = M = 1, E = 1; |a| < 1.
+/* The spherical photon orbits of Kerr are light that stays at one Boyer-Lindquist radius; this also says what a ray that all but stays there gains
+ * in each half orbit. Double precision; pure functions, any thread. Units G = c = M = 1, E = 1; |a| < 1.
  *
  * Sources: Teo 2003, Gen. Rel. Grav. 35, 1909, and Bardeen 1973 (in Black Holes, eq. 49): lambda and eta of r. Johnson et
  * al. 2020, arXiv:1907.04329 (the exponent gamma); Gralla & Lupsasca 2020, arXiv:1910.12873, section V (gamma, delta, tau).

@@ -1,7 +1,6 @@
-/* The plunge from the ISCO of Kerr: the equatorial geodesic that leaves the innermost stable circular orbit with its energy and
- * angular momentum, infinitely slowly, and falls into the horizon. Its radial potential has a triple root, so that proper time,
- * azimuth and coordinate time are elementary functions of r. Double precision, pure, any thread. G = c = M = 1; spin signed as
- * in physics/kerr.h.
+/* The plunge from the ISCO of Kerr is the equatorial geodesic that leaves the innermost stable circular orbit with its energy and angular momentum,
+ * infinitely slowly, and falls into the horizon. Its radial potential has a triple root, so that proper time, azimuth and coordinate time are
+ * elementary functions of r. Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/kerr.h.
  *
  * Sources: A. Mummery & S. Balbus 2022, Phys. Rev. Lett. 129, 161101, arXiv:2209.03579 (u^r and phi); C. Dyson & M. van de
  * Meent 2023, arXiv:2302.03704 (t too). Relative error, from a thirtieth of the way between the ISCO and the horizon to all but

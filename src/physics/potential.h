@@ -1,5 +1,5 @@
-/* Effective potentials in the equatorial plane of Kerr: the least energy with which a particle of angular momentum L can be
- * at r. It moves where E >= V. Double precision, pure, any thread. G = c = M = 1; a and L signed, L > 0 towards +phi.
+/* An effective potential in the equatorial plane of Kerr is the least energy with which a particle of angular momentum L can be at r. It moves where
+ * E >= V. Double precision, pure, any thread. G = c = M = 1; a and L signed, L > 0 towards +phi.
  *
  *     V = (2 a L r + r sqrt(Delta (r^2 L^2 + mu^2 A))) / A,   A = r^4 + a^2 r^2 + 2 a^2 r
  *

@@ -1,6 +1,6 @@
-/* The lensed image of a ring: at which (alpha, beta) an observer sees the point of the equatorial plane at (r, phi); at a finite
- * radius they label the ray (null_geodesic.h), and tetrad.h turns them into a direction. Double precision; pure functions, any
- * thread. G = c = M = 1; conventions of physics/null_geodesic.h.
+/* This finds the lensed image of a ring: at which (alpha, beta) an observer sees the point of the equatorial plane at (r, phi); at a finite radius
+ * they label the ray (null_geodesic.h), and tetrad.h turns them into a direction. Double precision; pure functions, any thread. G = c = M = 1;
+ * conventions of physics/null_geodesic.h.
  *
  * The closed form gives (r, phi) of a ray's n-th crossing; this inverts it by Newton's method, from a table of the whole image
  * of the ring made beforehand: along each direction of the image plane r_n grows with the distance from

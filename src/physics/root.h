@@ -1,4 +1,4 @@
-/* A root of a function of one variable, bracketed. Double precision, pure, any thread. */
+/* This finds a root of a function of one variable in an interval that brackets it. Double precision, pure, any thread. */
 #ifndef KD_PHYSICS_ROOT_H
 #define KD_PHYSICS_ROOT_H
 

@@ -1,4 +1,5 @@
-/* Orthonormal frames in Kerr. Double precision, pure functions, any thread. Units G = c = M = 1; Boyer-Lindquist coordinates.
+/* Observers and bodies in Kerr measure in these orthonormal frames. Double precision, pure functions, any thread. Units G = c = M = 1;
+ * Boyer-Lindquist coordinates.
  *
  * A frame is four covectors: the legs e_t (minus this is what a clock at rest in the frame reads along a motion), e_r, e_theta, e_phi
  * with their indices lowered. What has the local components x = (x_t, x_r, x_theta, x_phi) is the covector sum of x_i e_i: for a photon

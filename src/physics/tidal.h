@@ -1,5 +1,5 @@
-/* A star torn by the tide of a black hole. Double precision, pure functions, any thread. G = c = 1; all masses, lengths
- * and times in one unit, which may be the hole's M or a metre.
+/* A star is torn by the tide of a black hole. Double precision, pure functions, any thread. G = c = 1; all masses, lengths and times in one unit,
+ * which may be the hole's M or a metre.
  *
  * Newtonian estimates on a parabolic orbit, within a factor of two of simulations; the hole's spin enters through the
  * capture orbit alone.

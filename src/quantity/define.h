@@ -1,4 +1,4 @@
-/* How a quantity is written down. Private to src/quantity.
+/* A quantity is written down like this. Private to src/quantity.
  *
  *     #define PARAMETERS(P) P(spin, .unit = "M", .initial = "0.9", ...) P(r, ...)
  *     #define OUTPUTS(O) O(isco, .unit = "M", .fixed = true, .help = "...") ...

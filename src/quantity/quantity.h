@@ -1,6 +1,6 @@
-/* Quantities by name: the numbers that GET /v1/physics/NAME and `kerrd physics NAME` give, and docs/physics-quantities.md
- * lists. Each is a table of parameters and outputs and one function; requests, JSON, CSV, options, OpenAPI and the
- * reference page follow from it. To add one: a file like kerr.c and a line in table.c.
+/* Quantities are the numbers that GET /v1/physics/NAME and `kerrd physics NAME` give by name, and docs/physics-quantities.md lists. Each is a table
+ * of parameters and outputs and one function; requests, JSON, CSV, options, OpenAPI and the reference page follow from it. To add one: a file like
+ * kerr.c and a line in table.c.
  *
  * A parameter may be a range, first:last:count, of evenly spaced values with both ends. The answer then has a point for
  * each value; with several ranges for each combination, the last parameter of the table varying fastest.

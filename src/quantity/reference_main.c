@@ -1,4 +1,4 @@
-/* Print docs/physics-quantities.md. */
+/* This program prints docs/physics-quantities.md. */
 #include "quantity/quantity.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* What is asked for: a parameter's value or range from text. */
+/* This reads what is asked for: a parameter's value or range from text. */
 #include "quantity/quantity.h"
 
 #include "base/slip.h"

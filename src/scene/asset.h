@@ -1,6 +1,6 @@
-/* Assets: bytes that a scene names and does not hold. A document names one by the SHA-256 of its bytes or by a name that whoever reads
- * the document knows it by; a name is resolved into the hash before the scene is used, so that the identity of a scene, and of its picture,
- * is the content. Nothing is ever fetched for a name. Any thread. */
+/* Assets are bytes that a scene names and does not hold. A document names one by the SHA-256 of its bytes or by a name that whoever reads the
+ * document knows it by; a name is resolved into the hash before the scene is used, so that the identity of a scene, and of its picture, is the
+ * content. Nothing is ever fetched for a name. Any thread. */
 #ifndef KD_SCENE_ASSET_H
 #define KD_SCENE_ASSET_H
 

@@ -1,4 +1,4 @@
-/* Controls: what a page that has one for each field cannot tell from the rows, the table KD_SCENE_CONTROLS of scene/fields.h. The schema
+/* Controls say what a page that has one for each field cannot tell from the rows: they are the table KD_SCENE_CONTROLS of scene/fields.h. The schema
  * carries it as x-span, x-first, x-switch, x-with, x-varies and x-button. Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_CONTROL_H
 #define KD_SCENE_CONTROL_H

@@ -1,4 +1,4 @@
-/* The scene document, version 1: one row a field, in sections and lists of sections.
+/* These rows are the scene document, version 1: one row a field, in sections and lists of sections.
  *
  * Each row expands to the struct member, the default, the JSON parser, --set, the query
  * parameter, the JSON Schema and docs/scene.md. Add a field here and nowhere else.

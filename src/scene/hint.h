@@ -1,4 +1,4 @@
-/* Guesses what someone may have meant by a name that does not exist. Any thread. */
+/* This guesses what someone may have meant by a name that does not exist. Any thread. */
 #ifndef KD_SCENE_HINT_H
 #define KD_SCENE_HINT_H
 

@@ -1,4 +1,4 @@
-/* Numbers as JSON writes them and as they are typed, whatever the locale of the process. Any thread. */
+/* These read and write numbers as JSON has them and as they are typed, whatever the locale of the process. Any thread. */
 #ifndef KD_SCENE_NUMBER_H
 #define KD_SCENE_NUMBER_H
 

@@ -1,4 +1,4 @@
-/* Print docs/scene.md. */
+/* This program prints docs/scene.md. */
 #include "scene/scene.h"
 
 #include <stdio.h>

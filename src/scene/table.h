@@ -1,5 +1,5 @@
-/* The rows of scene/fields.h as data: one table that everything about scenes is generated from.
- * Internal to src/scene and its tests. Constant data and pure functions, any thread. */
+/* This has the rows of scene/fields.h as data: one table that everything about scenes is generated from. Internal to src/scene and its tests.
+ * Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_TABLE_H
 #define KD_SCENE_TABLE_H
 

@@ -1,4 +1,4 @@
-/* Text from outside: is it UTF-8, and how to quote it in a message. Any thread. */
+/* These say of text from outside whether it is UTF-8, and quote it in a message. Any thread. */
 #ifndef KD_SCENE_TEXT_H
 #define KD_SCENE_TEXT_H
 

@@ -1,4 +1,4 @@
-/* Text into a buffer; after a first failure nothing more is written and status holds it. */
+/* This writes text into a buffer; after a first failure nothing more is written and status holds it. */
 #ifndef KD_SCENE_WRITER_H
 #define KD_SCENE_WRITER_H
 

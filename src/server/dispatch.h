@@ -1,4 +1,4 @@
-/* From libmicrohttpd to the handler of a route: header and body are received and judged, what was under way is given up when a client
+/* This leads from libmicrohttpd to the handler of a route: header and body are received and judged, what was under way is given up when a client
  * leaves. HTTP thread only. */
 #ifndef KD_SERVER_DISPATCH_H
 #define KD_SERVER_DISPATCH_H

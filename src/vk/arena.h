@@ -1,5 +1,5 @@
-/* Which bytes of one range are free: offsets only, no memory. First fit in address order; neighbours
- * coalesce. Pure bookkeeping, not thread-safe. */
+/* An arena knows which bytes of one range are free: offsets only, no memory. First fit in address order; neighbours coalesce. Pure bookkeeping, not
+ * thread-safe. */
 #ifndef KD_VK_ARENA_H
 #define KD_VK_ARENA_H
 

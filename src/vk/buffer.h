@@ -1,4 +1,4 @@
-/* The inside of a buffer. */
+/* This is the inside of a buffer. */
 #ifndef KD_VK_BUFFER_H
 #define KD_VK_BUFFER_H
 

@@ -1,4 +1,4 @@
-/* The pipeline cache on disk: one file a device and driver version. */
+/* The pipeline cache is kept on disk: one file a device and driver version. */
 #ifndef KD_VK_CACHE_H
 #define KD_VK_CACHE_H
 

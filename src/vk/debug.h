@@ -1,4 +1,4 @@
-/* The validation layer's messages, counted and logged, and names for objects. */
+/* This counts and logs the validation layer's messages, and names objects. */
 #ifndef KD_VK_DEBUG_H
 #define KD_VK_DEBUG_H
 

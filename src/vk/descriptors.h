@@ -1,4 +1,4 @@
-/* Descriptor sets of one submission: taken one by one, all given back at once when the slot is reused. */
+/* Descriptor sets of one submission are taken one by one, and all given back at once when the slot is reused. */
 #ifndef KD_VK_DESCRIPTORS_H
 #define KD_VK_DESCRIPTORS_H
 

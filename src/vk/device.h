@@ -1,4 +1,4 @@
-/* The inside of struct kd_vk, for the files of this layer and for tests that inject faults. */
+/* This is the inside of struct kd_vk, for the files of this layer and for tests that inject faults. */
 #ifndef KD_VK_DEVICE_H
 #define KD_VK_DEVICE_H
 

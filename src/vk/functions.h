@@ -1,4 +1,4 @@
-/* The one table of Vulkan entry points, filled at run time from libvulkan.so.1.
+/* The one table of Vulkan entry points is filled at run time from libvulkan.so.1.
  *
  * Every call of this layer goes through a struct kd_vk_functions, so a test can replace a member and
  * see what a failing or lying driver does. The library stays loaded for the life of the process:

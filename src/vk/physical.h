@@ -1,4 +1,4 @@
-/* What a physical device is and whether kerrd can use it. */
+/* This says what a physical device is and whether kerrd can use it. */
 #ifndef KD_VK_PHYSICAL_H
 #define KD_VK_PHYSICAL_H
 

@@ -1,4 +1,4 @@
-/* The inside of a compute pipeline. */
+/* This is the inside of a compute pipeline. */
 #ifndef KD_VK_PIPELINE_H
 #define KD_VK_PIPELINE_H
 

@@ -1,4 +1,4 @@
-/* Command buffers in turn, and the timeline that counts submissions. */
+/* Command buffers are used in turn, and a timeline counts submissions. */
 #ifndef KD_VK_SUBMIT_H
 #define KD_VK_SUBMIT_H
 

@@ -1,5 +1,5 @@
-/* Views of a buffer as texels. A buffer keeps those that it was bound with, as most are bound again and again, and takes them
- * along when it is freed. */
+/* These are views of a buffer as texels. A buffer keeps those that it was bound with, as most are bound again and again, and takes them along when
+ * it is freed. */
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 

@@ -1,4 +1,4 @@
-/* A Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
+/* This drives a Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
  *
  * One thread owns a struct kd_vk and everything made from it; only kd_vk_list and kd_vk_info of a
  * device that is already open may be called from elsewhere. Every object has a name, for the validation layer

@@ -1,4 +1,4 @@
-/* The rays that engines are judged on: fixed lists with names, so that tables of different days and devices compare.
+/* Engines are judged on these rays: fixed lists with names, so that tables of different days and devices compare.
  *
  * A set is one view or several, a view one hole seen by one observer at infinity. Positions are those of a sequence of low
  * discrepancy (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of 1/g and 1/g^2 modulo 1,

@@ -1,5 +1,5 @@
-/* What each engine, precision and number of steps costs on one device, and how wrong it is: the table that
- * `kerrd bench accuracy` measures, GET /v1/accuracy serves and a tolerance is looked up in. Plain values; any thread.
+/* The table of accuracy says what each engine, precision and number of steps costs on one device, and how wrong it is: the one that `kerrd bench
+ * accuracy` measures, GET /v1/accuracy serves and a tolerance is looked up in. Plain values; any thread.
  *
  * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h), all orders
  * together, over the crossings that both have from the ISCO to KD_ACCURACY_FAR: relative ones of r and g, absolute ones of

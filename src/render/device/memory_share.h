@@ -1,4 +1,4 @@
-/* How much memory pictures may take: what the device has, what --memory says, and what the host has, where it comes to that. */
+/* This says how much memory pictures may take: what the device has, what --memory says, and what the host has, where it comes to that. */
 #ifndef KD_RENDER_DEVICE_MEMORY_SHARE_H
 #define KD_RENDER_DEVICE_MEMORY_SHARE_H
 

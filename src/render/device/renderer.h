@@ -1,4 +1,4 @@
-/* One device and what is kept on it between pictures. One thread at a time has a struct kd_renderer, and hands it on with a lock; the
+/* A renderer is one device and what is kept on it between pictures. One thread at a time has a struct kd_renderer, and hands it on with a lock; the
  * only call allowed from others meanwhile is kd_renderer_capacity. */
 #ifndef KD_RENDER_DEVICE_RENDERER_H
 #define KD_RENDER_DEVICE_RENDERER_H

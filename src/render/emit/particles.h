@@ -14,7 +14,7 @@
  *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u',  u, u' in [0, 1]
  *
  * with dOmega/dr at constant E and L, so that nothing diverges where kappa -> 0, at the ISCO, and r - r_isco never changes
- * sign. Pure; the device's part is render/device/deposit.h. */
+ * sign. Pure; the device's part is render/emit/deposit.h. */
 #ifndef KD_RENDER_EMIT_PARTICLES_H
 #define KD_RENDER_EMIT_PARTICLES_H
 

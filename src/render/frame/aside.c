@@ -1,4 +1,4 @@
-/* Where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
+/* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
 #include "render/frame/job.h"
 
 /* An aside that nobody is in and that has the plan's lens map; NULL: none. */

@@ -1,4 +1,4 @@
-/* Rays of listed pixels that are not followed, but taken from between those of the grid (comp/between.comp). */
+/* This takes rays of listed pixels from between those of the grid instead of following them (comp/between.comp). */
 #include "render/frame/lens.h"
 
 #include "render/view/critical_pixels.h"

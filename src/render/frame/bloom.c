@@ -1,4 +1,4 @@
-/* The pass that spreads light over white as a lens does (render/plan/bloom.h). */
+/* This pass spreads light over white as a lens does (render/plan/bloom.h). */
 #include "render/frame/job.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Which pixels of a picture need more rays, by how they are shown. Pure; any thread. */
+/* This chooses the pixels of a picture that need more rays, by how they are shown. Pure; any thread. */
 #ifndef KD_RENDER_FRAME_CHOOSE_H
 #define KD_RENDER_FRAME_CHOOSE_H
 

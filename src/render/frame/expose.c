@@ -1,4 +1,4 @@
-/* The pass that finds how bright a picture is, and the exposure that follows where it is "auto". */
+/* This pass finds how bright a picture is, and the exposure that follows where it is "auto". */
 #include "render/frame/job.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* The footprints of a lens map, from differences of its rays: after they are traced, before light needs them. */
+/* This pass finds the footprints of a lens map from differences of its rays: after they are traced, before light needs them. */
 #include "render/frame/job.h"
 
 static enum kd_status kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)

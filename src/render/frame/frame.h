@@ -1,4 +1,4 @@
-/* Scenes to pictures, by a renderer: on the thread that has it. */
+/* A renderer makes pictures of scenes, on the thread that has it. */
 #ifndef KD_RENDER_FRAME_FRAME_H
 #define KD_RENDER_FRAME_FRAME_H
 

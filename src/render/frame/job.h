@@ -1,4 +1,4 @@
-/* What the files of a frame share: one picture on its way, and the bands it is made in. Render thread only. */
+/* The files of a frame share this: one picture on its way, and the bands it is made in. Render thread only. */
 #ifndef KD_RENDER_FRAME_JOB_H
 #define KD_RENDER_FRAME_JOB_H
 

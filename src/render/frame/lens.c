@@ -1,4 +1,4 @@
-/* The part of a frame that follows rays: the lens map and the light that it brings, band by band, in short submissions. */
+/* This part of a frame follows rays: it makes the lens map and the light that it brings, band by band, in short submissions. */
 #include "render/frame/lens.h"
 
 #include "render/view/camera.h"

@@ -1,4 +1,4 @@
-/* What follows rays on the grid and on listed pixels alike. Render thread only. */
+/* These follow rays on the grid and on listed pixels alike. Render thread only. */
 #ifndef KD_RENDER_FRAME_LENS_H
 #define KD_RENDER_FRAME_LENS_H
 

@@ -1,4 +1,4 @@
-/* Pixels that have more rays than the others: the kernels of the grid once more, over a list of pixels, whose light is written anew. */
+/* This gives pixels more rays than the others have: by the kernels of the grid once more, over a list of pixels, whose light is written anew. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"

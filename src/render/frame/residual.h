@@ -1,4 +1,4 @@
-/* What is left of the error of pixels (kd_frame_residual of frame/job.h), and light as it is shown, on the host. */
+/* These say what is left of the error of pixels (kd_frame_residual of frame/job.h), and how light is shown, on the host. */
 #ifndef KD_RENDER_FRAME_RESIDUAL_H
 #define KD_RENDER_FRAME_RESIDUAL_H
 

@@ -1,6 +1,5 @@
-/* What a live session renders next, and how finely: so that frames come in time while the scene changes, and that the picture
- * becomes what was asked when it rests. Pure: no clock, no device, no allocation. Times are milliseconds of any steady clock. One
- * owner at a time.
+/* The governor says what a live session renders next, and how finely: so that frames come in time while the scene changes, and that the picture
+ * becomes what was asked when it rests. Pure: no clock, no device, no allocation. Times are milliseconds of any steady clock. One owner at a time.
  *
  *     struct kd_governor governor;
  *     kd_governor_init(&governor, kd_governor_params(.target_ms = 33));

@@ -1,4 +1,4 @@
-/* Light curves and centroid tracks: the light of frame after frame (render/plan/photometry.h). Pure. */
+/* Light curves and centroid tracks tell the light of frame after frame (render/plan/photometry.h). Pure. */
 #ifndef KD_RENDER_OUTPUT_CURVE_H
 #define KD_RENDER_OUTPUT_CURVE_H
 
@@ -12,7 +12,7 @@
 struct kd_curve_row { KD_CURVE_COLUMNS_(KD_CURVE_MEMBER) };
 #undef KD_CURVE_MEMBER
 
-/* Of frames that carry light, whether the scene has spots or not. "csv" has a line of names, "json" is {"frames": [{name: value, ...},
+/* This series takes frames that carry light, whether the scene has spots or not. "csv" has a line of names, "json" is {"frames": [{name: value, ...},
  * ...]}: what is not there is empty, or null. */
 extern const struct kd_series kd_light_curve;
 

@@ -1,5 +1,5 @@
-/* What a frame can become: bytes of a media type. One table, from which renders, jobs, sessions and the command line pick: by the name of
- * a format, by what a client accepts, by the end of a file's name. Any thread.
+/* A format is what a frame can become: bytes of a media type. One table, from which renders, jobs, sessions and the command line pick: by the name
+ * of a format, by what a client accepts, by the end of a file's name. Any thread.
  *
  * A format is one C file that defines kd_format_NAME, and its name in KD_FORMATS. */
 #ifndef KD_RENDER_OUTPUT_FORMAT_H

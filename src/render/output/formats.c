@@ -1,4 +1,4 @@
-/* The table of format.h, alone: a test may bring its own. */
+/* This file has the table of format.h alone: a test may bring its own. */
 #include "render/output/format.h"
 
 #define ENTRY(name) &kd_format_##name,

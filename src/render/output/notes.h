@@ -1,4 +1,4 @@
-/* What a file tells of its picture, whatever its format: enough to render it again, and how it was made. Any thread. */
+/* Notes are what a file tells of its picture, whatever its format: enough to render it again, and how it was made. Any thread. */
 #ifndef KD_RENDER_OUTPUT_NOTES_H
 #define KD_RENDER_OUTPUT_NOTES_H
 

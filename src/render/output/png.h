@@ -1,4 +1,4 @@
-/* A frame as a PNG file that can be rendered again from itself: kd_format_png. Any thread.
+/* kd_format_png makes of a frame a PNG file that can be rendered again from itself. Any thread.
  *
  * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations"
  * (one a line), "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software". None with KD_EFFORT_LIVE. */

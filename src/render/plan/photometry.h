@@ -1,4 +1,4 @@
-/* How much light a picture gets and where its centre is, from linear radiance: the same at any exposure, and in any resolution but
+/* Photometry says how much light a picture gets and where its centre is, from linear radiance: the same at any exposure, and in any resolution but
  * for what falls between its rays.
  *
  * The flux is the sum over the pixels of luminance times solid angle. At infinity that is the area in the image plane, so that the

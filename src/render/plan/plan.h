@@ -145,7 +145,7 @@ static inline uint64_t kd_plan_followed_most(const struct kd_plan *plan)
     return uniform / 4 - plan->rays - plan->critical * plan->critical_pixels;
 }
 
-/* Of linear light, a pixel. */
+/* Linear light takes so many bytes a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }
 
 /* Where points of light are spread: fixed-point numbers of a band of pixels; and pairs of a ray and a point of one slice (frame/stars.c). */

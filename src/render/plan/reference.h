@@ -1,4 +1,4 @@
-/* docs/approximations.md, as text: every sentence that a plan may have, by emitter. Any thread. */
+/* This writes docs/approximations.md: every sentence that a plan may have, by emitter. Any thread. */
 #ifndef KD_RENDER_PLAN_REFERENCE_H
 #define KD_RENDER_PLAN_REFERENCE_H
 

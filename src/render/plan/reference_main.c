@@ -1,4 +1,4 @@
-/* Print docs/approximations.md. */
+/* This program prints docs/approximations.md. */
 #include "render/plan/reference.h"
 
 #include <stdio.h>

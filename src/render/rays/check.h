@@ -1,4 +1,4 @@
-/* Whether a request for rays can be answered at all. Any thread. */
+/* This says whether a request for rays can be answered at all. Any thread. */
 #ifndef KD_RENDER_RAYS_CHECK_H
 #define KD_RENDER_RAYS_CHECK_H
 

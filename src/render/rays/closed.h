@@ -1,4 +1,4 @@
-/* The closed engine, and the redshift of any engine's crossings. Private to src/render; any thread. */
+/* The closed engine follows rays in closed form; the redshift of any engine's crossings is found here, too. Private to src/render; any thread. */
 #ifndef KD_RENDER_RAYS_CLOSED_H
 #define KD_RENDER_RAYS_CLOSED_H
 

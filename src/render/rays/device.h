@@ -1,4 +1,4 @@
-/* The engines of the device. Private to src/render; render thread only. */
+/* These engines follow rays on the device. Private to src/render; render thread only. */
 #ifndef KD_RENDER_RAYS_DEVICE_H
 #define KD_RENDER_RAYS_DEVICE_H
 

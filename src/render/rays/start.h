@@ -1,5 +1,5 @@
-/* Where a listed ray starts in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t, phi) -> (-t, -phi), in
- * which a ray that is traced back is a photon that flies away from the observer. Double precision, pure, any thread. */
+/* This finds where a listed ray starts in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t, phi) -> (-t, -phi), in which a ray
+ * that is traced back is a photon that flies away from the observer. Double precision, pure, any thread. */
 #ifndef KD_RENDER_RAYS_START_H
 #define KD_RENDER_RAYS_START_H
 

@@ -1,5 +1,5 @@
-/* One ray step by step, as the device takes them: the kernels of device.c compiled with KD_TRACE, which write what they have
- * after each step. For `kerrd rays --trace`. Render thread. */
+/* This tells one ray step by step, as the device takes them: the kernels of device.c are compiled with KD_TRACE, and write what they have after each
+ * step. For `kerrd rays --trace`. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 

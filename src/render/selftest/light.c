@@ -1,4 +1,4 @@
-/* Brightness: from a ray to the numbers of a file. */
+/* These parts of the self-test judge brightness, from a ray to the numbers of a file. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"

@@ -1,4 +1,4 @@
-/* The kernels of the lens map against known rays, each the one ray of a picture of one pixel. */
+/* This part of the self-test judges the kernels of the lens map by known rays, each the one ray of a picture of one pixel. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"

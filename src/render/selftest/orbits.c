@@ -1,4 +1,5 @@
-/* Radii of circular orbits, orbits that are not circles, and the flux of the disk, in double precision on the CPU. */
+/* These parts of the self-test judge radii of circular orbits, orbits that are not circles, and the flux of the disk, in double precision on the
+ * CPU. */
 #include "render/selftest/parts.h"
 
 #include "physics/disk.h"

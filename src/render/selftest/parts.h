@@ -1,4 +1,4 @@
-/* The parts of the self-test. Private to src/render; render thread. */
+/* The self-test has these parts. Private to src/render; render thread. */
 #ifndef KD_RENDER_SELFTEST_PARTS_H
 #define KD_RENDER_SELFTEST_PARTS_H
 

@@ -1,4 +1,4 @@
-/* Listed rays by every engine: end points, deflections, and on which side of the critical curve a ray falls in. */
+/* This part of the self-test judges listed rays by every engine: end points, deflections, and on which side of the critical curve a ray falls in. */
 #include "render/selftest/parts.h"
 
 #include "render/device/internal.h"

@@ -1,4 +1,4 @@
-/* Made by tests/oracle/selftest_reference.py; do not edit. */
+/* These numbers are made by tests/oracle/selftest_reference.py; do not edit. */
 #include "render/selftest/reference.h"
 
 #include <math.h>

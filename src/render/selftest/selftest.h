@@ -1,5 +1,5 @@
-/* Can this device be trusted? Rays, orbits, radii, brightnesses and encodings that are known from elsewhere, computed here by
- * the same calls that pictures and answers are made with, each error beside its bound. A few seconds on two CPU cores.
+/* The self-test says whether a device can be trusted. Rays, orbits, radii, brightnesses and encodings that are known from elsewhere, computed here
+ * by the same calls that pictures and answers are made with, each error beside its bound. A few seconds on two CPU cores.
  *
  * What a bound allows for is said where it is set: so many operations of the unit roundoff each, times how much the answer
  * amplifies them (reference.h), and what the steps of a method lose. */

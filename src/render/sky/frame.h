@@ -1,4 +1,4 @@
-/* Which way a sky is turned. Rotations between three frames: that of the hole, z along its spin, x towards azimuth 0; equatorial, J2000, x
+/* This says which way a sky is turned. Rotations between three frames: that of the hole, z along its spin, x towards azimuth 0; equatorial, J2000, x
  * towards the equinox; galactic, x towards l = 0. All are right-handed. Double precision; pure, any thread. */
 #ifndef KD_RENDER_SKY_FRAME_H
 #define KD_RENDER_SKY_FRAME_H

@@ -1,4 +1,4 @@
-/* A Milky Way that is made up: a smooth band and a bulge, star clouds, and dust in front of them, by noise of a seed.
+/* This makes up a Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, by noise of a seed.
  *
  * The profiles are fits by eye to photographs; the dust takes 1.35 times as much of blue light as of green, and 0.72 times of red (J. Cardelli,
  * G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as that of the sky: some 21 magnitudes a square arcsecond where it is
@@ -22,7 +22,7 @@ static float at(const struct clouds *c, unsigned x, unsigned y, unsigned z)
 static float mix(float a, float b, float t) { return a + t * (b - a); }
 static float eased(float t) { return t * t * (3 - 2 * t); }
 
-/* Of mean 0, in [-1, 1]. The coordinates are positive. */
+/* Noise has mean 0 and lies in [-1, 1]. The coordinates are positive. */
 static float noise(const struct clouds *c, const float p[3])
 {
     const unsigned x = (unsigned)p[0], y = (unsigned)p[1], z = (unsigned)p[2];

@@ -1,5 +1,5 @@
-/* The light that is spread over a sky, as a picture of it in galactic coordinates: equirectangular, l = 0 in its middle, l growing to the
- * left, the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a square arcsecond. Pure; any thread.
+/* A panorama is the light that is spread over a sky, as a picture of it in galactic coordinates: equirectangular, l = 0 in its middle, l growing to
+ * the left, the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a square arcsecond. Pure; any thread.
  *
  * Kept as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two rows. Texels are words of a shared
  * exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so that level k begins at

@@ -1,4 +1,4 @@
-/* Random numbers from a counter: splitmix64 (Steele, Lea & Flood 2014). Pure. */
+/* These random numbers come from a counter: splitmix64 (Steele, Lea & Flood 2014). Pure. */
 #ifndef KD_RENDER_SKY_RANDOM_H
 #define KD_RENDER_SKY_RANDOM_H
 

@@ -1,4 +1,4 @@
-/* Stars of a sky, as points: the Hipparcos catalogue, or as many that are made up. Pure; any thread.
+/* The stars of a sky are points: those of the Hipparcos catalogue, or as many that are made up. Pure; any thread.
  *
  * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. The flux of a star is in units of the light that a
  * steradian of surface brightness KD_SKY_UNIT_MAG sends: F = 10^(-0.4 (V - 21)) square arcseconds. What is spread over the sky and what is

@@ -1,5 +1,5 @@
-/* GET /v1/accuracy: the table that `kerrd bench accuracy` keeps for this device, as it is now on disk: read by the workers, as a
- * disk may take its time. */
+/* GET /v1/accuracy answers with the table that `kerrd bench accuracy` keeps for this device, as it is now on disk: the workers read it, as a disk
+ * may take its time. */
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/render/task.h"

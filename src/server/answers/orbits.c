@@ -1,4 +1,4 @@
-/* POST /v1/orbits: integrated in turns by workers; long ones may be streamed while they are. */
+/* Workers integrate the orbits of POST /v1/orbits in turns; long answers may be streamed while they do. */
 #include "server/answers/orbits.h"
 
 #include "orbit/feed.h"

@@ -1,4 +1,4 @@
-/* Reads and writes the files of assets, these and no others, and follows no link. Private to store.c. */
+/* This reads and writes the files of assets, these and no others, and follows no link. Private to store.c. */
 #ifndef KD_SERVER_ASSET_FOLDER_H
 #define KD_SERVER_ASSET_FOLDER_H
 

@@ -1,5 +1,5 @@
-/* Assets: bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a folder too if the server has
- * one: DIRECTORY/assets/HASH.png with HASH.json beside it, each written as a whole, the latter last. Any thread.
+/* Assets are bytes that clients put here, for scenes to name by their SHA-256. They are kept in memory, and in a folder too if the server has one:
+ * DIRECTORY/assets/HASH.png with HASH.json beside it, each written as a whole, the latter last. Any thread.
  *
  * Errors name no path: clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H

@@ -1,4 +1,4 @@
-/* Bytes that are held for requests, in all and by client: bodies that are being received, answers that are not taken yet. Any thread.
+/* This counts bytes that are held for requests, in all and by client: bodies that are being received, answers that are not taken yet. Any thread.
  *
  * No client has more than its share, which leaves room for others; and some room is kept for small ones. */
 #ifndef KD_SERVER_HTTP_BYTES_H

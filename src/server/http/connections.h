@@ -1,6 +1,5 @@
-/* Open connections and their deadlines. libmicrohttpd's timeout counts idle time only, so that one byte every
- * few seconds holds a connection for ever: each stage of a request has a deadline of its own here, and a
- * sweep shuts down the sockets that missed it.
+/* Open connections have deadlines. libmicrohttpd's timeout counts idle time only, so that one byte every few seconds holds a connection for ever:
+ * each stage of a request has a deadline of its own here, and a sweep shuts down the sockets that missed it.
  *
  * A socket stays open until its connection is removed, which takes the same lock as the sweep. Any thread. */
 #ifndef KD_SERVER_HTTP_CONNECTIONS_H

@@ -1,4 +1,4 @@
-/* Numbers for /metrics. */
+/* These numbers are counted for /metrics. */
 #ifndef KD_SERVER_HTTP_COUNTS_H
 #define KD_SERVER_HTTP_COUNTS_H
 

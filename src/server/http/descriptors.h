@@ -1,4 +1,4 @@
-/* How many connections this process has descriptors for. */
+/* This says how many connections this process has descriptors for. */
 #ifndef KD_SERVER_HTTP_DESCRIPTORS_H
 #define KD_SERVER_HTTP_DESCRIPTORS_H
 

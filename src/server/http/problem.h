@@ -1,4 +1,4 @@
-/* Errors as RFC 9457 problem documents. */
+/* Errors are answered as RFC 9457 problem documents. */
 #ifndef KD_SERVER_HTTP_PROBLEM_H
 #define KD_SERVER_HTTP_PROBLEM_H
 

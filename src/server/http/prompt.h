@@ -1,4 +1,4 @@
-/* Threads that do little and are waited for: they run soon after they wake, also where all cores are busy. */
+/* Threads that do little and are waited for run soon after they wake, also where all cores are busy. */
 #ifndef KD_SERVER_HTTP_PROMPT_H
 #define KD_SERVER_HTTP_PROMPT_H
 

@@ -1,4 +1,4 @@
-/* Answers: the headers that all of them carry, the deadline for taking them. HTTP thread only.
+/* All answers carry the same headers, and have a deadline for being taken. HTTP thread only.
  *
  * Functions that return an MHD_Result give MHD_NO when memory ran out, which closes the connection. */
 #ifndef KD_SERVER_HTTP_REPLY_H

@@ -1,4 +1,4 @@
-/* One HTTP request from its first line to its last byte. HTTP thread only. */
+/* A request is kept here from its first line to its last byte. HTTP thread only. */
 #ifndef KD_SERVER_HTTP_REQUEST_H
 #define KD_SERVER_HTTP_REQUEST_H
 

@@ -1,4 +1,4 @@
-/* What is served where. The table also is the source of /openapi.json and of the Allow header. */
+/* A route says what is served where. The table also is the source of /openapi.json and of the Allow header. */
 #ifndef KD_SERVER_HTTP_ROUTE_H
 #define KD_SERVER_HTTP_ROUTE_H
 

@@ -1,4 +1,4 @@
-/* Who has the device next: fair shares of its time. Pure: no clock, no thread, no allocation. One owner at a time.
+/* This says who has the device next, by fair shares of its time. Pure: no clock, no thread, no allocation. One owner at a time.
  *
  * The device's time is shared among clients, and each client's part among its classes of work by their weights. Both by start-time
  * fair queueing (Goyal, Vin & Cheng 1996): who is served pays with the time it took, divided by its weight; who has paid least is
@@ -6,7 +6,7 @@
  * made to wait for having been the only one. So a client with little to do waits for the slice that is under way, and for no more
  * than its share of the others, however much another one wants.
  *
- * Of the works of one class and one client that one is next which would end first if each had the same part of the time (Friedman &
+ * Among the works of one class and one client that one is next which would end first if each had the same part of the time (Friedman &
  * Henderson 2003): short work goes first, and yet the longest ends no later than it would if all went on side by side.
  *
  *     kd_shares_add(&shares, &work->claim);

@@ -1,4 +1,4 @@
-/* Long jobs in turns: a few workers do a piece of each by turns, so that a short one does not wait for a long one. */
+/* Long jobs take turns: a few workers do a piece of each, so that a short one does not wait for a long one. */
 #ifndef KD_SERVER_HTTP_TURNS_H
 #define KD_SERVER_HTTP_TURNS_H
 

@@ -1,4 +1,4 @@
-/* What GET /v1/jobs/ID/result may give, by the name that `format=` has for it. Pure; any thread. */
+/* GET /v1/jobs/ID/result may give these, by the name that `format=` has for each. Pure; any thread. */
 #ifndef KD_SERVER_JOB_FORMATS_H
 #define KD_SERVER_JOB_FORMATS_H
 

@@ -1,4 +1,4 @@
-/* POST /v1/jobs; how far one is, by asking and as events; its end. */
+/* These routes take POST /v1/jobs, tell how far a job is, by asking and as events, and end it. */
 #include "base/json.h"
 #include "base/clock.h"
 #include "server/job/routes.h"

@@ -1,4 +1,4 @@
-/* What openapi.json says of /v1/assets. */
+/* This is what openapi.json says of /v1/assets. */
 #ifndef KD_SERVER_OPENAPI_ASSETS_H
 #define KD_SERVER_OPENAPI_ASSETS_H
 

@@ -1,4 +1,4 @@
-/* What openapi.json says of POST /v1/jobs. */
+/* This is what openapi.json says of POST /v1/jobs. */
 #ifndef KD_SERVER_OPENAPI_JOBS_H
 #define KD_SERVER_OPENAPI_JOBS_H
 

@@ -1,4 +1,4 @@
-/* Media types with the schemas of what they carry, for openapi.json. */
+/* These are media types with the schemas of what they carry, for openapi.json. */
 #ifndef KD_SERVER_OPENAPI_MEDIA_H
 #define KD_SERVER_OPENAPI_MEDIA_H
 

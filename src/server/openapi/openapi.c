@@ -1,5 +1,4 @@
-/* The service described by itself: OpenAPI 3.1 from the route table, the scene's schema and the problem
- * table. */
+/* The service describes itself here: OpenAPI 3.1 from the route table, the scene's schema and the problem table. */
 #include "server/openapi/openapi.h"
 #include "render/output/format.h"
 #include "server/http/served.h"

@@ -1,4 +1,4 @@
-/* The service described by itself. Any thread. */
+/* The service describes itself by this document. Any thread. */
 #ifndef KD_SERVER_OPENAPI_OPENAPI_H
 #define KD_SERVER_OPENAPI_OPENAPI_H
 

@@ -1,4 +1,4 @@
-/* What openapi.json says of POST /v1/orbits. */
+/* This is what openapi.json says of POST /v1/orbits. */
 #ifndef KD_SERVER_OPENAPI_ORBITS_H
 #define KD_SERVER_OPENAPI_ORBITS_H
 

@@ -1,4 +1,4 @@
-/* /v1/physics/NAME in openapi.json: a path a quantity. Private to src/server. */
+/* This puts /v1/physics/NAME into openapi.json, a path a quantity. Private to src/server. */
 #ifndef KD_SERVER_OPENAPI_PHYSICS_H
 #define KD_SERVER_OPENAPI_PHYSICS_H
 

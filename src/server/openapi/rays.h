@@ -1,4 +1,4 @@
-/* What /openapi.json says of POST /v1/rays. */
+/* This is what openapi.json says of POST /v1/rays. */
 #ifndef KD_SERVER_OPENAPI_RAYS_H
 #define KD_SERVER_OPENAPI_RAYS_H
 

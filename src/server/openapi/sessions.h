@@ -1,4 +1,4 @@
-/* What /openapi.json says of the routes of a session that take more than a scene. */
+/* This is what openapi.json says of the routes of a session that take more than a scene. */
 #ifndef KD_SERVER_OPENAPI_SESSIONS_H
 #define KD_SERVER_OPENAPI_SESSIONS_H
 

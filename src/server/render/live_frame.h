@@ -1,4 +1,4 @@
-/* One encoded frame of a session and what is said of it; shared by all who watch, freed by the last. Constant once made. */
+/* A live frame is one encoded frame of a session and what is said of it; all who watch share it, and the last frees it. Constant once made. */
 #ifndef KD_SERVER_RENDER_LIVE_FRAME_H
 #define KD_SERVER_RENDER_LIVE_FRAME_H
 

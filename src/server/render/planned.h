@@ -1,5 +1,5 @@
-/* The scene that a request asks for, with its plan. What takes more than a moment, a large body or a picture of many pixels, is done
- * by the workers: the HTTP thread serves everybody. HTTP thread. */
+/* This makes the plan of the scene that a request asks for. What takes more than a moment, a large body or a picture of many pixels, is done by the
+ * workers: the HTTP thread serves everybody. HTTP thread. */
 #ifndef KD_SERVER_RENDER_PLANNED_H
 #define KD_SERVER_RENDER_PLANNED_H
 

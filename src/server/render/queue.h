@@ -1,4 +1,4 @@
-/* What wants the device: the bounded queue in front of it, who has it when, and the encoders behind it.
+/* All that wants the device goes through here: the bounded queue in front of it, who has it when, and the encoders behind it.
  *
  * waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
  *

@@ -1,4 +1,4 @@
-/* The scene that a request asks for, from its query and body. HTTP thread. */
+/* This finds the scene that a request asks for, from its query and body. HTTP thread. */
 #ifndef KD_SERVER_RENDER_SCENE_SOURCE_H
 #define KD_SERVER_RENDER_SCENE_SOURCE_H
 

@@ -1,5 +1,5 @@
-/* A request that workers answer by turns (http/turns.h): suspended meanwhile, given up when its client has left, the server stops at
- * once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
+/* A task is a request that workers answer by turns (http/turns.h): it is suspended meanwhile, and given up when its client has left, the server
+ * stops at once or its time is over. Owned by its request and freed with it; whoever makes one embeds it.
  *
  *     if (!kd_task_admit(request, queue, "quantities", &refused)) return refused;
  *     kd_task_init(&mine->task, request, queue); request->task = &mine->task; set work and free

@@ -1,4 +1,4 @@
-/* Who has the device, and what is done with it. */
+/* This decides who has the device, and what is done with it. */
 #include "base/clock.h"
 #include "server/render/internal.h"
 

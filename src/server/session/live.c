@@ -1,4 +1,4 @@
-/* The frames of a session: one by one as they are asked for, and as streams. */
+/* This sends the frames of a session: one by one as they are asked for, and as streams. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"

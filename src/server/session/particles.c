@@ -1,5 +1,5 @@
-/* GET /v1/sessions/ID/particles: where the particles of a session are, as numbers. They are listed a slice at a time,
- * between which others have the device. */
+/* GET /v1/sessions/ID/particles says where the particles of a session are, as numbers. They are listed a slice at a time, between which others have
+ * the device. */
 #include "scene/number.h"
 #include "base/clock.h"
 #include "server/http/reply.h"
