@@ -15,6 +15,7 @@
 #define KD_TRAIT_VISIBLE 8u /* brightness as the eye weighs it instead of bolometric */
 #define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE)
 #define KD_BUFFERS_disk(B)
+#define KD_PASS_disk(P)
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -37,6 +37,7 @@
 #define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)
 #define KD_TRAITS_gas(T) KD_TRAITS_disk(T) T(SLOW) T(GAS_DEEP) T(GAS_OCTAVES)
 #define KD_BUFFERS_gas(B)
+#define KD_PASS_gas(P)
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -1,4 +1,4 @@
-/* The disk as particles: brightness is that of the smooth disk times their number over the mean (src/render/emit/particles.h). */
+/* The disk shines as particles: its brightness is that of the smooth disk times their number over the mean (src/render/emit/particles.h). */
 #ifndef KD_BLOCK_particles
 #define KD_BLOCK_particles(F, U, A)                                                                             \
     U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */                                   \
@@ -6,6 +6,7 @@
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
 #define KD_BUFFERS_particles(B) B(0, float, density) /* on the grid, then on that of plunge.glsl */
+#define KD_PASS_particles(P) P(particles, PARTICLE, "particle", 40)
 #endif
 
 #ifdef KD_EMIT_CODE

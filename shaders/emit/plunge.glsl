@@ -21,6 +21,7 @@
     T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
 #define KD_TRAITS_plunge(T) KD_TRAITS_disk(T)
 #define KD_BUFFERS_plunge(B)
+#define KD_PASS_plunge(P)
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -4,6 +4,7 @@
 #define KD_TABLES_ringdown(T)
 #define KD_TRAITS_ringdown(T)
 #define KD_BUFFERS_ringdown(B)
+#define KD_PASS_ringdown(P)
 #endif
 
 #ifdef KD_EMIT_CODE

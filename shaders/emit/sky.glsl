@@ -1,4 +1,4 @@
-/* What lies at infinity.
+/* The sky is what lies at infinity, where rays end that escape.
  *
  * grid: a celestial sphere: four quadrants in quiet colours, meridians and parallels in white. The line's width is a fortieth of the
  * spacing. Of all others, light that is spread over the sky, and stars.
@@ -27,6 +27,7 @@
 #define KD_TABLES_sky(T)
 #define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS)
 #define KD_BUFFERS_sky(B) B(1, uint, panorama) B(2, uint, point_light)
+#define KD_PASS_sky(P)
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -1,4 +1,4 @@
-/* Hot spots, whose light left them so long before that which shows `phi`; `apart` is their luminance.
+/* Hot spots shine here: their light left them so long before that which shows `phi`; `apart` is their luminance.
  *
  * The gas of each place shines, with the g of its own orbit: the figure goes round with its centre, what it is made of shears.
  * I_nu/nu^3 is constant along the ray: I_nu ~ nu^-index is seen times g^(3 + index). Such spots, but as spheres in a hot flow:
@@ -17,6 +17,7 @@
 #define KD_TABLES_spots(T)
 #define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(APART) T(SPOTS)
 #define KD_BUFFERS_spots(B)
+#define KD_PASS_spots(P)
 #endif
 
 #ifdef KD_EMIT_CODE

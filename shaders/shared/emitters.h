@@ -12,6 +12,9 @@
  *   KD_TABLES_name(T)       which tables: T(table, rows), rows of four floats
  *   KD_TRAITS_name(T)       which variants it has: T(trait), bits KD_TRAIT_trait of its word, some of which it may share with others
  *   KD_BUFFERS_name(B)      which buffers it fills on the device before light is: B(number, type, member), numbered from 0 among all emitters'
+ *   KD_PASS_name(P)         the pass of its own that fills them, if it has one: P(name, ID, word, guess). It is timed and named in plans by the
+ *                           emitter's name, its kernel is comp/name.comp; what an invocation costs is learned from frames as the figure KD_NS_ID,
+ *                           which GET /v1/device calls by the word, and lavapipe's guess is the nanoseconds until then
  *
  * and holds the functions, for whoever defines KD_EMIT_CODE. src/render/emit/name.c fills numbers and tables in (src/render/emit/emitter.h).
  * Both files are found by the name: the build reads this list (shaders/meson.build). */
@@ -36,6 +39,9 @@
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
 #define KD_EMIT_BUFFERS KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
+/* All passes of their own, by the KD_P(name, ID, word, guess) that is defined there (render/plan/pass.h). */
+#define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
+#define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
 /* Bits that each word has: the scene has the emitter; its luminance is kept apart as well, so that its flux and centroid are measured by
  * themselves. There is room for that of one. */

@@ -4,7 +4,8 @@
 
 #include "physics/orbit_bound.h"
 #include "render_support.h"
-#include "render/device/deposit.h"
+#include "render/device/prepare.h"
+#include "render/emit/deposit.h"
 
 #include <math.h>
 
@@ -26,8 +27,10 @@ static struct kd_scene particle_scene(double spin, double epicycles)
 
 static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
 {
+    struct kd_own_work work;
     scene->top.time = time;
-    OK(kd_particles_places(renderer, scene, 5, 20000 / N, N, out, &error));
+    OK(kd_prepare_asked(renderer, KD_EMITTER_particles, &work, &error));
+    OK(kd_particles_places(&work, scene, 5, 20000 / N, N, out, &error));
 }
 
 /* The i-th of them swings about this. */

@@ -5,7 +5,8 @@
 #include "physics/kerr.h"
 #include "render/emit/plunging.h"
 #include "render_support.h"
-#include "render/device/deposit.h"
+#include "render/device/prepare.h"
+#include "render/emit/deposit.h"
 
 #include <math.h>
 
@@ -27,8 +28,10 @@ static struct kd_scene plunging_scene(double spin)
 
 static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
 {
+    struct kd_own_work work;
     scene->top.time = time;
-    OK(kd_particles_places(renderer, scene, 0, 1, FALLING, out, &error));
+    OK(kd_prepare_asked(renderer, KD_EMITTER_particles, &work, &error));
+    OK(kd_particles_places(&work, scene, 0, 1, FALLING, out, &error));
 }
 
 /* dr/dt and dphi/dt of a body with the ISCO's E and L that falls: the inverse metric raises them, u.u = -1 gives u^r. */

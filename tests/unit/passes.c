@@ -1,7 +1,7 @@
 /* The list of passes holds together: none is left out of plans, and each figure of cost is one that some pass is measured by. So do
  * the emitters that have one. */
 #include "render/accuracy/table.h"
-#include "render/device/prepare.h"
+#include "render/emit/emitter.h"
 #include "render/frame/frame.h"
 #include "render/plan/plan.h"
 
@@ -116,8 +116,9 @@ static void emitters_are_prepared(void **state)
     struct kd_scene scene;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         const struct kd_emitter *e = kd_emitters[i];
-        assert_true(!e->device_bytes == !kd_preparations[i] && (e->device_bytes || !e->invocations));
+        assert_true(!e->device_bytes == !e->own && (e->own || !e->invocations));
         assert_true(!e->invocations == !kd_pass_find(e->name));
+        assert_true(!e->own || (e->own->bytes && e->own->prepare && e->own->buffers && e->own->forget && e->own->finish));
     }
     kd_scene_smooth(&scene);
     assert_true(!kd_emit_device_bytes(&scene) && !kd_emit_invocations(&scene, KD_EMITTER_particles));

@@ -5,6 +5,7 @@
 #include "render/device/verdict.h"
 #include "render/device/kernels.h"
 #include "render/device/memory_share.h"
+#include "render/device/prepare.h"
 #include "render/device/renderer.h"
 #include "render/device/skies.h"
 #include "render/device/store.h"
@@ -12,18 +13,6 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-
-struct kd_particles {
-    struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, and kept */
-    struct kd_scene of; /* what is in `guides`, */
-    double time;        /* at this time: slices of a list, and frames that refine, find it there */
-};
-
-/* Buffers that emitters have of their own (prepare.h). */
-struct kd_prepared {
-    struct kd_particles particles;
-    struct kd_sky_buffers sky;
-};
 
 /* One kd_render_aside works in this. Its lens maps are kept for whoever can use them, until their memory is needed. */
 struct kd_aside {

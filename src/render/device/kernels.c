@@ -20,14 +20,12 @@
 #include "bloom_gather_texels.spv.h"
 #include "bloom_up.spv.h"
 #include "bloom_up_texels.spv.h"
-#include "density.spv.h"
 #include "expose.spv.h"
 #include "footprint.spv.h"
 #include "layers.spv.h"
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
 #include "photometry.spv.h"
-#include "particles.spv.h"
 #include "post.spv.h"
 #include "post_bloom.spv.h"
 #include "post_bloom_heat.spv.h"
@@ -54,13 +52,7 @@
 _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN_COUNT <= KD_VK_MAX_STORAGE,
                "the kernels of light bind all buffers of the emitters, the lens map and what they write");
 
-static const struct {
-    const char *name;
-    const uint32_t *spirv;
-    size_t bytes;
-    uint32_t n_buffers, push_bytes;
-    enum kd_vk_kind kinds[KD_VK_MAX_BINDINGS];
-} sources[] = {
+static const struct kd_vk_pipeline_params sources[] = {
     [KD_KERNEL_LENS_CLOSED] = { "lens_closed", kd_spv_lens_closed, sizeof kd_spv_lens_closed, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_LENS_MAP] = { "lens_map", kd_spv_lens_map, sizeof kd_spv_lens_map, 3, sizeof(struct kd_slice), { [2] = KD_VK_UNIFORM } },
     [KD_KERNEL_FOOTPRINT] = { "footprint", kd_spv_footprint, sizeof kd_spv_footprint, 1, sizeof(struct kd_footprint_push) },
@@ -85,8 +77,6 @@ static const struct {
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                            { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
-    [KD_KERNEL_PARTICLES] = { "particles", kd_spv_particles, sizeof kd_spv_particles, 2, sizeof(struct kd_particles_push) },
-    [KD_KERNEL_DENSITY] = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },
@@ -128,22 +118,15 @@ static const struct {
                                     { KD_VK_TEXELS_RGBA, KD_VK_TEXELS_RGBA } },
 };
 
-static enum kd_status make(struct kd_vk *vk, enum kd_kernel kernel, const uint32_t *constants, size_t n,
+static enum kd_status make(struct kd_vk *vk, const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
                            struct kd_vk_pipeline **out, struct kd_error *error)
 {
     struct kd_vk_spec spec[KD_KERNEL_MAX_CONSTANTS];
+    struct kd_vk_pipeline_params params = *source;
     for (size_t i = 0; i < n; i++)
         spec[i] = (struct kd_vk_spec){ (uint32_t)i, constants[i] };
-    struct kd_vk_pipeline_params params = {
-        .name = sources[kernel].name,
-        .spirv = sources[kernel].spirv,
-        .spirv_bytes = sources[kernel].bytes,
-        .n_buffers = sources[kernel].n_buffers,
-        .push_bytes = sources[kernel].push_bytes,
-        .spec = spec,
-        .n_spec = n,
-    };
-    memcpy(params.kinds, sources[kernel].kinds, sizeof params.kinds);
+    params.spec = spec;
+    params.n_spec = n;
     return kd_vk_pipeline_create(vk, &params, out, error);
 }
 
@@ -151,13 +134,19 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error)
 {
+    return kd_kernels_get_of(kernels, vk, &sources[kernel], constants, n, out, error);
+}
+
+enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
+                                 const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out, struct kd_error *error)
+{
     uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
     struct kd_kernel_entry *oldest = &kernels->entries[0];
     for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
         key[i] = constants[i];
     for (size_t i = 0; i < KD_KERNELS_KEPT; i++) {
         struct kd_kernel_entry *e = &kernels->entries[i];
-        if (e->pipeline && e->kernel == kernel && !memcmp(e->constants, key, sizeof key)) {
+        if (e->pipeline && e->source == source && !memcmp(e->constants, key, sizeof key)) {
             e->used = ++kernels->clock;
             *out = e->pipeline;
             return KD_OK;
@@ -166,11 +155,11 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
             oldest = e;
     }
     struct kd_vk_pipeline *pipeline;
-    enum kd_status status = make(vk, kernel, key, n, &pipeline, error);
+    enum kd_status status = make(vk, source, key, n, &pipeline, error);
     if (status)
         return status;
     kd_vk_pipeline_destroy(vk, oldest->pipeline);
-    oldest->kernel = kernel;
+    oldest->source = source;
     memcpy(oldest->constants, key, sizeof key);
     oldest->pipeline = pipeline;
     oldest->used = ++kernels->clock;

@@ -1,4 +1,4 @@
-/* The compute pipelines of a renderer, made when a plan first needs them and kept. Render thread only. */
+/* The compute pipelines of a renderer are made when a plan first needs them, and kept. Render thread only. */
 #ifndef KD_RENDER_DEVICE_KERNELS_H
 #define KD_RENDER_DEVICE_KERNELS_H
 
@@ -18,8 +18,6 @@ enum kd_kernel {
     KD_KERNEL_RAYS_TRACE_F64,
     KD_KERNEL_RAYS_KS_TRACE_F32,
     KD_KERNEL_RAYS_KS_TRACE_F64,
-    KD_KERNEL_PARTICLES,
-    KD_KERNEL_DENSITY,
     KD_KERNEL_STAR_SEARCH,
     KD_KERNEL_STAR_SEARCH_TEXELS,
     KD_KERNEL_STAR_IMAGES,
@@ -57,7 +55,7 @@ enum kd_kernel {
 #define KD_KERNELS_KEPT 48
 
 struct kd_kernel_entry {
-    enum kd_kernel kernel;
+    const struct kd_vk_pipeline_params *source; /* in constant data */
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
@@ -71,6 +69,9 @@ struct kd_kernels {
 enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
+/* The same of a kernel that is not in the list: emitters have their own (render/emit/own.h). */
+enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
+                                 const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
 /* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the time, but how
  * many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);

@@ -1,21 +1,50 @@
 #include "render/device/prepare.h"
 
-#include "render/device/deposit.h"
 #include "render/device/internal.h"
-#include "render/device/skies.h"
 
-const struct kd_preparation *const kd_preparations[KD_EMITTER_COUNT] = {
-    [KD_EMITTER_particles] = &kd_prepare_particles,
-    [KD_EMITTER_sky] = &kd_prepare_sky,
-};
+#include <stdlib.h>
+
+enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buffer **buffer, uint64_t bytes, enum kd_vk_memory memory,
+                               const char *name, struct kd_error *error)
+{
+    return kd_store_at_least(work->vk, buffer, bytes, memory, name, error);
+}
+
+enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel, const uint32_t *constants, size_t n,
+                             const struct kd_vk_pipeline **out, struct kd_error *error)
+{
+    return kd_kernels_get_of(&work->renderer->kernels, work->vk, kernel, constants, n, out, error);
+}
+
+static enum kd_status work_of(struct kd_renderer *r, struct kd_prepared *prepared, enum kd_emitter_number number, const struct kd_capacity *c,
+                              struct kd_own_work *out, struct kd_error *error)
+{
+    const struct kd_emitter *e = kd_emitters[number];
+    const struct kd_pass *pass = kd_pass_find(e->name);
+    if (!prepared->own[number])
+        prepared->own[number] = calloc(1, e->own->bytes);
+    if (!prepared->own[number])
+        return kd_error_set(error, KD_ENOMEM, "out of memory for %s", e->title);
+    *out = (struct kd_own_work) { r, r->vk, prepared->own[number], pass ? c->ns[pass->figure] : 0 };
+    return KD_OK;
+}
+
+enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number number, struct kd_own_work *out, struct kd_error *error)
+{
+    return work_of(r, &r->prepared, number, &r->capacity, out, error);
+}
 
 enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene, const struct kd_plan *plan,
                           const struct kd_capacity *c, struct kd_error *error)
 {
+    struct kd_own_work work;
     enum kd_status status = KD_OK;
-    for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_preparations[i] && plan->traits[i])
-            KD_TRY(kd_preparations[i]->prepare(r, prepared, scene, c, error));
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        if (!kd_emitters[i]->own || !plan->traits[i])
+            continue;
+        KD_TRY(work_of(r, prepared, i, c, &work, error));
+        KD_TRY(kd_emitters[i]->own->prepare(&work, scene, error));
+    }
 done:
     return status;
 }
@@ -25,20 +54,23 @@ void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_pla
     for (int i = 0; i < KD_OWN_COUNT; i++)
         out[i] = NULL;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_preparations[i] && plan->traits[i])
-            kd_preparations[i]->buffers(prepared, out);
+        if (prepared->own[i] && plan->traits[i])
+            kd_emitters[i]->own->buffers(prepared->own[i], out);
 }
 
 void kd_prepared_forget(struct kd_prepared *prepared)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_preparations[i])
-            kd_preparations[i]->forget(prepared);
+        if (prepared->own[i])
+            kd_emitters[i]->own->forget(prepared->own[i]);
 }
 
 void kd_prepared_finish(struct kd_prepared *prepared, struct kd_vk *vk)
 {
-    for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_preparations[i])
-            kd_preparations[i]->finish(prepared, vk);
+    for (int i = 0; i < KD_EMITTER_COUNT; i++) {
+        if (prepared->own[i])
+            kd_emitters[i]->own->finish(prepared->own[i], vk);
+        free(prepared->own[i]);
+        prepared->own[i] = NULL;
+    }
 }

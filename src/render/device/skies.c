@@ -122,11 +122,10 @@ static bool is_current(const struct kd_sky_buffers *b, const struct kd_scene *sc
            (b->of.milky_way > 0) == (scene->sky.milky_way > 0);
 }
 
-static enum kd_status prepare(struct kd_renderer *r, struct kd_prepared *own, const struct kd_scene *scene, const struct kd_capacity *c,
-                              struct kd_error *error)
+static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
 {
-    (void)c;
-    struct kd_sky_buffers *b = &own->sky;
+    struct kd_renderer *r = work->renderer;
+    struct kd_sky_buffers *b = work->own;
     enum kd_status status = KD_OK;
     if (scene->sky.model == KD_SKY_GRID || is_current(b, scene))
         return KD_OK;
@@ -144,16 +143,17 @@ done:
     return status;
 }
 
-static void buffers(const struct kd_prepared *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_panorama] = own->sky.panorama; }
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_panorama] = ((const struct kd_sky_buffers *)own)->panorama; }
 
-static void forget(struct kd_prepared *own) { own->sky.there = false; }
+static void forget(void *own) { ((struct kd_sky_buffers *)own)->there = false; }
 
-static void finish(struct kd_prepared *own, struct kd_vk *vk)
+static void finish(void *own, struct kd_vk *vk)
 {
-    kd_vk_buffer_destroy(vk, own->sky.panorama);
-    kd_vk_buffer_destroy(vk, own->sky.stars);
-    kd_vk_buffer_destroy(vk, own->sky.cells);
-    memset(&own->sky, 0, sizeof own->sky);
+    struct kd_sky_buffers *b = own;
+    kd_vk_buffer_destroy(vk, b->panorama);
+    kd_vk_buffer_destroy(vk, b->stars);
+    kd_vk_buffer_destroy(vk, b->cells);
+    *b = (struct kd_sky_buffers) { 0 };
 }
 
-const struct kd_preparation kd_prepare_sky = { prepare, buffers, forget, finish };
+const struct kd_own kd_own_sky = { sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish };

@@ -1,8 +1,10 @@
-/* A sky on the device: its panorama, and its stars sorted by their place. Render thread only. */
+/* A sky on the device is a panorama, which the transfer pass reads, and stars sorted by their place. Both are made on the host when the sky is
+ * another than the one before (kd_own_sky, render/emit/own.h): some tenths of a second for a Milky Way that is made up, of whose seeds the renderer
+ * keeps the last one; 30 ms for stars. Render thread only. */
 #ifndef KD_RENDER_DEVICE_SKIES_H
 #define KD_RENDER_DEVICE_SKIES_H
 
-#include "render/device/prepare.h"
+#include "render/emit/own.h"
 #include "scene/scene.h"
 
 #include <stddef.h>
@@ -15,9 +17,5 @@ struct kd_sky_buffers {
     struct kd_sky of;              /* what is in them, */
     bool there;                    /* if anything is */
 };
-
-/* The panorama is what the transfer pass reads. Made on the host when the sky is another than the one before: some tenths of a second for
- * a Milky Way that is made up, of whose seeds the renderer keeps the last one; 30 ms for stars. */
-extern const struct kd_preparation kd_prepare_sky;
 
 #endif

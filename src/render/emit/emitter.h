@@ -10,6 +10,7 @@
 #include "render/accuracy/engine.h"
 #include "render/emit/emission.h"
 #include "render/emit/motion.h"
+#include "render/emit/own.h"
 #include "scene/scene.h"
 
 #include <stdbool.h>
@@ -38,8 +39,9 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(const struct kd_scene *scene);  /* KD_LENS_...: what the lens map must hold for it; NULL: nothing */
     unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies; NULL: never */
-    /* Buffers of its own on the device, whose functions are in device/prepare.h, and invocations of the pass that fills them before light is,
-     * which has the emitter's name in plan/pass.h. NULL: none; the second alone: the host fills them. */
+    /* Buffers of its own on the device, how many bytes they have, and how many invocations the pass that fills them before light is, KD_PASS_name
+     * of its GLSL file. NULL: none; the last alone: the host fills them. */
+    const struct kd_own *own;
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */

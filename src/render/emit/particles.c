@@ -4,8 +4,9 @@
 
 #include "physics/epicyclic.h"
 #include "physics/kerr.h"
-#include "render/view/layout.h"
+#include "render/emit/deposit.h"
 #include "render/emit/plunging.h"
+#include "render/view/layout.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -327,6 +328,7 @@ const struct kd_emitter kd_emit_particles = {
     .traits = traits,
     .needs = kd_orbit_needs,
     .varies = kd_orbit_varies,
+    .own = &kd_own_particles,
     .device_bytes = device_bytes,
     .invocations = invocations,
     .reach = kd_disk_reach,

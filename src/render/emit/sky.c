@@ -1,4 +1,4 @@
-/* What lies at infinity: a drawn celestial grid, or stars and the light that is spread between them (shaders/emit/sky.glsl). */
+/* This is the sky as an emitter: a drawn celestial grid, or stars and the light that is spread between them (shaders/emit/sky.glsl). */
 #include "render/emit/emitter.h"
 
 #include "faces.h"
@@ -97,6 +97,7 @@ const struct kd_emitter kd_emit_sky = {
     .traits = traits,
     .needs = needs,
     .varies = varies,
+    .own = &kd_own_sky,
     .device_bytes = device_bytes,
     .fill = fill,
     .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera) },

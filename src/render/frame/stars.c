@@ -1,4 +1,4 @@
-/* Points of light: from a band's lens map to light over its pixels, before they are lit. */
+/* This pass finds points of light: from a band's lens map it makes light over its pixels, before they are lit. */
 #include "render/frame/job.h"
 
 #include "render/device/prepare.h"
@@ -22,7 +22,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum kd_kernel kernel, cons
 static enum kd_status slice(struct kd_frame_job *j, struct kd_vk_buffer *lens, const struct kd_stars_push *push, uint32_t rows, struct kd_vk_buffer *light)
 {
     struct kd_store *s = j->store;
-    const struct kd_sky_buffers *sky = &j->prepared->sky;
+    const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     const struct kd_vk_binding emission = { s->transfer, 0, sizeof(struct kd_emission), false };
     const struct kd_vk_binding tables = { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false };
     const bool texels = sky->n + 1 <= kd_vk_info(j->r->vk)->max_texels; /* a third of the time in software */
@@ -54,9 +54,10 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
 {
     const struct kd_plan *p = j->plan;
     const uint32_t width = p->width * p->side;
+    const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     struct kd_stars_push push = {
         .width = width, .rows = kd_frame_band_rows(j, from) * p->side, .stride = width * p->band_rows * p->side,
-        .row0 = kd_frame_band_first(j, from) * p->side, .room = KD_PLAN_PAIRS, .stars = j->prepared->sky.n, .pixels_y = kd_frame_band_rows(j, to),
+        .row0 = kd_frame_band_first(j, from) * p->side, .room = KD_PLAN_PAIRS, .stars = sky->n, .pixels_y = kd_frame_band_rows(j, to),
         .up = kd_frame_band_first(j, from) - kd_frame_band_first(j, to),
     };
     uint32_t step = SLICE_RAYS / width ? SLICE_RAYS / width : 1;

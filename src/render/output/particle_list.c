@@ -4,7 +4,8 @@
 #include "scene/number.h"
 #include "scene/table.h"
 #include "scene/text.h"
-#include "render/device/deposit.h"
+#include "render/device/prepare.h"
+#include "render/emit/deposit.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -198,7 +199,10 @@ enum kd_status kd_particle_list_fill(struct kd_renderer *renderer, const struct 
     if (!places)
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu particles", n);
     uint32_t first = list->first + (uint32_t)from * list->stride;
-    enum kd_status status = kd_particles_places(renderer, &list->scene, first, list->stride, n, places, error);
+    struct kd_own_work work;
+    enum kd_status status = kd_prepare_asked(renderer, KD_EMITTER_particles, &work, error);
+    if (!status)
+        status = kd_particles_places(&work, &list->scene, first, list->stride, n, places, error);
     struct guide guide = { .number = UINT32_MAX };
     for (size_t i = 0; i < n && !status; i++) {
         double row[KD_PARTICLE_N_COLUMNS];

@@ -77,7 +77,6 @@ static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capa
 INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
 INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
 INVOCATIONS(audited, plan->audit)
-INVOCATIONS(particles, kd_emit_invocations(scene, KD_EMITTER_particles))
 INVOCATIONS(lit, kd_plan_rays(plan))
 INVOCATIONS(starred, plan->points ? plan->rays : 0)
 INVOCATIONS(refined, plan->adaptive ? plan->rays * plan->adaptive / KD_PLAN_CHOSEN + KD_PLAN_SAMPLED : 0)
@@ -88,16 +87,23 @@ INVOCATIONS(shown, plan->unseen ? 0 : pixels(plan, scene))
 INVOCATIONS(spread, plan->bloom.levels ? shown(plan, scene) : 0)
 INVOCATIONS(beamed, plan->beam.cell ? shown(plan, scene) : 0)
 INVOCATIONS(exposed, isinf(scene->style.exposure) ? shown(plan, scene) : 0)
+#define KD_P(emitter, ...) INVOCATIONS(own_##emitter, kd_emit_invocations(scene, KD_EMITTER_##emitter))
+KD_EMIT_PASSES
+#undef KD_P
 
 #define FIGURE(id, word, guess) [KD_NS_##id] = { word, guess },
-const struct kd_figure kd_figures[KD_FIGURE_COUNT] = { KD_FIGURES(FIGURE) };
+#define KD_P(emitter, id, word, guess) FIGURE(id, word, guess)
+const struct kd_figure kd_figures[KD_FIGURE_COUNT] = { KD_FIGURES(FIGURE) KD_EMIT_PASSES };
+#undef KD_P
 
 #define WHOLE(of, by_figure) .kernel = of, .figure = KD_NS_##by_figure, .share = 1, .whole = true
 #define PART(of, by_figure, part) .kernel = of, .figure = KD_NS_##by_figure, .share = part
 #define BY(function) .by = function
 #define PASS(id, called, n, cost, grows_with, each)                                                                              \
     [KD_PASS_##id] = { .name = called, .invocations = n, cost, .scale = KD_SCALE_##grows_with, .when = KD_EACH_##each },
+#define KD_P(emitter, id, ...) PASS(OWN_##emitter, #emitter, own_##emitter, WHOLE(#emitter ".comp", id), FIXED, FRAME)
 const struct kd_pass kd_passes[KD_PASS_COUNT] = { KD_PASSES(PASS) };
+#undef KD_P
 
 const struct kd_pass *kd_pass_find(const char *name)
 {

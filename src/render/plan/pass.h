@@ -2,9 +2,12 @@
  * it from start to start, and sessions fold over these two lists. Constant data and pure functions, any thread.
  *
  * To add a pass: its line here, in pass.c how many invocations a plan has of it, its file in src/render/frame/, and its call in
- * frame.c, where it goes by kd_passes[KD_PASS_...].name. */
+ * frame.c, where it goes by kd_passes[KD_PASS_...].name. A pass that an emitter has of its own stands in the emitter's files alone
+ * (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h), and in its place among the others here. */
 #ifndef KD_RENDER_PLAN_PASS_H
 #define KD_RENDER_PLAN_PASS_H
+
+#include "emitters.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,11 +23,12 @@ struct kd_scene;
     F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii alone, in closed form */                           \
     F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */                                            \
     F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */                                                                \
-    F(PIXEL_POST, "pixel_post", 30)                                                                                              \
-    F(PARTICLE, "particle", 40)
+    F(PIXEL_POST, "pixel_post", 30)
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
-enum kd_figure_id { KD_FIGURES(KD_FIGURE_ID_) KD_FIGURE_COUNT, KD_NS_NONE = KD_FIGURE_COUNT };
+#define KD_P(emitter, id, word, guess) KD_NS_##id,
+enum kd_figure_id { KD_FIGURES(KD_FIGURE_ID_) KD_EMIT_PASSES KD_FIGURE_COUNT, KD_NS_NONE = KD_FIGURE_COUNT };
+#undef KD_P
 extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_FIGURE_COUNT];
 
 /* Passes, in the order in which a plan names them. P(id, name, invocations, cost, scale, when):
@@ -42,7 +46,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(TRACE, "trace", traced, BY(trace), RAYS, MAP)                                                                              \
     P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP)                                      \
     P(AUDIT, "audit", audited, BY(audit), FIXED, MAP)                                                                            \
-    P(PARTICLES, "particles", particles, WHOLE("particles.comp", PARTICLE), FIXED, FRAME)                                        \
+    KD_EMIT_PASSES                                                                                                               \
     P(STARS, "stars", starred, PART("star_search.comp", SAMPLE_TRANSFER, 3), RAYS, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
     P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
@@ -55,7 +59,9 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(READBACK, "readback", shown, PART("", PIXEL_POST, 0.1), PIXELS, FRAME)
 
 #define KD_PASS_ID_(id, ...) KD_PASS_##id,
+#define KD_P(emitter, id, word, guess) KD_PASS_OWN_##emitter,
 enum kd_pass_id { KD_PASSES(KD_PASS_ID_) KD_PASS_COUNT };
+#undef KD_P
 
 /* This is the cost of one invocation. */
 struct kd_pass_cost {

@@ -1,0 +1,44 @@
+/* An emitter may have buffers of its own on the device, which the kernels of light read (KD_BUFFERS_name of shaders/shared/emitters.h). Before
+ * light is, it fills them: from the host, or by a pass of its own (KD_PASS_name there), whose kernel is shaders/comp/NAME.comp. All that is here says
+ * how; frames fold over the table of emitters (device/prepare.h) and know no names. Render thread only. */
+#ifndef KD_RENDER_EMIT_OWN_H
+#define KD_RENDER_EMIT_OWN_H
+
+#include "render/emit/emission.h"
+#include "vk/vk.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct kd_renderer;
+struct kd_scene;
+
+/* An emitter works with these. Slices of a long picture have `own` apart from other pictures' (kd_render_aside). */
+struct kd_own_work {
+    struct kd_renderer *renderer;
+    struct kd_vk *vk;
+    void *own; /* struct kd_own says how many bytes, which are 0 at first */
+    double ns; /* that an invocation of its pass is estimated at; 0: it has none */
+};
+
+struct kd_own {
+    size_t bytes; /* of what it keeps: its buffers, and what is in them */
+    /* Record, and submit, what brings the buffers to what the scene shows now. Commands are timed under the emitter's name. */
+    enum kd_status (*prepare)(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error);
+    void (*buffers)(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]); /* sets its own, by KD_OWN_... (emission.h) */
+    void (*forget)(void *own); /* what was recorded may not have come to the device: work was given up */
+    void (*finish)(void *own, struct kd_vk *vk);
+};
+
+/* The renderer does these for `prepare`. *buffer, NULL at first, becomes one of at least so many bytes. */
+enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buffer **buffer, uint64_t bytes, enum kd_vk_memory memory,
+                               const char *name, struct kd_error *error);
+/* Makes the pipeline of a kernel with specialisation constants 0..n-1, or finds it. What `kernel` points to is constant data, without a
+ * specialisation of its own. */
+enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel, const uint32_t *constants, size_t n,
+                             const struct kd_vk_pipeline **out, struct kd_error *error);
+
+/* The sky's is device/skies.c: it keeps a Milky Way for all pictures of a renderer. */
+extern const struct kd_own kd_own_sky;
+
+#endif
