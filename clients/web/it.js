@@ -459,6 +459,8 @@ export const sentences = {
     'gas: la turbolenza è rumore procedurale, non una soluzione della magnetoidrodinamica; moltiplica il flusso, e con esso temperatura e colore, e la profondità ottica dov’è in vigore',
   'gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each other; it drifts, and does not shear':
     'gas: il disegno gira su anelli rigidi, ognuno con la velocità angolare del suo mezzo, che passano l’uno nell’altro; va alla deriva, e non si stira',
+  'gas: an octave finer than what a ray stands for on the disk fades to its mean: in time the light varies by a tenth less than that of 64 rays a pixel, at most':
+    'gas: un’ottava più fine di ciò che un raggio rappresenta sul disco si dissolve nella sua media: nel tempo la luce varia al più di un decimo in meno di quella di 64 raggi per pixel',
   "gas: fast light: shown at one coordinate time, whatever the light's delay":
     'gas: luce veloce: mostrato a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its depth over the cosine of the angle of emission':

@@ -117,6 +117,8 @@ static const struct kd_sentence sentences[] = {
       "colour, and the optical depth where that is in force", turbulent },
     { "gas: the pattern turns on rigid rings, each with the angular velocity of its middle, which pass into each other; it drifts, and does "
       "not shear", turbulent },
+    { "gas: an octave finer than what a ray stands for on the disk fades to its mean: in time the light varies by a "
+      "tenth less than that of 64 rays a pixel, at most", turbulent },
     { "gas: fast light: shown at one coordinate time, whatever the light's delay", fast },
     { "gas: the optical depth of the disk is as its flux, a chosen number at the brightest radius, and grey; each crossing absorbs by its "
       "depth over the cosine of the angle of emission", deep },

@@ -89,15 +89,14 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->orders + order].delay : 0;
 }
 
-/* Fills a plane with slopes; they are 0 outside the ISCO, where nothing falls. */
+/* Fills a plane with slopes: what falls needs them, and the angle at which light leaves the plane. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, w->plan, &w->plan->setting);
-    double isco = kd_kerr_isco(params.spin);
     for (size_t i = 0; i < w->n; i++) {
         const struct kd_ray_end *end = &w->ends[i];
         double r = w->crossings[i * w->plan->orders + order].r;
-        to[i] = order < end->n_crossings && r < isco
+        to[i] = order < end->n_crossings
                     ? (float)(fabs(w->energy[i]) * kd_rays_slope(&params, w->alpha_beta + 2 * i, w->outward[i], end, order, r)) : 0;
     }
 }
