@@ -1,4 +1,5 @@
 // The controls of a scene are made from the schema: a row a field, in the groups of the page.
+import { assetRow } from './asset.js';
 import { byId, el } from './dom.js';
 import { element, named, nature, number, section, t, tell, unit, word } from './i18n.js';
 import { beside_time, left_out, meansSomething } from './known.js';
@@ -96,7 +97,7 @@ function row(field, scene) {
   const id = 'field-' + field.path,
     { label, help, helpLang } = named(field.path, field.help),
     mark = unit(field.unit);
-  const make = { choice: choiceRow, words: choiceRow, switch: switchRow }[field.type] ?? numberRow;
+  const make = { choice: choiceRow, words: choiceRow, switch: switchRow, asset: assetRow }[field.type] ?? numberRow;
   const control = make(field, scene, id, `${id}-help ${id}-nature`);
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true });

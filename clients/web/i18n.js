@@ -72,6 +72,7 @@ const labels = {
   'disk.gas.amplitude': 'Strength',
   'sky.grid_deg': 'Grid spacing',
   'sky.milky_way': 'Milky Way',
+  'sky.image': 'Picture of the sky',
   'sky.limit_mag': 'Limiting magnitude',
   'sky.turn_deg': 'Turn',
   'sky.tilt_deg': 'Tilt',

@@ -38,6 +38,7 @@ export const values = {
   grid: 'reticolo',
   stars: 'stelle inventate',
   catalogue: 'stelle di Hipparcos',
+  image: 'immagine del cielo',
   galactic: 'galattica',
   equatorial: 'equatoriale',
   sgra: 'verso Sgr A*',
@@ -176,12 +177,16 @@ export const fields = {
   'spots.size': ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
   'spots.index': ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
   'spots.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
-  'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla; un reticolo celeste che mostra la lente; stelle e una Via Lattea inventate; o le stelle del catalogo Hipparcos su quella Via Lattea'],
+  'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla; un reticolo celeste che mostra la lente; stelle e una Via Lattea inventate; le stelle del catalogo Hipparcos su quella Via Lattea; o sky.image senza stelle'],
   'sky.brightness': [
     'Luminosità',
-    'Luminosità del cielo in unità della massima brillanza del disco a g = 1: del reticolo; di 21 magnitudini per secondo d’arco quadrato, con cui stelle e Via Lattea tengono il loro vero rapporto',
+    'Luminosità del cielo in unità della massima brillanza del disco a g = 1: del reticolo; di 21 magnitudini per secondo d’arco quadrato, con cui stelle e Via Lattea tengono il loro vero rapporto; auto: 0,2, o 0,01 di stelle e Via Lattea dove qualcosa splende davanti',
   ],
-  'sky.milky_way': ['Via Lattea', 'Luminosità della Via Lattea rispetto alla propria; 0: solo stelle'],
+  'sky.milky_way': ['Via Lattea', 'Luminosità della Via Lattea, o di sky.image, rispetto alla propria; 0: solo stelle'],
+  'sky.image': [
+    'Immagine del cielo',
+    'Immagine di tutto il cielo al posto della Via Lattea inventata (modello: stars, catalogue, image): larga il doppio dell’altezza, longitudine galattica per largo, crescente verso sinistra da 0 nel mezzo, latitudine verso l’alto; il suo bianco è di 21 magnitudini per secondo d’arco quadrato',
+  ],
   'sky.limit_mag': ['Magnitudine limite', 'Le stelle più deboli sono tralasciate'],
   'sky.seed': ['Seme', 'Un altro numero, un altro cielo inventato'],
   'sky.orientation': [
@@ -430,6 +435,12 @@ export const sentences = {
   'A celestial grid behind.': 'Dietro, un reticolo celeste.',
   'Stars and a Milky Way behind.': 'Dietro, stelle e una Via Lattea.',
   'The stars of the Hipparcos catalogue and a Milky Way behind.': 'Dietro, le stelle del catalogo Hipparcos e una Via Lattea.',
+  'Stars behind.': 'Dietro, stelle.',
+  'The stars of the Hipparcos catalogue behind.': 'Dietro, le stelle del catalogo Hipparcos.',
+  'A Milky Way behind.': 'Dietro, una Via Lattea.',
+  'A picture of the sky behind.': 'Dietro, un’immagine del cielo.',
+  'Stars over a picture of the sky behind.': 'Dietro, stelle su un’immagine del cielo.',
+  'The stars of the Hipparcos catalogue over a picture of the sky behind.': 'Dietro, le stelle del catalogo Hipparcos su un’immagine del cielo.',
   'disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge':
     'disco: geometricamente sottile, nel piano equatoriale, gas su orbite circolari di Kerr che finisce al bordo interno',
   'disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light':
@@ -494,6 +505,12 @@ export const sentences = {
   'sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky':
     'cielo: la luce fra le stelle è una Via Lattea inventata; nessun suo luogo è un luogo del cielo',
   'sky: the light between the stars is shifted as that of black bodies of 5600 K': 'cielo: la luce fra le stelle è spostata come quella di corpi neri di 5600 K',
+  'sky: sky.model is "image" and sky.image names none: the Milky Way that is made up stands in for it':
+    'cielo: sky.model è "image" e sky.image non ne nomina alcuna: al suo posto sta la Via Lattea inventata',
+  'sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 magnitudes a square arcsecond, and stars that it shows are spread as light':
+    'cielo: la luce fra le stelle è un’immagine fotografica, non calibrata: il suo bianco vale 21 magnitudini per secondo d’arco quadrato, e le stelle che mostra sono sparse come luce',
+  'sky: a picture of three colours has no spectrum: its light is made brighter and tinted as that of black bodies of 5600 K is':
+    'cielo: un’immagine di tre colori non ha spettro: la sua luce è resa più intensa e colorata come quella di corpi neri di 5600 K',
   "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads more than 0.1 rad away":
     'cielo: da così vicino all’orizzonte è rumore: per la maggior parte dei pixel che lo vedono il successivo, o l’ultima cifra delle costanti del raggio, porta a più di 0,1 rad di distanza',
   'image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots':

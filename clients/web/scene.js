@@ -39,17 +39,20 @@ export const valueAt = (document, path) => path.split('.').reduce((inside, name)
 // Words are a list in a document and a text elsewhere, as in a link.
 const told = value => (Array.isArray(value) ? value.join(',') : value);
 
-// { type: 'number' | 'integer' | 'choice' | 'switch' | 'words', minimum, maximum, word, choices }
+// { type: 'number' | 'integer' | 'choice' | 'switch' | 'words' | 'asset', minimum, maximum, word, choices }
 function kind(spec) {
   if (spec.items) return { type: 'words', word: new RegExp(spec.items.pattern), choices: spec['x-words'].map(name => name.replace(/_N$/, '')) };
   if (spec.enum) return { type: 'choice', choices: spec.enum };
   if (spec.type === 'boolean') return { type: 'switch' };
+  const asset = spec.anyOf?.find(part => part.pattern);
+  if (asset) return { type: 'asset', word: new RegExp(asset.pattern) };
   const range = spec.anyOf?.find(part => part.type) ?? spec;
   return { type: range.type, minimum: range.minimum, maximum: range.maximum, word: spec.anyOf?.find(part => part.const)?.const };
 }
 
 function parse(field, text) {
   if (field.type === 'words') return text.split(',').every(name => field.word.test(name)) ? text : NaN;
+  if (field.type === 'asset') return field.word.test(text) ? text : NaN;
   if (field.type === 'switch') return text === 'true' || (text === 'false' ? false : NaN);
   if (field.type === 'choice' || text === field.word) return text;
   return text.trim() && Number.isFinite(Number(text)) ? Number(text) : NaN;

@@ -31,55 +31,81 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     return KD_OK;
 }
 
-static enum kd_status read_asset(const char *path, char hash[KD_ASSET_NAME], struct kd_error *error)
+static enum kd_status read_asset(struct kd_named_asset *asset, struct kd_error *error)
 {
     struct kd_buffer bytes = { 0 };
     struct kd_png_about about;
-    enum kd_status status = kd_file_read(path, ASSET_MAX, &bytes, error);
+    enum kd_status status = kd_file_read(asset->path, ASSET_MAX, &bytes, error);
     if (!status && (status = kd_png_look(bytes.data ? bytes.data : (const uint8_t *)"", bytes.size, &about, error)))
-        kd_cli_prefix(error, path);
-    if (!status)
-        kd_sha256(bytes.data, bytes.size, hash);
+        kd_cli_prefix(error, asset->path);
+    if (!status) {
+        kd_sha256(bytes.data, bytes.size, asset->found.hash);
+        asset->found.width = about.width;
+        asset->found.height = about.height;
+    }
     kd_buffer_finish(&bytes);
     return status;
 }
 
-struct known {
-    const struct kd_asset_options *options;
-    struct {
-        char hash[KD_ASSET_NAME];
-        bool used; /* a field of the scene names it */
-    } *of;
-};
-
 /* By its name, or by the hash of its bytes. */
-static bool find(void *user, const char *name, char hash[KD_ASSET_NAME])
+static bool find(void *user, const char *name, struct kd_asset_found *out)
 {
-    struct known *known = user;
-    bool found = false;
-    for (size_t i = 0; i < known->options->n; i++) {
-        if (strcmp(known->options->list[i].name, name) && strcmp(known->of[i].hash, name))
+    struct kd_asset_options *options = user;
+    bool is = false;
+    for (size_t i = 0; i < options->n; i++) {
+        struct kd_named_asset *asset = &options->list[i];
+        if (strcmp(asset->name, name) && strcmp(asset->found.hash, name))
             continue;
-        snprintf(hash, KD_ASSET_NAME, "%s", known->of[i].hash);
-        found = known->of[i].used = true;
+        *out = asset->found;
+        is = asset->used = true;
     }
-    return found;
+    return is;
 }
 
-enum kd_status kd_asset_options_resolve(const struct kd_asset_options *options, struct kd_scene *scene, struct kd_error *error)
+static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
 {
-    struct known known = { options, calloc(options->n + 1, sizeof *known.of) };
-    enum kd_status status;
-    if (!known.of)
-        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+    const struct kd_asset_options *options = user;
+    for (size_t i = 0; i < options->n; i++) {
+        struct kd_buffer *bytes = strcmp(options->list[i].found.hash, hash) ? NULL : calloc(1, sizeof *bytes);
+        char now[KD_ASSET_NAME] = "";
+        if (!bytes)
+            continue;
+        if (!kd_file_read(options->list[i].path, ASSET_MAX, bytes, NULL))
+            kd_sha256(bytes->data, bytes->size, now);
+        *out = (struct kd_asset_bytes) { bytes->data, bytes->size, bytes };
+        if (!strcmp(now, hash))
+            return true;
+        kd_buffer_finish(bytes);
+        free(bytes);
+    }
+    return false;
+}
+
+static void give_back(void *user, struct kd_asset_bytes *bytes)
+{
+    (void)user;
+    kd_buffer_finish(bytes->held);
+    free(bytes->held);
+}
+
+struct kd_assets kd_asset_options_assets(struct kd_asset_options *options)
+{
+    return (struct kd_assets) { find, take, give_back, "null and names of --asset NAME=FILE", options };
+}
+
+enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_assets assets = kd_asset_options_assets(options);
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < options->n; i++) {
+        options->list[i].used = false;
+        KD_TRY(read_asset(&options->list[i], error));
+    }
+    KD_TRY(kd_scene_resolve(scene, &assets, error));
     for (size_t i = 0; i < options->n; i++)
-        KD_TRY(read_asset(options->list[i].path, known.of[i].hash, error));
-    KD_TRY(kd_scene_resolve(scene, find, &known, error));
-    for (size_t i = 0; i < options->n; i++)
-        if (!known.of[i].used)
+        if (!options->list[i].used)
             KD_TRY(kd_error_set(error, KD_EINVAL, "--asset %s: no field of the scene names it", options->list[i].name));
 done:
-    free(known.of);
     return status;
 }
 

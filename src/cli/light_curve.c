@@ -121,7 +121,7 @@ static enum kd_status save(const struct work *w, const struct arguments *argumen
     return status;
 }
 
-static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
+static enum kd_status run(struct arguments *arguments, struct kd_error *error)
 {
     struct kd_scene scene;
     struct work work = { .frames = arguments->frames };
@@ -131,7 +131,8 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     KD_TRY(span(arguments, &scene, &to, error));
     if (strcmp(arguments->output, "-"))
         KD_TRY(kd_file_check(arguments->output, error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &work.renderer, error));
+    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .assets = &assets }, &work.renderer, error));
     if (!(work.rows = malloc(work.frames * sizeof *work.rows)))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %u rows", work.frames));
     KD_TRY(measure(&work, &scene, to, error));

@@ -96,7 +96,7 @@ static size_t produce(void *user, void *to, size_t size)
     return n;
 }
 
-static enum kd_status prepare(const struct arguments *arguments, struct source *s)
+static enum kd_status prepare(struct arguments *arguments, struct source *s)
 {
     struct kd_scene scene;
     enum kd_status status;

@@ -19,7 +19,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static enum kd_status plan_scene(const struct arguments *arguments, struct kd_buffer *out,
+static enum kd_status plan_scene(struct arguments *arguments, struct kd_buffer *out,
                                  struct kd_error *error)
 {
     struct kd_scene scene;

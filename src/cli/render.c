@@ -136,14 +136,15 @@ static enum kd_status print_stats(const struct work *work, const struct kd_scene
     return status;
 }
 
-static enum kd_status run(const struct arguments *arguments, struct kd_error *error)
+static enum kd_status run(struct arguments *arguments, struct kd_error *error)
 {
     struct kd_scene scene;
     struct work work = { 0 };
     enum kd_status status;
     KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
     KD_TRY(kd_file_check(arguments->output, error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory },
+    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
                               &work.renderer, error));
     KD_TRY(draw(&work, arguments->format, &scene, error));
     KD_TRY(save(&work, &scene, arguments, error));

@@ -25,7 +25,7 @@ struct kd_scene_options {
 extern const struct argp kd_scene_options_argp;
 
 /* The merged scene, valid. */
-enum kd_status kd_scene_options_load(const struct kd_scene_options *options, struct kd_scene *out,
+enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out,
                                      struct kd_error *error);
 void kd_scene_options_finish(struct kd_scene_options *options);
 

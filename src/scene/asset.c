@@ -19,30 +19,33 @@ bool kd_asset_is_name(const char *text)
     return length && length < KD_ASSET_NAME - 1 && strchr(LETTERS, *text) && strspn(text, LETTERS DIGITS "._-") == length;
 }
 
-static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *field, size_t index, kd_asset_find_fn find, void *user,
+static enum kd_status resolve(struct kd_scene *scene, const struct kd_field *field, size_t index, const struct kd_assets *assets,
                               struct kd_error *error)
 {
-    char hash[KD_ASSET_NAME] = "", path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+    struct kd_asset_found found = { 0 };
+    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
     const char *name = kd_field_asset(scene, field, index);
     if (!*name)
         return KD_OK;
-    if (find(user, name, hash) && kd_asset_is_hash(hash)) {
-        kd_field_put_asset(scene, field, index, hash);
-        return KD_OK;
-    }
     kd_field_path(field, index, path);
     kd_field_pointer(field, index, pointer);
-    return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here", path, name);
+    if (!assets->find(assets->user, name, &found) || !kd_asset_is_hash(found.hash))
+        return kd_error_field(error, pointer, "%s is \"%s\", and there is no such asset here; allowed are %s", path, name, assets->allowed);
+    if (!strcmp(path, "sky.image") && !kd_asset_is_panorama(found.width, found.height))
+        return kd_error_field(error, pointer, "%s is a picture of %u x %u pixels, allowed is one of the whole sky: twice as wide as it is high, of %d to %d "
+                              "rows", path, found.width, found.height, KD_PANORAMA_LEAST, KD_PANORAMA_MOST);
+    kd_field_put_asset(scene, field, index, found.hash);
+    return KD_OK;
 }
 
-enum kd_status kd_scene_resolve(struct kd_scene *scene, kd_asset_find_fn find, void *user, struct kd_error *error)
+enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error)
 {
     struct kd_scene resolved = *scene;
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_section *section = kd_section_find(kd_fields[i].section);
         for (size_t k = 0; kd_fields[i].kind == KD_FIELD_ASSET && k < kd_section_size(scene, section); k++)
-            KD_TRY(resolve(&resolved, &kd_fields[i], k, find, user, error));
+            KD_TRY(resolve(&resolved, &kd_fields[i], k, assets, error));
     }
     *scene = resolved;
 done:

@@ -6,14 +6,40 @@
 
 #include "scene/scene.h"
 
+#include <stddef.h>
+
 /* A hash is 64 hexadecimal digits, lower case. */
 bool kd_asset_is_hash(const char *text);
 /* A name is a letter, and up to 62 letters, digits, dots, dashes and underscores. */
 bool kd_asset_is_name(const char *text);
 
-/* Puts the hash in the place of each name, by find(user, name or hash, hash), which is asked about hashes too. Where that knows none:
- * KD_EINVAL with the field's pointer, and *scene unchanged. */
-typedef bool (*kd_asset_find_fn)(void *user, const char *name, char hash[KD_ASSET_NAME]);
-enum kd_status kd_scene_resolve(struct kd_scene *scene, kd_asset_find_fn find, void *user, struct kd_error *error);
+/* What is known of an asset: pictures, so far. */
+struct kd_asset_found {
+    char hash[KD_ASSET_NAME];
+    uint32_t width, height;
+};
+/* Bytes that are held, and stay as they are, until they are given back. */
+struct kd_asset_bytes {
+    const uint8_t *data;
+    size_t size;
+    void *held; /* the keeper's */
+};
+/* Whoever keeps assets: a server's store, the files of a command line. It outlives those who ask. Its functions may be called by any thread. */
+struct kd_assets {
+    bool (*find)(void *user, const char *name, struct kd_asset_found *out); /* by a name or a hash; false: it is not here */
+    bool (*take)(void *user, const char *hash, struct kd_asset_bytes *out); /* false: no longer */
+    void (*give_back)(void *user, struct kd_asset_bytes *bytes);
+    const char *allowed; /* what a field may name, for a sentence: "names of --asset NAME=FILE" */
+    void *user;
+};
+
+/* Puts the hash in the place of each name; hashes are looked up too. KD_EINVAL with the field's pointer, and *scene unchanged, where an asset is
+ * not here, or is not what the field takes: sky.image is twice as wide as high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows. */
+enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
+static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
+{
+    return width == 2 * (uint64_t)height && height >= KD_PANORAMA_LEAST && height <= KD_PANORAMA_MOST;
+}
+enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error);
 
 #endif

@@ -133,13 +133,17 @@
 
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
-         "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; or the stars of the " \
-         "Hipparcos catalogue over that Milky Way", "none|grid|stars|catalogue")                                     \
-    REAL(sky, brightness, MODEL, FRONT, 0.2, 0.0, 100.0, "1",                                                        \
+         "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; the stars of the " \
+         "Hipparcos catalogue over that Milky Way; or sky.image without stars", "none|grid|stars|catalogue|image")   \
+    WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1",                                                   \
          "brightness of the sky in units of the disk's brightest surface brightness at g = 1: of the grid; of 21 magnitudes a square arcsecond, " \
-         "by which stars and the Milky Way keep their true ratio")                                                   \
+         "by which stars and the Milky Way keep their true ratio; auto: 0.2, or 0.01 of stars and the Milky Way where something shines before them", \
+         "auto")                                                                                                     \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid")                    \
-    REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", "brightness of the Milky Way over its own; 0: stars alone") \
+    REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", "brightness of the Milky Way, or of sky.image, over its own; 0: stars alone") \
+    ASSET(sky, image, MODEL, FRONT,                                                                                  \
+          "picture of the whole sky in the place of the Milky Way that is made up (model: stars, catalogue, image): twice as wide as high, galactic " \
+          "longitude across, growing to the left from 0 in the middle, latitude upwards; its white is 21 magnitudes a square arcsecond") \
     REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "stars fainter than this are left out")        \
     INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, another sky that is made up")                \
     ENUM(sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC,                                                            \
@@ -287,7 +291,7 @@
     SPAN("disk.gas.seed", 0, 1000)                                                                                   \
     SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot")                                             \
     SWITCH("sky.model")                                                                                              \
-    SPAN("sky.brightness", 0, 1)                                                                                     \
+    SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
     SPAN("sky.milky_way", 0, 4)                                                                                      \
     SPAN("sky.seed", 0, 1000)                                                                                        \
@@ -309,7 +313,7 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
-enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE };
+enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };
 enum kd_sky_orientation { KD_SKY_GALACTIC, KD_SKY_EQUATORIAL, KD_SKY_SGRA, KD_SKY_M87 };
 enum { KD_STYLE_NONE, KD_STYLE_FILM };
 enum kd_tone_map { KD_TONE_ACES, KD_TONE_SRGB, KD_TONE_NEUTRAL };

@@ -110,6 +110,9 @@ bool kd_scene_adapts(const struct kd_scene *scene);
  * the same picture as in plane where r is large. */
 double kd_scene_width_uas(const struct kd_scene *scene);
 
+/* Gives sky.brightness, and what "auto" stands for. */
+double kd_scene_sky_brightness(const struct kd_scene *scene);
+
 /* Finds the spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 

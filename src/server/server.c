@@ -123,6 +123,7 @@ static enum kd_status start_sessions(struct kd_server *server, const struct kd_s
     const struct kd_sessions_params sessions = {
         .renders = server->renders, .limit = most, .client_limit = share_of(params, most),
         .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .longest_s = server->longest_s,
+        .assets = kd_asset_store_assets(server->assets),
     };
     return kd_sessions_create(&sessions, &server->sessions, error);
 }
@@ -139,14 +140,20 @@ static enum kd_status start_jobs(struct kd_server *server, const struct kd_serve
     return kd_jobs_create(&jobs, &server->jobs, error);
 }
 
-/* Assets come behind the jobs, which lock the folder. */
-static enum kd_status start_assets(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+static enum kd_status make_assets(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
 {
     const unsigned most = or_default(params->assets, KD_ASSETS);
     const uint64_t bytes = params->assets_kib ? (uint64_t)params->assets_kib << 10 : KD_ASSETS_BYTES;
     const struct kd_asset_limits limits = { most, share_of(params, most), bytes, bytes_share_of(params, bytes),
                                             params->asset_keep_s ? params->asset_keep_s : KD_ASSET_KEEP_S };
-    return kd_asset_store_open(params->state, &limits, &server->assets, error);
+    return kd_asset_store_create(&limits, &server->assets, error);
+}
+
+static enum kd_status start_renders(struct kd_server *server, const struct kd_server_params *params, unsigned tasks, struct kd_error *error)
+{
+    struct kd_renderer_params renderer = params->renderer;
+    renderer.assets = kd_asset_store_assets(server->assets);
+    return kd_render_queue_create(&renderer, tasks, share_of(params, tasks), &server->renders, error);
 }
 
 static enum kd_status start(struct kd_server *server, const struct kd_server_params *params,
@@ -175,13 +182,16 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     /* The socket is opened first: opening a device takes long, and "address in use" is the commonest failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);
-    KD_TRY(kd_render_queue_create(&params->renderer, tasks, share_of(params, tasks), &server->renders, error));
+    KD_TRY(make_assets(server, params, error));
+    KD_TRY(start_renders(server, params, tasks, error));
     set_etag_tail(server);
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->rays, error));
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->turns, error));
     KD_TRY(start_sessions(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    KD_TRY(start_assets(server, params, error));
+    if (params->state) /* behind the jobs, which lock the folder, and before they go on: they may need them */
+        KD_TRY(kd_asset_store_open(server->assets, params->state, error));
+    kd_jobs_begin(server->jobs);
     const int listening = fd;
     fd = -1; /* from here on it is HTTP's to close */
     KD_TRY(start_http(server, listening, connections, error));

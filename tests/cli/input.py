@@ -47,7 +47,7 @@ class Usage(Case):
         self.bad(2, "image.width", "scene", "--size", "0x1080")
 
     def test_assets(self):
-        """No field of kerrd's scene is one so far, so that each is one too many; tests/unit/scene_table.c has those that are named."""
+        """Those that nothing names; tests/cli/render.py has one that is shown."""
         picture = self.path("a.png")
         chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         with open(picture, "wb") as file:

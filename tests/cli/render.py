@@ -1,5 +1,6 @@
 """Pictures from the command line, on a real device."""
 import ast
+import hashlib
 import json
 import math
 import os
@@ -62,6 +63,32 @@ class Pictures(Case):
         self.assertIn(b"Gaussian beam", text(bare)[b"kerrd:approximations"])
         self.bad(2, "at /style/beam_uas", "render", *SMALL, "--set", "style.name=eht", "--set", "camera.projection=ring", "-o", self.path("b.png"))
         self.bad(2, "at /style/colour_bar", "render", *SMALL, "--set", "style.name=eht", "--set", "style.palette=colour", "-o", self.path("b.png"))
+
+    def test_a_picture_of_the_sky(self):
+        chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        def sky(name, width, height):
+            rows = b"".join(b"\0" + bytes([255, 128, y % 256] * width) for y in range(height))
+            data = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"tEXt", b"Copyright\0A. Body") +
+                    chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+            with open(self.path(name), "wb") as file:
+                file.write(data)
+            return hashlib.sha256(data).hexdigest()
+        one, other = sky("one.png", 64, 32), sky("other.png", 64, 30)
+        named = *SMALL, "--set", "sky.model=image", "--set", "sky.image=orion"
+        self.good("render", *named, "--asset", "orion=" + self.path("one.png"), "-o", self.path("a.png"))
+        self.assertEqual(json.loads(text(self.read("a.png"))[b"kerrd:scene"])["sky"]["image"], one)
+        self.assertEqual(text(self.read("a.png"))[b"Copyright"], b"sky: A. Body")
+        self.assertIn(b"sky: the light between the stars is a picture", text(self.read("a.png"))[b"kerrd:approximations"])
+        again = self.good("render", "--from", self.path("a.png"), "--asset", "whatever=" + self.path("one.png"), "-o", "-")
+        self.assertEqual(again, self.read("a.png"))
+        self.bad(2, "sky.image is \"orion\", and there is no such asset here; allowed are null and names of --asset NAME=FILE", "render", *named, "-o", "-")
+        self.bad(2, f"sky.image is \"{one}\", and there is no such asset here", "render", "--from", self.path("a.png"), "-o", "-")
+        self.bad(2, "sky.image is a picture of 64 x 30 pixels", "render", *named, "--asset", "orion=" + self.path("other.png"), "-o", "-")
+        self.bad(2, "--asset ground: no field of the scene names it", "render", *named, "--asset", "orion=" + self.path("one.png"), "--asset",
+                 "ground=" + self.path("one.png").replace("one", "other"), "-o", "-")
+        alone = self.good("render", *SMALL, "--set", "sky.model=image", "-o", "-")
+        self.assertIn(b"the Milky Way that is made up stands in for it", text(alone)[b"kerrd:approximations"])
+        self.assertNotIn(b"Copyright", text(alone))
 
     def test_pipes_give_the_bytes_of_a_file(self):
         scene = b'{"image":{"width":64,"height":36},"spacetime":{"spin":0.5}}'

@@ -9,6 +9,7 @@
 #include <math.h>
 
 static struct kd_renderer *renderer;
+static const struct kd_assets *renderer_assets; /* what scenes name; set before it is opened */
 
 /* 0: the renderer is there; else the exit status, skipped or failed. */
 static inline int open_renderer(void)
@@ -18,7 +19,7 @@ static inline int open_renderer(void)
         return skip;
     struct kd_error error = { 0 };
     const char *device = getenv("KERRD_TEST_DEVICE");
-    struct kd_renderer_params params = { .device = device ? device : "auto", .validate = true };
+    struct kd_renderer_params params = { .device = device ? device : "auto", .validate = true, .assets = renderer_assets };
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);

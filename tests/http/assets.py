@@ -304,5 +304,62 @@ class State(Case):
             self.start()
 
 
+class Scenes(Case):
+    """Scenes that name an asset, wherever a scene may come from."""
+    def scene(self, image):
+        return {'image': {'width': 32, 'height': 18}, 'sky': {'model': 'image', 'image': image}}
+
+    def answers(self, image):
+        """What each way of asking says, and where in the request the field is."""
+        scene, at = self.scene(image), '/sky/image'
+        yield self.daemon.get(f'/v1/render?image.width=32&image.height=18&sky.model=image&sky.image={image}'), at
+        yield self.daemon.post('/v1/render', scene), at
+        yield self.daemon.post('/v1/plan', scene), at
+        yield self.daemon.post('/v1/sessions', scene), at
+        yield self.daemon.post('/v1/jobs', {'scene': scene}), '/scene' + at
+        yield self.daemon.post('/v1/jobs', {'scenes': [{}, scene]}), '/scenes/1' + at
+        yield self.daemon.post('/v1/jobs', {'scene': {}, 'keyframes': [{'frame': 1, 'scene': scene}]}), '/keyframes/0/scene' + at
+        session = self.daemon.post('/v1/sessions', {}).json()
+        yield self.daemon.request('PATCH', f'/v1/sessions/{session["id"]}', json.dumps({'sky': {'image': image}}),
+                                  {'Content-Type': 'application/merge-patch+json', 'Authorization': f'Bearer {session["token"]}'}), at
+        self.daemon.request('DELETE', f'/v1/sessions/{session["id"]}', headers={'Authorization': f'Bearer {session["token"]}'})
+
+    def end(self, answer):
+        """Sessions and jobs are few."""
+        if answer.status in (201, 202):
+            self.daemon.request('DELETE', answer.header('Location'), headers={'Authorization': f'Bearer {answer.json()["token"]}'})
+
+    def test_one_that_is_here(self):
+        asset = self.made(png(64, 32))
+        for answer, _ in self.answers(asset['sha256']):
+            self.assertIn(answer.status, (200, 201, 202), answer.body)
+            self.end(answer)
+        self.delete(asset)
+
+    def test_one_that_is_not(self):
+        for image in ('0' * 64, 'milky-way'):
+            for answer, at in self.answers(image):
+                problem = self.assertProblem(answer, 422, pointer=at)
+                self.assertIn(f'sky.image is "{image}", and there is no such asset here; allowed are null and the SHA-256 of an asset that PUT /v1/assets has taken',
+                              problem['detail'])
+
+    def test_one_that_is_no_panorama(self):
+        asset = self.made(png(64, 36))
+        for answer, at in self.answers(asset['sha256']):
+            problem = self.assertProblem(answer, 422, pointer=at)
+            self.assertIn('sky.image is a picture of 64 x 36 pixels, allowed is one of the whole sky: twice as wide as it is high, of 16 to 4096 rows', problem['detail'])
+        self.delete(asset)
+
+    def test_the_hash_of_a_scene_is_that_of_what_it_shows(self):
+        one, other = self.made(png(64, 32, seed=1)), self.made(png(64, 32, seed=2))
+        tag = lambda image: self.daemon.post('/v1/render', self.scene(image)).header('ETag')
+        tags = [tag(one['sha256']), tag(other['sha256']), tag(None)]
+        self.assertEqual(len(set(tags)), 3)
+        self.assertEqual(tag(one['sha256']), tags[0])
+        self.delete(one)
+        self.assertProblem(self.daemon.post('/v1/render', self.scene(one['sha256'])), 422, pointer='/sky/image')
+        self.delete(other)
+
+
 if __name__ == '__main__':
     daemon.main()

@@ -10,6 +10,7 @@ import signal
 import struct
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -107,6 +108,33 @@ class Kerrd(unittest.TestCase):
         for preset in self.daemon.get('/v1/presets').json()['presets']:
             with self.subTest(preset['name']):
                 self.assertEqual(self.daemon.get(f'{TARGET}&preset={preset["name"]}').status, 200)
+
+    def test_a_picture_of_the_sky(self):
+        """By a render, and by a job as by the command line; its author is in each file."""
+        chunk = lambda kind, data: struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+        rows = b''.join(b'\0' + bytes([255, 0, 0] * 32 + [0, 0, 255] * 32) for _ in range(32))
+        sky = (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', 64, 32, 8, 2, 0, 0, 0)) + chunk(b'tEXt', b'Copyright\0Somebody, CC BY') +
+               chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))
+        asset = self.daemon.request('PUT', '/v1/assets', sky, {'Content-Type': 'image/png'}).json()
+        scene = {'image': {'width': 320, 'height': 180, 'samples': 1}, 'disk': {'model': 'none'}, 'style': {'name': 'raw', 'exposure': 2}, 'camera': {'r': 100},
+                 'sky': {'model': 'image', 'image': asset['sha256']}}
+        answer = self.daemon.post('/v1/render', scene)
+        self.assertEqual(answer.status, 200, answer.body)
+        self.assertIn((b'tEXt', b'Copyright\0sky: Somebody, CC BY'), list(chunks(answer.body)))
+        self.assertTrue(any(pixels(answer.body)) and answer.body != self.daemon.post('/v1/render', {**scene, 'sky': {'model': 'image'}}).body)
+        job = self.daemon.post('/v1/jobs', {'scene': scene}).json()
+        while self.daemon.get(f'/v1/jobs/{job["id"]}').json()['state'] not in ('done', 'failed'):
+            time.sleep(0.05)
+        file = self.daemon.get(f'/v1/jobs/{job["id"]}/result').body
+        self.assertIn((b'tEXt', b'Copyright\0sky: Somebody, CC BY'), list(chunks(file)))
+        with tempfile.NamedTemporaryFile(suffix='.png') as kept:
+            kept.write(sky)
+            kept.flush()
+            alone = subprocess.run([daemon.COMMAND[0], 'render', '-', '-o', '-', '--asset', 'sky=' + kept.name], input=json.dumps(scene).encode(),
+                                   capture_output=True, timeout=60, check=True).stdout
+        self.assertEqual(file, alone)
+        self.daemon.request('DELETE', f'/v1/assets/{asset["sha256"]}', headers={'Authorization': f'Bearer {asset["token"]}'})
+        self.assertEqual(self.daemon.post('/v1/render', scene).status, 422)
 
     def test_16_bits(self):
         answer = self.daemon.get(TARGET + '&image.bit_depth=16')

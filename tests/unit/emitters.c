@@ -7,6 +7,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -274,6 +275,71 @@ static void skies(void **state)
     assert_true(!kd_emit_points(&scene) && !kd_emit_device_bytes(&scene));
 }
 
+static void told(int model, double milky_way, const char *image, const char *sentence)
+{
+    struct kd_scene scene;
+    struct kd_buffer json = { 0 };
+    kd_scene_smooth(&scene);
+    scene.sky.model = model;
+    scene.sky.milky_way = milky_way;
+    snprintf(scene.sky.image, sizeof scene.sky.image, "%s", image);
+    assert_int_equal(kd_emit_to_json(&scene, &json), KD_OK);
+    if (!strstr((const char *)json.data, sentence))
+        fail_msg("%s", (const char *)json.data);
+    kd_buffer_finish(&json);
+}
+
+/* A picture alone, under stars, and where there is none; each in a sentence, and the last as an approximation. */
+static void pictures_of_the_sky(void **state)
+{
+    (void)state;
+    static const char hash[] = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    told(KD_SKY_STARS, 1, "", "\"Stars and a Milky Way behind.\"");
+    told(KD_SKY_STARS, 0, hash, "\"Stars behind.\"");
+    told(KD_SKY_STARS, 1, hash, "\"Stars over a picture of the sky behind.\"");
+    told(KD_SKY_CATALOGUE, 0, "", "\"The stars of the Hipparcos catalogue behind.\"");
+    told(KD_SKY_CATALOGUE, 1, hash, "\"The stars of the Hipparcos catalogue over a picture of the sky behind.\"");
+    told(KD_SKY_IMAGE, 1, hash, "\"A picture of the sky behind.\"");
+    told(KD_SKY_IMAGE, 1, "", "\"A Milky Way behind.\"");
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.sky.model = KD_SKY_IMAGE;
+    scene.camera.r = 40;
+    assert_true(!kd_emit_points(&scene) && kd_emit_needs(&scene) == (KD_LENS_W | KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT));
+    assert_true(says(&scene, "sky: sky.model is \"image\" and sky.image names none") && says(&scene, "sky: the light between the stars is a Milky Way"));
+    uint64_t stands_in = kd_emit_device_bytes(&scene);
+    strcpy(scene.sky.image, hash);
+    assert_true(!says(&scene, "sky: sky.model is \"image\"") && !says(&scene, "sky: the light between the stars is a Milky Way"));
+    assert_true(says(&scene, "sky: the light between the stars is a picture") && says(&scene, "sky: a picture of three colours has no spectrum"));
+    assert_true(kd_emit_device_bytes(&scene) > 3 * stands_in);
+    scene.sky.milky_way = 0; /* nothing at all */
+    assert_true(!says(&scene, "sky:") && kd_emit_needs(&scene) == KD_LENS_W && !kd_emit_device_bytes(&scene));
+}
+
+/* "auto": 0.2 of the grid and of a sky alone, 0.01 of stars behind what shines. */
+static void brightness_of_skies(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    assert_true(isinf(scene.sky.brightness));
+    scene.sky.model = KD_SKY_GRID;
+    assert_true(kd_scene_sky_brightness(&scene) == 0.2);
+    for (int model = KD_SKY_STARS; model <= KD_SKY_IMAGE; model++) {
+        kd_scene_smooth(&scene);
+        scene.sky.model = model;
+        assert_true(kd_scene_sky_brightness(&scene) == 0.01);
+        scene.disk.model = KD_DISK_NONE;
+        assert_true(kd_scene_sky_brightness(&scene) == 0.2);
+        scene.spots.count = 1;
+        assert_true(kd_scene_sky_brightness(&scene) == 0.2); /* it is off */
+        scene.spots.at[0].brightness = 1;
+        assert_true(kd_scene_sky_brightness(&scene) == 0.01);
+        scene.sky.brightness = 3;
+        assert_true(kd_scene_sky_brightness(&scene) == 3);
+    }
+}
+
 /* Where so few particles fall that there are none, nothing does. */
 static void none_of_a_thousand(void **state)
 {
@@ -302,6 +368,8 @@ int main(void)
         cmocka_unit_test(numbers_follow_each_field),
         cmocka_unit_test(gas_replaces_the_disk),
         cmocka_unit_test(skies),
+        cmocka_unit_test(pictures_of_the_sky),
+        cmocka_unit_test(brightness_of_skies),
         cmocka_unit_test(none_of_a_thousand),
         cmocka_unit_test(traits_are_listed),
         cmocka_unit_test(what_shines_is_told),

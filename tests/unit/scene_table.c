@@ -94,12 +94,12 @@ static void lists_of_any_kind(void **state)
 }
 
 /* Where names are known: "sky" is ABC, and no other. */
-static bool find(void *user, const char *name, char hash[KD_ASSET_NAME])
+static bool find(void *user, const char *name, struct kd_asset_found *out)
 {
     (*(int *)user)++;
     if (strcmp(name, "sky") && strcmp(name, ABC))
         return false;
-    strcpy(hash, ABC);
+    strcpy(out->hash, ABC);
     return true;
 }
 
@@ -112,13 +112,14 @@ static void assets_are_resolved(void **state)
     struct kd_error error;
     char hashes[2][65];
     int asked = 0;
+    const struct kd_assets assets = { .find = find, .allowed = "null and sky", .user = &asked };
     assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL); /* a name is no identity */
     kd_buffer_finish(&text);
     assert_int_equal(kd_scene_hash(&scene, hashes[0]), KD_EINVAL);
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/1/texture");
     assert_string_equal(error.message, "bodies.1.texture is \"sky\", which is no SHA-256, and no name of an asset that is known here");
-    assert_int_equal(kd_scene_resolve(&scene, find, &asked, &error), KD_OK);
+    assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
     assert_int_equal(asked, 4);
     assert_memory_equal(&scene, &same, sizeof scene);
     assert_int_equal(kd_scene_validate(&scene, &error), KD_OK);
@@ -128,12 +129,12 @@ static void assets_are_resolved(void **state)
 
     assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "ground", &error), KD_OK);
     same = scene;
-    assert_int_equal(kd_scene_resolve(&scene, find, &asked, &error), KD_EINVAL);
+    assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/bodies/0/texture");
-    assert_string_equal(error.message, "bodies.0.texture is \"ground\", and there is no such asset here");
+    assert_string_equal(error.message, "bodies.0.texture is \"ground\", and there is no such asset here; allowed are null and sky");
     assert_memory_equal(&scene, &same, sizeof scene);
     assert_int_equal(kd_scene_set(&scene, "bodies.0.texture", "", &error), KD_OK); /* none */
-    assert_int_equal(kd_scene_resolve(&scene, find, &asked, &error), KD_OK);
+    assert_int_equal(kd_scene_resolve(&scene, &assets, &error), KD_OK);
     const char *patch = "{\"film\":null,\"place\":null,\"bodies\":[]}";
     assert_int_equal(kd_scene_patch(&scene, patch, strlen(patch), &error), KD_OK);
     same = of("{}");

@@ -183,7 +183,7 @@ static void the_milky_way(void **state)
     uint32_t *word = malloc(words * sizeof *word);
     float last[3], sum[3] = { 0 };
     assert_non_null(word);
-    kd_panorama_fill(&one, word);
+    assert_int_equal(kd_panorama_fill(&one, word, &error), KD_OK);
     for (int k = 0; k < 8; k++) {
         kd_panorama_unpack(word[words - 8 + (size_t)k], last);
         for (int c = 0; c < 3; c++)

@@ -5,6 +5,7 @@
 #include "render/device/verdict.h"
 #include "render/device/kernels.h"
 #include "render/device/memory_share.h"
+#include "render/device/panoramas.h"
 #include "render/device/prepare.h"
 #include "render/device/renderer.h"
 #include "render/device/skies.h"
@@ -32,8 +33,7 @@ struct kd_renderer {
     struct kd_vk_buffer *rays[2][3]; /* a list, its ends, and those on the host: rays/device.c's, kept for the next list */
     struct kd_rays_pace { enum kd_engine engine; enum kd_precision precision; uint32_t steps, orders, size; } rays_pace;
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
-    uint32_t *milky_way; /* words of the panorama that was last made up, for whoever needs it; NULL: none */
-    int32_t milky_way_seed;
+    struct kd_panoramas panoramas;
     pthread_mutex_t lock; /* guards capacity and memory */
     struct kd_capacity capacity; /* but for what the host leaves, which kd_renderer_capacity sees to */
     struct kd_memory_watch memory;

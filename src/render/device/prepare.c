@@ -34,6 +34,17 @@ enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number nu
     return work_of(r, &r->prepared, number, &r->capacity, out, error);
 }
 
+enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_emission *out,
+                               char *credit, size_t size, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->own && kd_emitters[i]->own->tell && plan->traits[i])
+            KD_TRY(kd_emitters[i]->own->tell(r, scene, out, credit, size, error));
+done:
+    return status;
+}
+
 enum kd_status kd_prepare(struct kd_renderer *r, struct kd_prepared *prepared, const struct kd_scene *scene, const struct kd_plan *plan,
                           const struct kd_capacity *c, struct kd_error *error)
 {

@@ -16,6 +16,9 @@ struct kd_vk_buffer;
 /* What each emitter keeps, as large as it says; NULL: nothing yet. */
 struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 
+/* Tells of all emitters that the plan's scene has, after kd_emit_update. */
+enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_emission *out,
+                               char *credit, size_t size, struct kd_error *error);
 /* Prepares all emitters that the plan's scene has. */
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan *plan, const struct kd_capacity *capacity, struct kd_error *error);

@@ -75,6 +75,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     const struct kd_vk_info *info = kd_vk_info(r->vk);
     r->capacity = guess(info, params->memory_bytes);
     r->store.vk = r->vk;
+    r->panoramas.assets = params->assets;
     for (size_t i = 0; i < KD_ASIDES; i++)
         r->asides[i].store.vk = r->vk;
     load_accuracy(r);
@@ -114,7 +115,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     pthread_mutex_destroy(&renderer->lock);
     free(renderer->accuracy);
     free(renderer->emit);
-    free(renderer->milky_way);
+    kd_panoramas_finish(&renderer->panoramas);
     free(renderer);
 }
 

@@ -5,11 +5,14 @@
 
 #include "base/error.h"
 #include "render/plan/plan.h"
+#include "scene/asset.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 struct kd_renderer;
+
+#define KD_CREDIT 512 /* room for the names of those whose work is in a picture */
 
 struct kd_renderer_params {
     const char *device;     /* as kd_vk_params */
@@ -17,6 +20,7 @@ struct kd_renderer_params {
     bool validate;
     /* NULL, or kd_first_start (selftest/first_start.h): a device that is met for the first time is tested, half a second. */
     enum kd_status (*prove)(struct kd_renderer *renderer, struct kd_error *error);
+    const struct kd_assets *assets; /* what scenes name (scene/asset.h); NULL: none */
     uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
 };
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,

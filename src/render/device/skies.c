@@ -3,10 +3,11 @@
 #include "render/device/internal.h"
 #include "faces.h"
 #include "render/emit/emission.h"
-#include "render/sky/panorama.h"
+#include "render/device/panoramas.h"
 #include "render/sky/star.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -94,32 +95,12 @@ done:
     return status;
 }
 
-/* The renderer's own one, of this seed. */
-static enum kd_status milky_way(struct kd_renderer *r, int32_t seed, struct kd_error *error)
-{
-    struct kd_sky_picture picture = { 0 };
-    if (r->milky_way && r->milky_way_seed == seed)
-        return KD_OK;
-    if (!r->milky_way)
-        r->milky_way = malloc(kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof *r->milky_way);
-    if (!r->milky_way)
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
-    enum kd_status status = kd_milky_way(seed, &picture, error);
-    if (!status)
-        kd_panorama_fill(&picture, r->milky_way);
-    r->milky_way_seed = seed;
-    kd_sky_picture_finish(&picture);
-    if (status) {
-        free(r->milky_way);
-        r->milky_way = NULL;
-    }
-    return status;
-}
+static bool is_spread(const struct kd_scene *scene) { return scene->sky.model != KD_SKY_GRID && scene->sky.milky_way > 0; }
 
 static bool is_current(const struct kd_sky_buffers *b, const struct kd_scene *scene)
 {
     return b->there && b->of.model == scene->sky.model && b->of.seed == scene->sky.seed && b->of.limit_mag == scene->sky.limit_mag &&
-           (b->of.milky_way > 0) == (scene->sky.milky_way > 0);
+           (b->of.milky_way > 0) == (scene->sky.milky_way > 0) && !strcmp(b->of.image, scene->sky.image);
 }
 
 static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
@@ -132,15 +113,33 @@ static enum kd_status prepare(const struct kd_own_work *work, const struct kd_sc
     b->there = false;
     if (kd_stars_most(scene))
         KD_TRY(send_stars(r, b, scene, error));
-    if (scene->sky.milky_way > 0) {
-        KD_TRY(milky_way(r, scene->sky.seed, error));
-        KD_TRY(upload(r, &b->panorama, r->milky_way, kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof *r->milky_way, "panorama", error));
+    if (is_spread(scene)) {
+        const struct kd_panorama *p;
+        KD_TRY(kd_panorama_of(&r->panoramas, scene, &p, error));
+        KD_TRY(upload(r, &b->panorama, p->words, kd_panorama_words(p->columns, p->rows) * sizeof *p->words, "panorama", error));
     }
     KD_TRY(kd_vk_submit(r->vk, NULL, error));
     b->of = scene->sky;
     b->there = true;
 done:
     return status;
+}
+
+/* The panorama's size, and whose it is. */
+static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
+{
+    const struct kd_panorama *p;
+    if (!is_spread(scene))
+        return KD_OK;
+    enum kd_status status = kd_panorama_of(&r->panoramas, scene, &p, error);
+    if (status)
+        return status;
+    out->sky.columns = p->columns;
+    out->sky.rows = p->rows;
+    out->sky.texel = (float)log2(M_PI / p->rows);
+    if (*p->credit)
+        snprintf(credit, size, "sky: %s", p->credit);
+    return KD_OK;
 }
 
 static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_panorama] = ((const struct kd_sky_buffers *)own)->panorama; }
@@ -156,4 +155,4 @@ static void finish(void *own, struct kd_vk *vk)
     *b = (struct kd_sky_buffers) { 0 };
 }
 
-const struct kd_own kd_own_sky = { sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish };
+const struct kd_own kd_own_sky = { sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish, tell };

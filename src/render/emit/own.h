@@ -28,6 +28,10 @@ struct kd_own {
     void (*buffers)(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]); /* sets its own, by KD_OWN_... (emission.h) */
     void (*forget)(void *own); /* what was recorded may not have come to the device: work was given up */
     void (*finish)(void *own, struct kd_vk *vk);
+    /* Complete the emitter's numbers by what the scene does not say, after its `fill`; and write who is to be named for the picture, whose work is in
+     * it. NULL: neither. */
+    enum kd_status (*tell)(struct kd_renderer *renderer, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size,
+                           struct kd_error *error);
 };
 
 /* The renderer does these for `prepare`. *buffer, NULL at first, becomes one of at least so many bytes. */
@@ -38,7 +42,7 @@ enum kd_status kd_own_at_least(const struct kd_own_work *work, struct kd_vk_buff
 enum kd_status kd_own_kernel(const struct kd_own_work *work, const struct kd_vk_pipeline_params *kernel, const uint32_t *constants, size_t n,
                              const struct kd_vk_pipeline **out, struct kd_error *error);
 
-/* The sky's is device/skies.c: it keeps a Milky Way for all pictures of a renderer. */
+/* The sky's is device/skies.c: it keeps panoramas for all pictures of a renderer. */
 extern const struct kd_own kd_own_sky;
 
 #endif

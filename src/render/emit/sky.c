@@ -10,11 +10,15 @@
 #include <math.h>
 #include <stdio.h>
 
-static bool present(const struct kd_scene *scene) { return scene->sky.model != KD_SKY_NONE && scene->sky.brightness > 0; }
-
 static bool is_grid(const struct kd_scene *scene) { return scene->sky.model == KD_SKY_GRID; }
 static bool has_stars(const struct kd_scene *scene) { return kd_stars_most(scene) > 0; }
 static bool is_spread(const struct kd_scene *scene) { return !is_grid(scene) && scene->sky.milky_way > 0; }
+static bool is_picture(const struct kd_scene *scene) { return is_spread(scene) && *scene->sky.image; }
+
+static bool present(const struct kd_scene *scene)
+{
+    return scene->sky.model != KD_SKY_NONE && kd_scene_sky_brightness(scene) > 0 && (is_grid(scene) || has_stars(scene) || is_spread(scene));
+}
 
 static uint32_t traits(const struct kd_scene *scene)
 {
@@ -35,30 +39,28 @@ static unsigned varies(const struct kd_scene *scene)
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
-    static const char *const sentences[] = {
-        [KD_SKY_GRID] = "A celestial grid behind.", [KD_SKY_STARS] = "Stars and a Milky Way behind.",
-        [KD_SKY_CATALOGUE] = "The stars of the Hipparcos catalogue and a Milky Way behind.",
-    };
-    snprintf(out, KD_EMIT_TOLD, "%s", sentences[scene->sky.model]);
+    static const char *const stars[] = { "", "A celestial grid", "Stars", "The stars of the Hipparcos catalogue", "" };
+    const char *spread = !is_spread(scene) ? "" : is_picture(scene) ? "a picture of the sky" : "a Milky Way";
+    const char *before = stars[scene->sky.model], *and = *before && *spread ? is_picture(scene) ? " over " : " and " : "";
+    const bool begins = !*before; /* the sentence, with what is spread */
+    snprintf(out, KD_EMIT_TOLD, "%s%s%s%s behind.", before, and, begins ? "A" : "", begins ? spread + 1 : spread);
 }
 
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     const uint64_t cells = KD_FACES * KD_FACE_CELLS * KD_FACE_CELLS + 1, places = 3ull * kd_stars_most(scene);
-    return (is_spread(scene) ? 4ull * kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) : 0) +
+    const uint32_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT; /* at most */
+    return (is_spread(scene) ? 4ull * kd_panorama_words(2 * rows, rows) : 0) +
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
-    const struct kd_rotation r = kd_sky_rotation(scene);
+    const struct kd_rotation r = kd_sky_rotation(scene); /* the panorama's size is that of device/skies.c */
     out->sky = (struct kd_sky_block) {
-        .brightness = (float)scene->sky.brightness,
+        .brightness = (float)kd_scene_sky_brightness(scene),
         .spacing = (float)(scene->sky.grid_deg * (M_PI / 180)),
-        .spread = (float)(scene->sky.brightness * scene->sky.milky_way),
-        .columns = KD_MILKY_WAY_WIDTH,
-        .rows = KD_MILKY_WAY_HEIGHT,
-        .texel = (float)log2(M_PI / KD_MILKY_WAY_HEIGHT),
+        .spread = (float)(kd_scene_sky_brightness(scene) * scene->sky.milky_way),
         .xx = (float)r.m[0][0], .xy = (float)r.m[0][1], .xz = (float)r.m[0][2],
         .yx = (float)r.m[1][0], .yy = (float)r.m[1][1], .yz = (float)r.m[1][2],
         .zx = (float)r.m[2][0], .zy = (float)r.m[2][1], .zz = (float)r.m[2][2],
@@ -71,8 +73,11 @@ WHEN(drawn, is_grid(scene))
 WHEN(starry, has_stars(scene))
 WHEN(made_up, scene->sky.model == KD_SKY_STARS)
 WHEN(listed, scene->sky.model == KD_SKY_CATALOGUE)
-WHEN(milky, is_spread(scene))
-WHEN(shifted, is_spread(scene) && isfinite(scene->camera.r))
+WHEN(milky, is_spread(scene) && !is_picture(scene))
+WHEN(stands_in, is_spread(scene) && !is_picture(scene) && scene->sky.model == KD_SKY_IMAGE)
+WHEN(picture, is_picture(scene))
+WHEN(shifted, is_spread(scene) && !is_picture(scene) && isfinite(scene->camera.r))
+WHEN(picture_shifted, is_picture(scene) && isfinite(scene->camera.r))
 
 static bool noise(const struct kd_scene *scene, const struct kd_setting *rays) { return kd_sky_is_noise(scene, rays->precision); }
 
@@ -86,7 +91,11 @@ static const struct kd_sentence sentences[] = {
     { "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out, and those next to the critical "
       "curve, in pixels whose rays stand for more than 0.15 rad of the sky", starry },
     { "sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky", milky },
+    { "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it", stands_in },
+    { "sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 magnitudes a square arcsecond, and "
+      "stars that it shows are spread as light", picture },
     { "sky: the light between the stars is shifted as that of black bodies of 5600 K", shifted },
+    { "sky: a picture of three colours has no spectrum: its light is made brighter and tinted as that of black bodies of 5600 K is", picture_shifted },
 };
 
 const struct kd_emitter kd_emit_sky = {
@@ -100,7 +109,7 @@ const struct kd_emitter kd_emit_sky = {
     .own = &kd_own_sky,
     .device_bytes = device_bytes,
     .fill = fill,
-    .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera) },
+    .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
 };

@@ -17,6 +17,7 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
     kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
+    KD_TRY(kd_prepare_tell(r, j->scene, j->plan, &r->emit->data.emission, j->frame->credit, KD_CREDIT, j->error));
     KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
     KD_TRY(kd_frame_send_cameras(j));
 done:

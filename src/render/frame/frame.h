@@ -16,6 +16,7 @@ struct kd_frame {
     uint32_t width, height;
     struct kd_layer layers[KD_FRAME_MAX_LAYERS];
     size_t n_layers;
+    char credit[KD_CREDIT];   /* whose work is in it, as they ask to be named; "": nobody does */
     double exposure;          /* stops that were applied */
     bool lens_reused;         /* the trace pass was skipped: the lens map was in the cache */
     struct kd_accuracy_report accuracy;

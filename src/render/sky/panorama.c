@@ -47,9 +47,42 @@ static void halve(struct kd_sky_picture *p)
     p->height = height;
 }
 
-void kd_panorama_fill(struct kd_sky_picture *p, uint32_t *words)
+/* Replaces a row by its mean over so many texels about each, fewer than all; of texels at the ends it takes a part. */
+static void spread_row(float *row, uint32_t n, double over, double *sums)
 {
-    for (; p->height >= 2; halve(p))
+    for (int c = 0; c < 3; c++) {
+        sums[0] = 0;
+        for (uint32_t x = 0; x < 3 * n; x++) /* thrice round: what an end reaches on either side is there */
+            sums[x + 1] = sums[x] + row[3 * (x % n) + (uint32_t)c];
+        for (uint32_t x = 0; x < n; x++) {
+            double ends[2];
+            for (int k = 0; k < 2; k++) {
+                const double at = n + x + 0.5 + (k - 0.5) * over;
+                const uint32_t whole = (uint32_t)at;
+                ends[k] = sums[whole] + (at - whole) * (sums[whole + 1] - sums[whole]);
+            }
+            row[3 * x + (uint32_t)c] = (float)fmax((ends[1] - ends[0]) / over, 0);
+        }
+    }
+}
+
+static void even_out(struct kd_sky_picture *p, double *sums)
+{
+    for (uint32_t y = 0; y < p->height; y++)
+        spread_row(&p->texels[3 * (size_t)y * p->width], p->width, 1 / sin(M_PI * (y + 0.5) / p->height), sums);
+}
+
+enum kd_status kd_panorama_fill(struct kd_sky_picture *p, uint32_t *words, struct kd_error *error)
+{
+    double *sums = p->even ? malloc((3 * (size_t)p->width + 2) * sizeof *sums) : NULL;
+    if (p->even && !sums)
+        return kd_error_set(error, KD_ENOMEM, "out of memory for a panorama");
+    for (; p->height >= 2; halve(p)) {
+        if (p->even)
+            even_out(p, sums);
         for (size_t i = 0, n = (size_t)p->width * p->height; i < n; i++)
             *words++ = kd_panorama_pack(&p->texels[3 * i]);
+    }
+    free(sums);
+    return KD_OK;
 }

@@ -14,7 +14,13 @@
 #include <stdint.h>
 
 /* A picture before that, three floats a texel, rows from the top. */
-struct kd_sky_picture { uint32_t width, height; float *texels; };
+struct kd_sky_picture {
+    uint32_t width, height;
+    float *texels;
+    /* Texels of a row are narrower towards the poles. Each level is averaged along rows over 1/cos(latitude) of them: it is as coarse there as
+     * at the equator, and the poles are no stars of many rays. */
+    bool even;
+};
 void kd_sky_picture_finish(struct kd_sky_picture *picture);
 
 /* Texels of all levels. */
@@ -25,8 +31,8 @@ static inline size_t kd_panorama_words(uint32_t width, uint32_t height)
         sum += (size_t)width * height;
     return sum;
 }
-/* Makes all levels. The picture's texels are averaged in place. */
-void kd_panorama_fill(struct kd_sky_picture *picture, uint32_t *words);
+/* Makes all levels. The picture's texels are averaged in place. KD_ENOMEM. */
+enum kd_status kd_panorama_fill(struct kd_sky_picture *picture, uint32_t *words, struct kd_error *error);
 
 uint32_t kd_panorama_pack(const float rgb[3]);
 void kd_panorama_unpack(uint32_t word, float rgb[3]);
@@ -34,5 +40,8 @@ void kd_panorama_unpack(uint32_t word, float rgb[3]);
 /* The procedural Milky Way (milky_way.c), of sky.seed. KD_ENOMEM. Some tenths of a second. */
 enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
+
+/* A picture of the sky has at most so many rows when it is read (image.h). */
+enum { KD_SKY_IMAGE_ROWS = 2048 };
 
 #endif

@@ -24,10 +24,11 @@ struct kd_asset {
 
 struct kd_asset_store {
     struct kd_asset_limits limits;
+    struct kd_assets assets;
     pthread_mutex_t lock; /* for what follows; never held while a file is written */
     int folder;           /* -1: none */
     struct kd_asset *first;
-    _Atomic unsigned assets; /* these two are written with the lock, and read without */
+    _Atomic unsigned count; /* these two are written with the lock, and read without */
     _Atomic uint64_t bytes;
 };
 
@@ -54,7 +55,7 @@ static void insert(struct kd_asset_store *store, struct kd_asset *asset)
 {
     asset->next = store->first;
     store->first = asset;
-    store->assets++;
+    store->count++;
     store->bytes += asset->about.size;
 }
 
@@ -67,7 +68,7 @@ static bool take_out(struct kd_asset_store *store, struct kd_asset *asset)
     if (!*at)
         return false;
     *at = asset->next;
-    store->assets--;
+    store->count--;
     store->bytes -= asset->about.size;
     return true;
 }
@@ -100,23 +101,48 @@ static void load(void *user, const struct kd_asset_about *about, struct kd_buffe
     insert(store, asset);
 }
 
-enum kd_status kd_asset_store_open(const char *state, const struct kd_asset_limits *limits, struct kd_asset_store **out, struct kd_error *error)
+static bool find_for_scene(void *user, const char *name, struct kd_asset_found *out)
+{
+    struct kd_asset *asset = kd_asset_store_find(user, name);
+    if (!asset)
+        return false;
+    memcpy(out->hash, asset->about.hash, sizeof out->hash);
+    out->width = asset->about.width;
+    out->height = asset->about.height;
+    kd_asset_release(user, asset);
+    return true;
+}
+
+static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
+{
+    struct kd_asset *asset = kd_asset_store_find(user, hash);
+    if (asset)
+        *out = (struct kd_asset_bytes) { asset->about.data, asset->about.size, asset };
+    return asset;
+}
+
+static void give_back(void *user, struct kd_asset_bytes *bytes) { kd_asset_release(user, bytes->held); }
+
+enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out, struct kd_error *error)
 {
     struct kd_asset_store *store = calloc(1, sizeof *store);
     if (!store)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     store->limits = *limits;
+    store->assets = (struct kd_assets) { find_for_scene, take, give_back, "null and the SHA-256 of an asset that PUT /v1/assets has taken", store };
     store->folder = -1;
     pthread_mutex_init(&store->lock, NULL);
-    enum kd_status status = state ? kd_asset_folder_open(state, &store->folder, error) : KD_OK;
-    if (!status && state)
-        status = kd_asset_folder_load(store->folder, load, store, error);
-    if (status)
-        kd_asset_store_close(store);
-    else
-        *out = store;
-    return status;
+    *out = store;
+    return KD_OK;
 }
+
+enum kd_status kd_asset_store_open(struct kd_asset_store *store, const char *state, struct kd_error *error)
+{
+    enum kd_status status = kd_asset_folder_open(state, &store->folder, error);
+    return status ? status : kd_asset_folder_load(store->folder, load, store, error);
+}
+
+const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store) { return &store->assets; }
 
 void kd_asset_store_close(struct kd_asset_store *store)
 {
@@ -146,7 +172,7 @@ static struct kd_asset *oldest(const struct kd_asset_store *store)
 
 static bool fits(const struct kd_asset_store *store, size_t size)
 {
-    return store->assets < store->limits.most && store->bytes + size <= store->limits.bytes;
+    return store->count < store->limits.most && store->bytes + size <= store->limits.bytes;
 }
 
 /* Says whether the client has its share already, or would have more with these bytes. With the lock. */
@@ -277,6 +303,6 @@ void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset)
 
 void kd_asset_store_count(const struct kd_asset_store *store, unsigned *assets, uint64_t *bytes)
 {
-    *assets = store->assets;
+    *assets = store->count;
     *bytes = store->bytes;
 }

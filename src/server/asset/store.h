@@ -5,7 +5,7 @@
 #ifndef KD_SERVER_ASSET_STORE_H
 #define KD_SERVER_ASSET_STORE_H
 
-#include "scene/scene.h"
+#include "scene/asset.h"
 #include "server/http/secret.h"
 #include "server/http/shares.h"
 
@@ -23,10 +23,13 @@ struct kd_asset_limits {
     uint64_t bytes, client_bytes;     /* of all; of those of one client */
     double keep_s;                    /* that one stays though nobody asks for it and others want its room */
 };
-/* Opens the store. state: NULL, or the server's folder, of which this process holds the lock (job/store.h). Assets in it are read;
- * what cannot be read is logged and left alone. */
-enum kd_status kd_asset_store_open(const char *state, const struct kd_asset_limits *limits, struct kd_asset_store **out,
-                                   struct kd_error *error);
+/* Makes a store without assets. */
+enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out, struct kd_error *error);
+/* Keeps assets in the server's folder from now on, of which this process holds the lock (job/store.h). Those in it are read; what cannot be read
+ * is logged and left alone. To be called once, before anything is put here. */
+enum kd_status kd_asset_store_open(struct kd_asset_store *store, const char *state, struct kd_error *error);
+/* The store as scenes and renderers see it, by hashes alone. */
+const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store);
 /* To be called when nobody holds a reference any more. Accepts NULL. */
 void kd_asset_store_close(struct kd_asset_store *store);
 const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store *store);

@@ -174,7 +174,7 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
     struct kd_job_spec spec = { 0 };
     struct kd_error error = { 0 };
     char why[sizeof error.message] = "";
-    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, known->preset, &spec, &error);
+    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, known->preset, NULL, &spec, &error);
     kd_buffer_finish(request);
     if (status == KD_ENOMEM) {
         kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
@@ -230,11 +230,15 @@ enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_job
         kd_jobs_destroy(all);
         return status;
     }
+    *out = all;
+    return KD_OK;
+}
+
+void kd_jobs_begin(struct kd_jobs *all)
+{
     pthread_mutex_lock(&all->lock);
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
-    *out = all;
-    return KD_OK;
 }
 
 void kd_jobs_destroy(struct kd_jobs *all)

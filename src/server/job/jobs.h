@@ -30,8 +30,10 @@ struct kd_jobs_params {
     uint64_t bytes;             /* of the frames of all jobs */
     double keep_s;              /* that a finished job stays */
 };
-/* Creates the jobs; with a state folder it goes on with what that holds. params->state need not live on. */
+/* Creates the jobs, with a state folder those that it holds. params->state need not live on. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);
+/* Goes on with jobs of before, once all that they need is there. */
+void kd_jobs_begin(struct kd_jobs *all);
 /* Called after kd_jobs_close, and when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
 

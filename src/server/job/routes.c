@@ -1,6 +1,7 @@
 /* These routes take POST /v1/jobs, tell how far a job is, by asking and as events, and end it. */
 #include "base/json.h"
 #include "base/clock.h"
+#include "server/asset/store.h"
 #include "server/job/routes.h"
 #include "server/http/reply.h"
 #include "server/render/scene_source.h"
@@ -109,12 +110,13 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
 {
     struct draft *d = (struct draft *)task;
     struct kd_jobs *jobs = task->request->server->jobs;
+    const struct kd_assets *assets = kd_asset_store_assets(task->request->server->assets);
     const struct kd_buffer *body = &task->request->body;
     const char *text = body->data ? (const char *)body->data : "";
     struct kd_error error = { 0 };
     enum kd_status status;
     if (!d->read)
-        KD_TRY(kd_job_spec_parse(text, body->size, d->draft.preset, &d->draft.spec, &error));
+        KD_TRY(kd_job_spec_parse(text, body->size, d->draft.preset, assets, &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
     if (d->draft.checked < d->draft.spec.frames)

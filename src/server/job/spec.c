@@ -14,6 +14,7 @@
 struct reader {
     struct kd_job_spec *spec;
     struct kd_scene base;
+    const struct kd_assets *assets;
     const cJSON *scene, *scenes, *keyframes, *frames, *interpolation, *output;
     struct kd_error *error;
 };
@@ -79,6 +80,8 @@ static enum kd_status inside(struct reader *r, enum kd_status status, const char
 static enum kd_status read_scene(struct reader *r, const cJSON *item, const char *pointer, bool patch, struct kd_scene *scene)
 {
     enum kd_status status = kd_scene_from_tree(scene, item, patch, r->error);
+    if (!status && r->assets)
+        status = kd_scene_resolve(scene, r->assets, r->error);
     if (!status)
         status = kd_scene_validate(scene, r->error);
     return inside(r, status, pointer);
@@ -190,11 +193,11 @@ static enum kd_status read_output(struct reader *r)
     return not_a(r, r->output, "/output", known);
 }
 
-enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out,
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, const struct kd_assets *assets, struct kd_job_spec *out,
                                  struct kd_error *error)
 {
     struct kd_job_spec spec = { .series = kd_series_all[0] };
-    struct reader r = { .spec = &spec, .error = error };
+    struct reader r = { .spec = &spec, .assets = assets, .error = error };
     const struct member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "keyframes", &r.keyframes },
                                       { "frames", &r.frames }, { "interpolation", &r.interpolation },
                                       { "output", &r.output } };

@@ -11,7 +11,7 @@
 #define KD_SERVER_JOB_SPEC_H
 
 #include "render/output/series.h"
-#include "scene/scene.h"
+#include "scene/asset.h"
 
 #define KD_JOB_BODY_MAX (4u << 20)
 #define KD_JOB_FRAMES_MAX 10000
@@ -30,9 +30,9 @@ struct kd_job_spec {
     const struct kd_series *series; /* "output": what it makes of its frames */
 };
 
-/* preset: what scenes are merged over instead of the defaults; "": those. Every scene of a list and every keyframe is valid
- * afterwards. KD_EINVAL with the pointer into the request, or to /preset. */
-enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, struct kd_job_spec *out,
+/* preset: what scenes are merged over instead of the defaults; "": those. assets: those that scenes may name; NULL: hashes are taken as they
+ * are. Every scene of a list and every keyframe is valid afterwards. KD_EINVAL with the pointer into the request, or to /preset. */
+enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *preset, const struct kd_assets *assets, struct kd_job_spec *out,
                                  struct kd_error *error);
 void kd_job_spec_finish(struct kd_job_spec *spec);
 

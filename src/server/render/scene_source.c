@@ -1,5 +1,7 @@
 #include "server/render/scene_source.h"
 
+#include "server/asset/store.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -83,6 +85,7 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
     } else {
         KD_TRY(apply_fields(&request->target, scene, error));
     }
+    KD_TRY(kd_scene_resolve(scene, kd_asset_store_assets(request->server->assets), error));
     KD_TRY(kd_scene_validate(scene, error));
 done:
     if (status) {

@@ -182,6 +182,7 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
     enum kd_status status;
     KD_TRY(kd_scene_patch(&scene, text, length, error));
+    KD_TRY(kd_scene_resolve(&scene, s->all->params.assets, error));
     KD_TRY(kd_scene_validate(&scene, error));
     KD_TRY(make_plan(s->all, &scene, &plan, error));
     pthread_mutex_lock(&s->all->lock);

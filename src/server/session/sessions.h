@@ -21,6 +21,7 @@ struct kd_sessions_params {
     unsigned client_limit; /* and those of one client */
     unsigned idle_ms; /* without anybody watching or asking, after which a session ends */
     unsigned longest_s; /* a frame as asked may take, by its plan */
+    const struct kd_assets *assets; /* that scenes may name */
 };
 enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out, struct kd_error *error);
 /* To be called after kd_sessions_close, and when the render queue has finished: nothing may be under way. Accepts NULL. */

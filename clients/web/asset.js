@@ -1,0 +1,34 @@
+// A picture that a field names: taken from a file, put to the server, and named by the hash of its bytes.
+import { el } from './dom.js';
+import { t, tell } from './i18n.js';
+import { ask } from './server.js';
+
+export function assetRow(field, scene, id, hint) {
+  const name = el('output', { class: 'asset' }),
+    fault = el('p', { class: 'fault', hidden: true }),
+    none = el('button', { type: 'button', onclick: () => scene.change({ [field.path]: null }) }, t('Leave it out', 'Togli'));
+  const file = el('input', { type: 'file', accept: 'image/png', id, 'aria-describedby': hint, onchange: take });
+
+  async function take() {
+    const [picture] = file.files;
+    if (!picture) return;
+    fault.hidden = true;
+    try {
+      const answer = await ask('v1/assets', { method: 'PUT', headers: { 'Content-Type': 'image/png' }, body: picture });
+      scene.change({ [field.path]: (await answer.json()).sha256 });
+    } catch (error) {
+      tell(fault, error.message);
+      fault.hidden = false;
+    }
+    file.value = ''; // the same file may be chosen once more
+  }
+
+  return {
+    nodes: [file, el('div', { class: 'pair' }, name, none), fault],
+    show: () => {
+      const hash = scene.get(field.path);
+      name.value = hash ? `SHA-256 ${hash.slice(0, 8)}…` : '';
+      none.hidden = !hash;
+    },
+  };
+}

@@ -1,0 +1,17 @@
+#include "scene/scene.h"
+
+#define ALONE 0.2    /* in a picture that is exposed for it */
+#define BEHIND 0.01  /* bright stars beside a disk, not a white sky */
+
+static bool shines_before(const struct kd_scene *scene)
+{
+    const struct kd_spot *on[KD_SPOTS];
+    return scene->disk.model != KD_DISK_NONE || kd_scene_spots(scene, on);
+}
+
+double kd_scene_sky_brightness(const struct kd_scene *scene)
+{
+    if (isfinite(scene->sky.brightness))
+        return scene->sky.brightness;
+    return scene->sky.model != KD_SKY_GRID && shines_before(scene) ? BEHIND : ALONE;
+}
