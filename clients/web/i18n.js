@@ -89,6 +89,7 @@ const labels = {
   l: 'L, angular momentum',
   'motion.azimuth_rate_deg': 'Going round',
   'motion.time_rate': 'Pace of time',
+  'motion.proper_time_rate': 'Pace of its own time',
   spots: 'Spot',
 };
 

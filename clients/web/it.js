@@ -240,6 +240,10 @@ export const fields = {
   'style.ringdown_time': ['Istante del colpo', 'Il tempo in cui fu percosso; prima nulla oscilla'],
   'motion.azimuth_rate_deg': ['Giro', 'L’osservatore gira attorno all’asse'],
   'motion.time_rate': ['Scorrere del tempo', 'Il tempo coordinato avanza'],
+  'motion.proper_time_rate': [
+    'Scorrere del suo tempo',
+    'L’osservatore va avanti secondo il proprio orologio: cade, fin dove può stare una camera, o gira, e il tempo coordinato avanza come sul suo cammino',
+  ],
   'accuracy.profile': ['Profilo', 'Con quanta cura si seguono i raggi, da grossolana a fine; riferimento è in doppia precisione'],
   'accuracy.tolerance': [
     'Tolleranza',
@@ -290,6 +294,8 @@ export const presets = {
   gas: 'La scena predefinita, un disco di gas turbolento, denso dov’è brillante e trasparente dov’è fioco; in una sessione gira',
   'gas-stars': 'La stessa davanti alle stelle del catalogo Hipparcos, ogni immagine luminosa quanto la lente la fa; in una sessione gira',
   falling: 'Ciò che vede chi cade liberamente da lontano, a 6 M; camera.r continua oltre l’orizzonte',
+  infall:
+    'Una caduta libera da 20 M attraverso l’orizzonte, secondo l’orologio di chi cade, con la massa di Sagittarius A*; in una sessione prosegue',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',
@@ -356,6 +362,14 @@ const refusals = [
   [
     '{} is {}, with which the observer turns outside camera.r {}; allowed are those nearer to 0',
     '{} è {}, con cui l’osservatore torna indietro fuori da camera.r {}; ammessi sono quelli più vicini a 0',
+  ],
+  [
+    '{} is {}, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
+    '{} è {}, ammesso è 0 salvo che camera.observer stia fermo, giri nel piano equatoriale o cada senza lasciare la sua latitudine, da un camera.r finito',
+  ],
+  [
+    "{} is {}, allowed is 0 with motion.proper_time_rate {}: time and azimuth go on as they do on the observer's way",
+    '{} è {}, ammesso è 0 con motion.proper_time_rate {}: tempo e azimut vanno avanti come sul cammino dell’osservatore',
   ],
   [
     '{} is {}, allowed is {} unless camera.observer is {} at a finite camera.r',

@@ -165,7 +165,7 @@ export class Scene extends EventTarget {
   }
 
   goesOn() {
-    return !this.held && (this.get('motion.time_rate') !== 0 || this.get('motion.azimuth_rate_deg') !== 0);
+    return !this.held && ['time_rate', 'azimuth_rate_deg', 'proper_time_rate'].some(name => this.get(`motion.${name}`) !== 0);
   }
 
   // What the server says of values that it changed.

@@ -67,7 +67,7 @@ export function openSource(scene, size, shown, failed) {
       'image.width': width,
       'image.height': height,
       'image.samples': samples(scene),
-      ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0 } : {}),
+      ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 } : {}),
     });
   }
 

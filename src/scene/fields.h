@@ -199,7 +199,10 @@
 
 #define KD_MOTION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     REAL(motion, azimuth_rate_deg, LOOK, FRONT, 0.0, -360.0, 360.0, "degrees per second", "the observer goes round the axis") \
-    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")
+    REAL(motion, time_rate, LOOK, FRONT, 0.0, -1e6, 1e6, "M per second", "coordinate time goes on")                      \
+    REAL(motion, proper_time_rate, LOOK, REST, 0.0, 0.0, 1e6, "M per second",                                         \
+         "the observer goes on by its own clock: it falls, to where a camera can be at last, or goes round, and coordinate time goes on as " \
+         "it does on its way")
 
 #define KD_ACCURACY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                \
     ENUM(accuracy, profile, PHYSICS, FRONT, KD_PROFILE_BALANCED,                                                     \
@@ -303,6 +306,7 @@
     SPAN("style.ringdown_time", -1000, 1000)                                                                         \
     SPAN("accuracy.tolerance", 1e-12, 1e-2) FIRST("accuracy.tolerance", 1e-6)                                        \
     SPAN("motion.time_rate", -100, 100) VARIES("motion.time_rate", "moves_with_time|dims_with_time")                 \
+    SPAN("motion.proper_time_rate", 0, 20)                                                                            \
     SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
 
 /* What elements were called before there were lists: OLD(name, list, index). They are still read, and never written. */

@@ -1,21 +1,77 @@
 #include "scene/scene.h"
 
 #include "physics/angle.h"
+#include "physics/infall.h"
+#include "physics/kerr.h"
 #include "physics/qnm.h"
 #include "physics/ringdown.h"
+#include "physics/scale.h"
+#include "physics/worldline.h"
 
 #define TIME_END 1e12 /* of `time` in fields.h, either way */
 
+static void turn(struct kd_scene *scene, double degrees)
+{
+    scene->camera.azimuth_deg = remainder(scene->camera.azimuth_deg + degrees, 360);
+}
+
+static void pass(struct kd_scene *scene, double time)
+{
+    scene->top.time = fmax(-TIME_END, fmin(TIME_END, scene->top.time + time));
+}
+
+void kd_scene_go_on(struct kd_scene *scene, double proper_time)
+{
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const struct kd_observer_motion motion = kd_scene_observer(scene);
+    const struct kd_worldline_place to = kd_worldline_after(&motion, &at, proper_time);
+    scene->camera.r = to.r;
+    turn(scene, to.azimuth * (180 / M_PI));
+    pass(scene, scene->disk.slow_light && isfinite(to.far_time) ? to.far_time : to.time);
+}
+
 void kd_scene_advance(struct kd_scene *scene, double seconds)
 {
-    scene->camera.azimuth_deg = remainder(scene->camera.azimuth_deg + scene->motion.azimuth_rate_deg * seconds, 360);
-    scene->top.time = fmax(-TIME_END, fmin(TIME_END, scene->top.time + scene->motion.time_rate * seconds));
+    turn(scene, scene->motion.azimuth_rate_deg * seconds);
+    pass(scene, scene->motion.time_rate * seconds);
+    if (scene->motion.proper_time_rate > 0)
+        kd_scene_go_on(scene, scene->motion.proper_time_rate * seconds);
+}
+
+/* Says whether the observer moves by its own clock. */
+static bool goes_on(const struct kd_scene *scene)
+{
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const struct kd_observer_motion motion = kd_scene_observer(scene);
+    return scene->motion.proper_time_rate > 0 && kd_worldline_goes_on(&motion, &at);
+}
+
+bool kd_scene_falls(const struct kd_scene *scene) { return scene->camera.observer == KD_OBSERVER_INFALL && goes_on(scene); }
+
+bool kd_scene_azimuth_goes_on(const struct kd_scene *scene)
+{
+    return scene->motion.azimuth_rate_deg != 0 || (scene->camera.observer != KD_OBSERVER_STATIC && goes_on(scene));
 }
 
 bool kd_scene_time_goes_on(const struct kd_scene *scene)
 {
-    double rate = scene->motion.time_rate;
+    double rate = scene->motion.time_rate + (goes_on(scene) ? scene->motion.proper_time_rate : 0);
     return rate != 0 && scene->top.time != copysign(TIME_END, rate);
+}
+
+bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out)
+{
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const struct kd_observer_motion motion = kd_scene_observer(scene);
+    const double horizon = kd_kerr_horizon(at.spin);
+    if (motion.observer != KD_OBSERVER_INFALL || !kd_worldline_is_known(&motion, &at))
+        return false;
+    *out = (struct kd_fall_clock) {
+        .to_horizon = at.r > horizon ? kd_infall_proper_time(&motion, &at, horizon) : NAN,
+        .to_end = kd_infall_proper_time(&motion, &at, kd_kerr_inner_horizon(at.spin)),
+        .second = kd_scale_seconds(scene->spacetime.mass_msun),
+    };
+    return true;
 }
 
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene)

@@ -101,6 +101,12 @@ const struct kd_preset kd_presets[] = {
     { "falling", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
       "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02}}" },
+    { "infall", "A free fall from 20 M through the horizon, by the clock of who falls, at the mass of Sagittarius A*; in a live session it goes on",
+      false,
+      "{\"spacetime\":{\"mass_msun\":4.3e6},"
+      "\"camera\":{\"r\":20,\"observer\":\"infall\",\"fov_deg\":120},"
+      "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02},"
+      "\"motion\":{\"proper_time_rate\":2}}" },
     { "gargantua-gas", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
       false,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"

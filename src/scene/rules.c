@@ -2,6 +2,7 @@
 
 #include "physics/kerr.h"
 #include "physics/qnm.h"
+#include "physics/worldline.h"
 #include "scene/number.h"
 #include "scene/value.h"
 
@@ -177,6 +178,25 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
     return KD_OK;
 }
 
+/* An observer that goes on takes azimuth and time with it. */
+static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_motion *m = &scene->motion;
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const struct kd_observer_motion motion = kd_scene_observer(scene);
+    if (m->proper_time_rate == 0)
+        return KD_OK;
+    if (!kd_worldline_is_known(&motion, &at))
+        return kd_error_field(error, "/motion/proper_time_rate", "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in "
+                              "the equatorial plane or falls without leaving its latitude, from a finite camera.r", show(m->proper_time_rate).text);
+    if (m->time_rate == 0 && m->azimuth_rate_deg == 0)
+        return KD_OK;
+    const bool time = m->time_rate != 0;
+    return kd_error_field(error, time ? "/motion/time_rate" : "/motion/azimuth_rate_deg", "motion.%s is %s, allowed is 0 with motion.proper_time_rate %s: time and "
+                          "azimuth go on as they do on the observer's way", time ? "time_rate" : "azimuth_rate_deg",
+                          show(time ? m->time_rate : m->azimuth_rate_deg).text, show(m->proper_time_rate).text);
+}
+
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
 {
     double least = kd_kerr_isco(scene->spacetime.spin);
@@ -273,6 +293,10 @@ const struct kd_rule kd_rules[] = {
     { "`camera.velocity_*` and `camera.infall_*` have their defaults unless `camera.observer` is \"velocity\" or \"infall\" at a finite "
       "`camera.r`.",
       idle_motion },
+    { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), goes round in the equatorial plane, or falls "
+      "without leaving its latitude: without spin, in that plane, on the axis, or from rest at infinity; `motion.time_rate` and "
+      "`motion.azimuth_rate_deg` are 0 then.",
+      path },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

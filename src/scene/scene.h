@@ -89,10 +89,22 @@ bool kd_scene_same_path(const char *a, const char *b);
  * radius, disk edges in order and outside the ISCO, bit depth 8 or 16, ... */
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
 
-/* Move what goes on by itself in a live session, azimuth and time, by so many seconds; say whether time goes on. Whether any of it
- * can be seen is for the emitters to say (render/emit/emitter.h). */
+/* Move what goes on by itself in a live session, azimuth, time and the observer, by so many seconds; say whether time goes on, whether azimuth
+ * does, and whether the observer falls. Whether anything of time and azimuth can be seen is for the emitters to say (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
+bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
+bool kd_scene_falls(const struct kd_scene *scene);
+
+/* Moves the observer on along its own path by so much of its own time, 0 or more: camera.r, camera.azimuth_deg and time. A valid scene whose
+ * observer has such a path (physics/worldline.h). `time` is then that of Boyer and Lindquist with disk.slow_light, as far as the horizon, else that of
+ * ingoing Kerr-Schild coordinates. */
+void kd_scene_go_on(struct kd_scene *scene, double proper_time);
+
+/* The clock of a falling observer to the outer horizon (NAN within) and to where the model ends, in M; second: one M in seconds. False: it does not
+ * fall, or its latitude does not stay. Some 20 us. */
+struct kd_fall_clock { double to_horizon, to_end, second; };
+bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out);
 
 /* Says whether areas of the picture are to scale: it is of the plane or the pinhole projection. */
 bool kd_scene_is_flat(const struct kd_scene *scene);

@@ -33,6 +33,8 @@ const struct kd_route kd_routes[] = {
       "A session's scene; a merge patch of it (RFC 7396); its end", KD_TAKES_SCENE },
     { "/v1/sessions/{id}/ringdown", KD_POST, kd_handle_session_ringdown, JSON,
       "Strikes the hole: style.ringdown, from now on the session's clock; the session's scene", KD_TAKES_STRIKE },
+    { "/v1/sessions/{id}/path", KD_POST | KD_DELETE, kd_handle_session_path, JSON,
+      "Lets a session go along keyframes, by the second; stops it where it is", KD_TAKES_PATH },
     { "/v1/sessions/{id}/particles", KD_GET, kd_handle_session_particles, "application/octet-stream",
       "Where its particles are, and their constants and rates: 32-bit little-endian floats, row by row", KD_TAKES_PARTICLES },
     { "/v1/sessions/{id}/frame.png", KD_GET, kd_handle_session_frame, "image/png",

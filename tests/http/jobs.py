@@ -32,6 +32,13 @@ def size(png):
     return struct.unpack('>II', png[16:24])
 
 
+def text_of(png, name):
+    """One of the texts of a picture, which is not compressed."""
+    start = png.index(b'tEXt' + name.encode() + b'\0') + 5 + len(name)
+    length = struct.unpack('>I', png[start - 9 - len(name):start - 5 - len(name)])[0]
+    return png[start:start + length - len(name) - 1].decode()
+
+
 def scene_of(png):
     """The scene that a picture says it shows."""
     at = 8
@@ -162,6 +169,27 @@ class Jobs(Case):
         for frame, value in SMOOTH.items():
             self.assertAlmostEqual(found[frame], value, places=10, msg=frame)
         self.assertTrue(all(a <= b for a, b in zip(found[:15], found[1:16])) and all(a >= b for a, b in zip(found[15:], found[16:])))
+
+    def test_a_fall_by_proper_time(self):
+        """Rain in Schwarzschild: r^(3/2) falls evenly, and is 2^(3/2) after sqrt(2)/3 (8^(3/2) - 2^(3/2)) M from 8 M."""
+        fall = {'image': IMAGE, 'spacetime': {'spin': 0, 'mass_msun': 4.3e6}, 'camera': {'r': 8, 'observer': 'infall'}}
+        job = self.make({'scene': fall, 'keyframes': [{'frame': 4, 'proper_time': 'horizon'}, {'frame': 6, 'proper_time': 'end', 'scene': {'camera': {'yaw_deg': 8}}}]})
+        pictures = self.frames(job)
+        scenes = [scene_of(png) for png in pictures.values()]
+        for i, scene in enumerate(scenes):
+            r = (8 ** 1.5 + (2 ** 1.5 - 8 ** 1.5) * i / 4) ** (2 / 3) if i < 5 else ((2 ** 1.5 + 1e-3) / 2 if i == 5 else 1e-3) ** (2 / 3)
+            self.assertAlmostEqual(scene['camera']['r'], r, places=9, msg=i)
+            self.assertEqual(scene['camera']['yaw_deg'], (0, 0, 0, 0, 0, 4, 8)[i])
+        self.assertEqual([s['time'] for s in scenes], sorted(s['time'] for s in scenes))
+        clock = dict(item.split('=') for item in text_of(list(pictures.values())[4], 'kerrd:clock').split())
+        self.assertAlmostEqual(float(clock['proper_time_to_end']), 4 / 3, places=8)
+        self.assertAlmostEqual(float(clock['proper_time_to_end_s']), 4 / 3 * 4.925490947e-6 * 4.3e6, places=4)
+
+    def test_an_approach_by_ratios(self):
+        job = self.make({'scene': {'image': IMAGE, 'camera': {'r': 1000}}, 'distances': 'geometric',
+                         'keyframes': [{'frame': 2, 'scene': {'camera': {'r': 10, 'azimuth_deg': 90}}}]})
+        cameras = [scene_of(png)['camera'] for png in self.frames(job).values()]
+        self.assertEqual([(round(c['r'], 9), c['azimuth_deg']) for c in cameras], [(1000, 0), (100, 45), (10, 90)])
 
     def test_light_curve(self):
         """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""
@@ -381,6 +409,9 @@ class Jobs(Case):
                 ({'scene': {}, 'keyframes': [{'frame': 2, 'scene': {'spots': [{}, {'r': 0}]}}]}, 422, '/keyframes/0/scene/spots/1/r'),
                 ({'scene': {}, 'keyframes': [key], 'frames': 3}, 422, '/frames'), ({'scene': {}, 'keyframes': [key], 'frames': 10001}, 422, '/frames'),
                 ({'scene': {}, 'keyframes': [key], 'interpolation': 'cubic'}, 422, '/interpolation'),
+                ({'scene': {}, 'keyframes': [key], 'distances': 'far'}, 422, '/distances'), ({'scene': {}, 'distances': 'linear'}, 422, '/distances'),
+                ({'scenes': [{}], 'distances': 'linear'}, 422, '/scenes'),
+                ({'scene': {}, 'keyframes': [{'frame': 1, 'proper_time': 1}]}, 422, '/keyframes/0/proper_time'),
                 ({'scene': {}, 'output': 'curve'}, 422, '/output'), ({'scenes': [{}], 'output': 1}, 422, '/output'),
                 ({'scenes': [{}, {'camera': {'projection': 'ring'}}], 'output': 'light-curve'}, 422, '/scenes/1/camera/projection'),
                 ({'scenes': [{}] * 10001}, 422, '/scenes'), ({'scenes': [{}, {'accuracy': {'tolerance': 1e-15}}]}, 422, '/scenes/1/accuracy/tolerance'),

@@ -313,6 +313,110 @@ class Sessions(daemon.Owned):
         self.assertTrue(two < three < one + 10 * (time.monotonic() - begun))  # it stops where it is
         self.assertEqual(self.status(session)['scene']['camera']['azimuth_deg'], three)
 
+    FALL = {**SCENE, 'time': 0, 'spacetime': {'spin': 0, 'mass_msun': 4.3e6}, 'camera': {'r': 8, 'observer': 'infall'}}
+    WHOLE = 2 ** 0.5 / 3 * 8 ** 1.5  # rain in Schwarzschild, from 8 M to the end
+
+    def assertOnRain(self, answer):
+        """The place and the clock of who rains in fit together."""
+        r, clock = answer['scene']['camera']['r'] if 'scene' in answer else answer['r'], answer['clock']
+        left = clock['proper_time_to_end']
+        self.assertAlmostEqual(r, (3 / 2 ** 0.5 * left) ** (2 / 3), places=8)
+        self.assertAlmostEqual(clock['proper_time_to_end_s'], left * 4.925490947e-6 * 4.3e6, places=4)
+        self.assertEqual(clock['proper_time_to_horizon'] is None, r <= 2)
+        if r > 2:
+            self.assertAlmostEqual(clock['proper_time_to_horizon'], left - 4 / 3, places=8)
+        return left
+
+    def test_a_fall_goes_on_by_itself(self):
+        begun = time.monotonic()
+        session = self.open({**self.FALL, 'motion': {'proper_time_rate': 4}})
+        first = self.assertOnRain(session)
+        number, clocks = 0, []
+        for _ in range(4):
+            answer = self.frame(session, number)
+            number = int(answer.header('Kerrd-Frame'))
+            clocks.append(float(re.search(r'proper_time_to_end=(\S+)', answer.header('Kerrd-Clock'))[1]))
+        self.assertEqual(clocks, sorted(set(clocks), reverse=True))
+        left = self.assertOnRain(self.status(session))
+        self.assertTrue(0 < first - left <= 4 * (time.monotonic() - begun))
+        with self.stream(session, '/events', 'text/event-stream') as s:
+            text = b''
+            while not (found := re.search(rb'\ndata: (\{.*?\})\n\n', text)):
+                text += s.recv(65536)
+        self.assertOnRain(json.loads(found[1]))
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['scene']['camera']['r'] == 0.01))
+        self.frame(session, number)
+        self.assertEqual(self.patch(session, {'camera': {'r': 8}}).json()['revision'], 2)  # and once more
+        self.assertGreater(self.assertOnRain(self.status(session)), self.WHOLE / 2)
+        self.assertNotIn('clock', self.patch(session, {'camera': None, 'motion': None}).json())
+
+    def follow(self, session, body, **headers):
+        return self.daemon.request('POST', self.at(session, '/path'), json.dumps(body), {**self.owner(session), 'Content-Type': 'application/json', **headers})
+
+    def test_a_path(self):
+        session, begun = self.open(SCENE), time.monotonic()
+        answer = self.follow(session, {'keyframes': [{'at': 0.5, 'scene': {'camera': {'azimuth_deg': 50}}}, {'at': 1, 'scene': {'camera': {'inclination_deg': 32}}}]})
+        self.assertEqual(answer.status, 200, answer.body)
+        state = answer.json()
+        self.assertEqual((state['revision'], state['path']['end'], state['scene']['camera']['inclination_deg']), (2, 1, 82))
+        seen, number = [], 0
+        while time.monotonic() < begun + 0.9:
+            number = int(self.frame(session, number).header('Kerrd-Frame'))
+            state = self.status(session)
+            azimuth, at = state['scene']['camera']['azimuth_deg'], state['path']['at']
+            self.assertAlmostEqual(azimuth, min(100 * at, 50), places=6)
+            self.assertAlmostEqual(state['scene']['camera']['inclination_deg'], 82 - 100 * max(at - 0.5, 0), places=6)
+            seen.append(at)
+        self.assertEqual(seen, sorted(seen))
+        self.assertGreater(len(seen), 3)
+        self.assertTrue(daemon.eventually(lambda: self.status(session)['path']['at'] == 1))
+        self.assertEqual(self.status(session)['scene']['camera']['inclination_deg'], 32)
+        self.assertEqual(self.frame(session, int(self.frame(session, number).header('Kerrd-Frame')) + 8, 700).status, 204)  # it rests
+        patched = self.patch(session, {'time': 6}).json()  # stays where it is
+        self.assertNotIn('path', patched)
+        self.assertEqual((patched['scene']['camera']['inclination_deg'], patched['scene']['camera']['azimuth_deg']), (32, 50))
+
+    def test_a_path_that_is_left(self):
+        session = self.open(self.FALL)
+        state = self.follow(session, {'keyframes': [{'at': 20, 'proper_time': 'end'}], 'interpolation': 'smooth'}).json()
+        self.assertOnRain(state)
+        time.sleep(0.5)
+        self.assertLess(self.assertOnRain(self.status(session)), self.WHOLE)
+        self.assertEqual(self.daemon.request('DELETE', self.at(session, '/path'), None, self.owner(session)).status, 204)
+        state = self.status(session)
+        self.assertNotIn('path', state)
+        left = self.assertOnRain(state)
+        self.assertTrue(0 < left < self.WHOLE)
+        self.assertEqual((self.assertOnRain(self.status(session)), state['revision']), (left, 3))
+        self.follow(session, {'keyframes': [{'at': 20, 'scene': {'camera': {'r': 3}}}], 'distances': 'geometric'})
+        self.assertIn('path', self.status(session))
+        self.assertNotIn('path', self.patch(session, {}).json())
+
+    def test_paths_refused(self):
+        session = self.open(SCENE)
+        key = {'at': 1, 'scene': {}}
+        for body, pointer in (({}, '/keyframes'), ({'keyframes': []}, '/keyframes'), ({'keyframes': [{**key, 'at': 0}]}, '/keyframes'),
+                              ({'keyframes': [{**key, 'at': 3601}]}, '/keyframes/0/at'), ({'keyframes': [key, key]}, '/keyframes/1/at'),
+                              ({'keyframes': [{**key, 'frame': 3}]}, '/keyframes/0/frame'), ({'keyframes': [key], 'loop': True}, '/loop'),
+                              ({'keyframes': [{'at': 1, 'proper_time': 3}]}, '/keyframes/0/proper_time'),
+                              ({'keyframes': [{'at': 1, 'scene': {'motion': {'time_rate': 1}}}]}, '/keyframes'),
+                              ({'keyframes': [{'at': 1, 'scene': {'disk': {'outer': 1}}}]}, '/keyframes/0/scene/disk/outer'),
+                              # valid at both ends, with the disk's edge inside the ISCO between them
+                              ({'keyframes': [{'at': 0, 'scene': {'spacetime': {'spin': -0.9}, 'disk': {'outer': 9.5}}},
+                                              {'at': 1, 'scene': {'spacetime': {'spin': 0.998}, 'disk': {'outer': 1.5}}}]}, '/keyframes')):
+            with self.subTest(body):
+                self.assertProblem(self.follow(session, body), 422, 'invalid-parameters', pointer)
+        goes = self.open({**self.FALL, 'motion': {'time_rate': 1}})
+        self.assertProblem(self.follow(goes, {'keyframes': [{'at': 1, 'proper_time': 3}]}), 422, 'invalid-parameters', '/keyframes')
+        for body in ('{', '', '[]'):
+            self.assertProblem(self.daemon.request('POST', self.at(session, '/path'), body, {**self.owner(session), 'Content-Type': 'application/json'}), 400)
+        self.assertProblem(self.follow(session, {'keyframes': [key]}, Authorization='Bearer x'), 403, 'forbidden')
+        self.assertProblem(self.daemon.request('DELETE', self.at(session, '/path')), 403, 'forbidden')
+        self.assertProblem(self.daemon.get(self.at(session, '/path')), 405)
+        self.assertEqual(self.status(session)['revision'], 1)
+        self.assertEqual(self.daemon.request('DELETE', self.at(session, '/path'), None, self.owner(session)).status, 204)
+        self.assertEqual(self.status(session)['revision'], 1)
+
     def test_those_that_move_share_the_device(self):
         """Frames of 30 ms, which one that is alone renders in full, are too long for each of two; not beside one that rests."""
         moving = {**MOVING, 'image': {'width': 220, 'height': 40}, 'time': 30}

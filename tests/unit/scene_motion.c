@@ -87,12 +87,70 @@ static void it_ends_when_it_cannot_be_seen(void **state)
     }
 }
 
+/* What falls moves whatever there is to see, until it is where a camera can be at last; what goes round turns before what is not alike all round. */
+static void an_observer_goes_on_by_its_own_clock(void **state)
+{
+    (void)state;
+    struct kd_scene scene, later;
+    struct kd_fall_clock clock;
+    kd_scene_smooth(&scene);
+    assert_false(kd_scene_clock(&scene, &clock));
+    scene.spacetime.spin = 0;
+    scene.spacetime.mass_msun = 4.3e6;
+    scene.camera.r = 8;
+    scene.camera.observer = KD_OBSERVER_INFALL;
+    scene.motion.proper_time_rate = 2;
+    assert_true(kd_emit_moves(&scene) && !kd_emit_only_dims(&scene) && kd_scene_falls(&scene) && kd_scene_time_goes_on(&scene));
+    const double second = 4.925490947e-6 * 4.3e6, whole = sqrt(2) / 3 * pow(8, 1.5); /* GM/c^3 of the Sun */
+    for (double s = 0; s < 6; s += 0.7) {
+        later = scene;
+        kd_scene_advance(&later, s);
+        const double left = fmax(whole - 2 * s, sqrt(2) / 3 * 1e-3);
+        assert_true(fabs(later.camera.r - pow(3 / sqrt(2) * left, 2. / 3)) < 1e-10);
+        assert_true(kd_scene_clock(&later, &clock));
+        assert_true(fabs(clock.to_end - left) < 1e-9 && fabs(clock.second / second - 1) < 1e-6);
+        assert_true(later.camera.r > 2 ? fabs(clock.to_horizon - (left - 4. / 3)) < 1e-9 : isnan(clock.to_horizon));
+        assert_int_equal(kd_emit_moves(&later), 2 * s < whole);
+    }
+    scene.motion.proper_time_rate = 0;
+    assert_false(kd_emit_moves(&scene) || kd_scene_time_goes_on(&scene));
+    scene.camera = (struct kd_camera) { .r = 10, .observer = KD_OBSERVER_KEPLERIAN, .inclination_deg = 90, .fov_deg = 50 };
+    scene.motion.proper_time_rate = 1;
+    assert_false(kd_emit_moves(&scene) || kd_scene_falls(&scene));
+    scene.sky.model = KD_SKY_GRID;
+    assert_true(kd_emit_moves(&scene) && kd_scene_azimuth_goes_on(&scene));
+    kd_scene_advance(&scene, 3);
+    assert_true(scene.camera.r == 10 && scene.camera.azimuth_deg > 0 && scene.top.time > 3);
+    scene.camera.observer = KD_OBSERVER_STATIC;
+    assert_false(kd_emit_moves(&scene) || kd_scene_azimuth_goes_on(&scene));
+    assert_true(kd_scene_time_goes_on(&scene));
+}
+
+/* With light that takes its time `time` is the far clock's: of rain in Schwarzschild it gains 2r/(r - 2) dr/dr more. */
+static void slow_light_has_the_far_clock(void **state)
+{
+    (void)state;
+    struct kd_scene scene, slow;
+    kd_scene_smooth(&scene);
+    scene.spacetime.spin = 0;
+    scene.camera.r = 8;
+    scene.camera.observer = KD_OBSERVER_INFALL;
+    slow = scene;
+    slow.disk.slow_light = true;
+    kd_scene_go_on(&scene, 5);
+    kd_scene_go_on(&slow, 5);
+    const double r = scene.camera.r;
+    assert_true(slow.camera.r == r && fabs(slow.top.time - scene.top.time - 2 * log(6 / (r - 2))) < 1e-10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_smooth_disk_rests),
         cmocka_unit_test(rings_move_while_time_does),
         cmocka_unit_test(it_ends_when_it_cannot_be_seen),
+        cmocka_unit_test(an_observer_goes_on_by_its_own_clock),
+        cmocka_unit_test(slow_light_has_the_far_clock),
     };
     return cmocka_run_group_tests_name("scene motion", tests, NULL, NULL);
 }

@@ -67,6 +67,16 @@ static const struct rule rules[] = {
     { "{\"camera\":{\"r\":9,\"velocity_theta\":0.1}}", "/camera/velocity_theta",
       "camera.velocity_theta is 0.1, allowed is 0 unless camera.observer is \"velocity\" at a finite camera.r" },
     { "{\"camera\":{\"observer\":\"velocity\",\"velocity_phi\":0.1}}", "/camera/velocity_phi", "at a finite camera.r" },
+    { "{\"motion\":{\"proper_time_rate\":1}}", "/motion/proper_time_rate", "is 1, allowed is 0 unless camera.observer stays" },
+    { "{\"camera\":{\"r\":9},\"motion\":{\"proper_time_rate\":1}}", NULL, NULL },
+    { "{\"camera\":{\"r\":9,\"observer\":\"keplerian\"},\"motion\":{\"proper_time_rate\":1}}", "/motion/proper_time_rate", "goes round in the equatorial plane" },
+    { "{\"camera\":{\"r\":9,\"observer\":\"velocity\"},\"motion\":{\"proper_time_rate\":1}}", "/motion/proper_time_rate", "allowed is 0 unless" },
+    { "{\"camera\":{\"r\":9,\"observer\":\"infall\",\"infall_from\":10},\"motion\":{\"proper_time_rate\":1}}", "/motion/proper_time_rate",
+      "without leaving its latitude" },
+    { "{\"camera\":{\"r\":9,\"observer\":\"infall\"},\"motion\":{\"proper_time_rate\":1,\"time_rate\":2}}", "/motion/time_rate",
+      "motion.time_rate is 2, allowed is 0 with motion.proper_time_rate 1" },
+    { "{\"camera\":{\"r\":9,\"observer\":\"infall\"},\"motion\":{\"proper_time_rate\":1,\"azimuth_rate_deg\":2}}", "/motion/azimuth_rate_deg",
+      "motion.azimuth_rate_deg is 2, allowed is 0 with motion.proper_time_rate 1" },
     { "{\"camera\":{\"r\":9,\"infall_from\":10}}", "/camera/infall_from", "allowed is \"infinity\" unless camera.observer is \"infall\"" },
     { "{\"camera\":{\"r\":9,\"infall_energy\":2}}", "/camera/infall_energy", "allowed is \"rest\" unless" },
     { "{\"camera\":{\"r\":9,\"infall_momentum\":2}}", "/camera/infall_momentum", "allowed is 0 unless" },
@@ -245,7 +255,7 @@ static void presets_are_valid(void **state)
     (void)state;
     static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
-                                         "hot-spot",      "milky-way", "gas",       "gas-stars", "falling", "gargantua-gas" };
+                                         "hot-spot",      "milky-way", "gas",       "gas-stars", "falling", "infall", "gargantua-gas" };
     char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
@@ -270,7 +280,7 @@ static void presets_show_what_they_say(void **state)
     struct kd_scene scene, base;
     for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* but for those of gas none has any */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
-        const bool gas = strstr(kd_scene_preset_name(i), "gas") || !strcmp(kd_scene_preset_name(i), "falling");
+        const bool gas = strstr(kd_scene_preset_name(i), "gas") || !strcmp(kd_scene_preset_name(i), "falling") || !strcmp(kd_scene_preset_name(i), "infall");
         assert_true((scene.gas.amplitude > 0) == gas && (scene.disk.emission_opacity > 0) == gas);
     }
     kd_scene_smooth(&base);

@@ -120,8 +120,9 @@ unsigned kd_emit_varies(const struct kd_scene *scene)
 
 static unsigned going_on(const struct kd_scene *scene)
 {
-    return kd_emit_varies(scene) & ((kd_scene_time_goes_on(scene) ? KD_MOVES_WITH_TIME | KD_DIMS_WITH_TIME : 0) |
-                                    (scene->motion.azimuth_rate_deg != 0 ? KD_MOVES_WITH_AZIMUTH : 0));
+    return (kd_emit_varies(scene) & ((kd_scene_time_goes_on(scene) ? KD_MOVES_WITH_TIME | KD_DIMS_WITH_TIME : 0) |
+                                     (kd_scene_azimuth_goes_on(scene) ? KD_MOVES_WITH_AZIMUTH : 0))) |
+           (kd_scene_falls(scene) ? KD_MOVES_BY_FALL : 0);
 }
 
 bool kd_emit_moves(const struct kd_scene *scene) { return going_on(scene); }

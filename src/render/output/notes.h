@@ -2,6 +2,7 @@
 #ifndef KD_RENDER_OUTPUT_NOTES_H
 #define KD_RENDER_OUTPUT_NOTES_H
 
+#include "render/output/clock.h"
 #include "render/output/format.h"
 
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
@@ -14,6 +15,7 @@ struct kd_notes {
     char hash[65];
     struct kd_buffer approximations; /* one a line */
     char accuracy[KD_ACCURACY_TEXT];
+    char clock[KD_CLOCK_TEXT]; /* of one who falls, else "" */
 };
 /* KD_ENOMEM. Finish it in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);

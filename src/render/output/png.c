@@ -11,7 +11,7 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
     const struct kd_frame *frame = picture->frame;
     struct kd_notes notes;
     enum kd_status status = kd_notes_of(picture, &notes, error);
-    const struct kd_png_text text[] = { /* the last only where there is anything to say */
+    struct kd_png_text text[9] = {
         { "kerrd:scene", (const char *)notes.scene.data },
         { "kerrd:hash", notes.hash },
         { "kerrd:version", KD_VERSION },
@@ -19,8 +19,12 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
         { "kerrd:accuracy", notes.accuracy },
         { "kerrd:device", picture->device },
         { "Software", "kerrd " KD_VERSION },
-        { "Copyright", frame->credit },
     };
+    size_t n_text = 7;
+    if (*frame->credit)
+        text[n_text++] = (struct kd_png_text) { "Copyright", frame->credit };
+    if (*notes.clock)
+        text[n_text++] = (struct kd_png_text) { "kerrd:clock", notes.clock };
     const struct kd_png_params params = {
         .width = frame->width,
         .height = frame->height,
@@ -28,7 +32,7 @@ enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compressi
         .compression = compression,
         .pixels = kd_frame_pixels(frame),
         .text = text,
-        .n_text = sizeof text / sizeof *text - !*frame->credit,
+        .n_text = n_text,
     };
     if (!status)
         status = kd_png_encode(&params, out, error);

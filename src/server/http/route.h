@@ -20,6 +20,7 @@ enum kd_takes {
     KD_TAKES_JOB,
     KD_TAKES_ASSET,
     KD_TAKES_STRIKE,    /* in the body, or none */
+    KD_TAKES_PATH,
     KD_TAKES_PARTICLES, /* which and what of them, in the query */
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
@@ -72,6 +73,7 @@ enum MHD_Result kd_handle_asset(struct kd_request *request);
 enum MHD_Result kd_handle_sessions(struct kd_request *request); /* session/routes.c */
 enum MHD_Result kd_handle_session(struct kd_request *request);
 enum MHD_Result kd_handle_session_ringdown(struct kd_request *request);
+enum MHD_Result kd_handle_session_path(struct kd_request *request);
 enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* session/particles.c */
 enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* session/live.c */
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);

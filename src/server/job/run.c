@@ -37,7 +37,7 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
     if (spec->listed)
         snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", number, inner.pointer);
     else
-        snprintf(pointer, sizeof pointer, "%s%.100s", spec->n_keys > 1 ? "/keyframes" : "/scene", spec->n_keys > 1 ? "" : inner.pointer);
+        snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
     kd_error_field(error, pointer, "frame %u: %.440s", number, inner.message);
     return error->status = status;
 }

@@ -4,29 +4,22 @@
  * {"scenes": [{...}, ...]}        a picture each
  * {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation": "smooth"}
  *
- * A keyframe's scene is a merge patch of the keyframe before; what holds at frame 0 without a keyframe there is "scene". Between
- * keyframes real numbers are interpolated, everything else keeps the value of the keyframe before. After the last nothing changes.
+ * Keyframes are those of scene/timeline.h; what holds at frame 0 without a keyframe there is "scene".
  * With "output": "light-curve" each frame is measured instead of drawn (render/output/series.h). */
 #ifndef KD_SERVER_JOB_SPEC_H
 #define KD_SERVER_JOB_SPEC_H
 
 #include "render/output/series.h"
 #include "scene/asset.h"
+#include "scene/timeline.h"
 
 #define KD_JOB_BODY_MAX (4u << 20)
 #define KD_JOB_FRAMES_MAX 10000
 
-struct kd_job_key {
-    unsigned frame;
-    struct kd_scene scene;
-};
-
 struct kd_job_spec {
     unsigned frames;
-    struct kd_job_key *keys; /* listed: one a frame; else the keyframes, the first at frame 0, growing */
-    size_t n_keys;
+    struct kd_timeline timeline; /* listed: a key a frame; else the keyframes */
     bool listed;
-    bool smooth; /* monotone cubics instead of straight lines */
     const struct kd_series *series; /* "output": what it makes of its frames */
 };
 

@@ -2,22 +2,22 @@
 
 #include "server/job/spec.h"
 #include "server/openapi/media.h"
+#include "server/openapi/timeline.h"
 
 #include <stdio.h>
 
-#define SCENE "{\"$ref\":\"#/components/schemas/Scene\"}"
-#define OBJECT "{\"type\":\"object\",\"additionalProperties\":false,"
+#define OBJECT KD_OPENAPI_OBJECT
 #define COUNT "{\"type\":\"integer\",\"minimum\":0}"
 
 /* Twice in the request and once in the answer: what a job makes of its frames, a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
 
 static const char request[] =
-    "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" SCENE ",\"keyframes\":{\"type\":\"array\",\"minItems\":1,"
-    "\"maxItems\":1000,\"items\":" OBJECT "\"required\":[\"frame\",\"scene\"],\"properties\":{\"frame\":{\"type\":\"integer\",\"minimum\":0,"
-    "\"maximum\":9999},\"scene\":" SCENE "}}},\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    "\"interpolation\":{\"enum\":[\"linear\",\"smooth\"]}," OUTPUT "}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
-    "\"minItems\":1,\"maxItems\":10000,\"items\":" SCENE "}," OUTPUT "}}]}";
+    "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE "," KD_OPENAPI_TIMELINE(
+        "frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}")
+    ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
+    OUTPUT "}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," OUTPUT "}}]}";
 
 static const char answer[] =
     "{\"type\":\"object\",\"properties\":{\"id\":{\"type\":\"string\"},\"token\":{\"type\":\"string\"},\"state\":{\"enum\":[\"waiting\",\"running\","

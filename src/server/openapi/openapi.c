@@ -234,6 +234,10 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
     case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
+    case KD_TAKES_PATH:
+        if (method == KD_POST)
+            kd_openapi_path_body(json);
+        break;
     case KD_TAKES_ASSET:
         if (method == KD_PUT)
             kd_openapi_asset_body(json);
@@ -314,7 +318,7 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
     kd_json_object(json, name);
     kd_json_string(json, "operationId", id);
     kd_json_string(json, "summary", route->summary);
-    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE)
+    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH)
         kd_json_raw(json, "security", "[{\"token\":[]}]", strlen("[{\"token\":[]}]"));
     if (has_parameters(route))
         add_parameters(json, route, body, schema);

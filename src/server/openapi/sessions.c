@@ -1,6 +1,9 @@
 #include "server/openapi/sessions.h"
 
 #include "render/output/particle_list.h"
+#include "server/openapi/media.h"
+#include "server/openapi/timeline.h"
+#include "server/session/sessions.h"
 
 #include <string.h>
 
@@ -11,6 +14,14 @@ void kd_openapi_strike_body(struct kd_json *json)
                                "\"minimum\":0,\"maximum\":1,\"description\":"
                                "\"style.ringdown; without it, what that is, or 1 where it is 0\"}}}}}}";
     kd_json_raw(json, "requestBody", body, sizeof body - 1);
+}
+
+void kd_openapi_path_body(struct kd_json *json)
+{
+    static const char schema[] = KD_OPENAPI_OBJECT "\"required\":[\"keyframes\"],\"properties\":{" KD_OPENAPI_TIMELINE(
+        "at", "{\"type\":\"number\",\"minimum\":0,\"maximum\":3600,\"description\":\"seconds from now\"}") "}}";
+    _Static_assert(KD_SESSION_PATH_S == 3600, "openapi.json says so");
+    kd_openapi_body(json, schema, sizeof schema - 1, NULL);
 }
 
 static void begin(struct kd_json *json, const char *name, const char *help)

@@ -5,6 +5,7 @@
 #include "base/json.h"
 
 void kd_openapi_strike_body(struct kd_json *json);
+void kd_openapi_path_body(struct kd_json *json);
 void kd_openapi_particles_parameters(struct kd_json *json);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/json.h"
 #include "physics/kerr.h"
+#include "render/output/clock.h"
 #include "render/output/notes.h"
 #include "server/http/reply.h"
 
@@ -146,11 +147,15 @@ static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
 static enum kd_status describe_event(struct kd_live_frame *frame, const struct kd_render_job *job, const struct kd_live_note *note)
 {
     struct kd_json whole = kd_json_begin(&frame->event), *json = &whole;
+    struct kd_fall_clock clock;
     kd_json_object(json, NULL);
     kd_json_number(json, "frame", (double)note->number);
     kd_json_number(json, "revision", note->revision);
     kd_json_number(json, "time", job->scene.top.time);
     kd_json_number(json, "azimuth_deg", job->scene.camera.azimuth_deg);
+    kd_json_number(json, "r", job->scene.camera.r); /* infinite: null */
+    if (kd_scene_clock(&job->scene, &clock))
+        kd_fall_clock_json(&clock, json, "clock");
     kd_json_number(json, "exposure", job->frame.exposure);
     kd_json_number(json, "fps", note->fps);
     kd_json_number(json, "bytes", (double)frame->file.size);
@@ -180,6 +185,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->file = job->file;
     job->file = (struct kd_buffer) { 0 };
     kd_accuracy_text(&job->frame.accuracy, &job->plan, frame->accuracy);
+    kd_fall_clock_text(&job->scene, frame->clock);
     describe_quality(frame, job, note);
     describe_timing(frame, job);
     enum kd_status status;

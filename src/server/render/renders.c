@@ -66,9 +66,9 @@ done:
 
 /* What 200, 304 and HEAD have in common. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
-                                     const struct kd_plan *plan)
+                                     const struct kd_scene *scene, const struct kd_plan *plan)
 {
-    char hash[65];
+    char hash[65], clock[KD_CLOCK_TEXT];
     if (!response)
         return NULL;
     snprintf(hash, sizeof hash, "%.64s", request->etag + 1);
@@ -78,6 +78,9 @@ static struct MHD_Response *describe(struct kd_request *request, struct MHD_Resp
     MHD_add_response_header(response, "Vary", "Accept");
     MHD_add_response_header(response, "Kerrd-Scene-Hash", hash);
     add_approximations(response, plan);
+    kd_fall_clock_text(scene, clock);
+    if (*clock)
+        MHD_add_response_header(response, "Kerrd-Clock", clock);
     return response;
 }
 
@@ -148,7 +151,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         job->error.status = job->status;
         return kd_reply_error(request, &job->error);
     }
-    struct MHD_Response *response = describe(request, picture_response(request), &job->plan);
+    struct MHD_Response *response = describe(request, picture_response(request), &job->scene, &job->plan);
     if (response) {
         add_accuracy(response, job);
         add_timings(response, job);
@@ -259,9 +262,9 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
-        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), plan));
+        return kd_reply_send(request, MHD_HTTP_NOT_MODIFIED, describe(request, kd_reply_empty(NULL), scene, plan));
     if (request->head)
-        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(request->format->media_type), plan));
+        return kd_reply_send(request, MHD_HTTP_OK, describe(request, kd_reply_empty(request->format->media_type), scene, plan));
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
     return submit(request, &planned->drawn, plan);

@@ -16,13 +16,15 @@ struct kd_session {
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     struct kd_scene scene; /* as at since_ms */
+    struct kd_timeline path; /* what it goes along since then instead, if it has keys */
     double since_ms, used_ms;
     char lens_key[65]; /* of the scene as asked */
     struct kd_governor governor;
     struct kd_budget_entry demand; /* entered while it is listed */
     unsigned revision; /* of the scene */
     uint64_t begun; /* frames */
-    bool moved;     /* the scene of the latest one went on by itself */
+    bool moved;     /* the scene of the latest one went on by itself, */
+    bool flew;      /* and so did its camera */
     bool listed;
     struct kd_session_frame *rendering; /* before it is encoded */
     unsigned encoding;
@@ -51,7 +53,9 @@ struct kd_sessions {
 
 void kd_session_let_go(struct kd_session *session); /* of a reference */
 void kd_session_unlist(struct kd_session *session);
-struct kd_scene kd_session_scene(const struct kd_session *session, double now); /* what goes on by itself included */
+/* The scene with what goes on by itself, or along its path, valid. Fails where the path is not. */
+enum kd_status kd_session_scene(const struct kd_session *session, double now, struct kd_scene *out, struct kd_error *error);
+bool kd_session_on_its_way(const struct kd_session *session, double now); /* along a path that has not ended */
 
 /* Begins a frame if one is awaited, would differ, and there is room for it. run.c */
 void kd_session_pump(struct kd_session *session);

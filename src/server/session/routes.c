@@ -1,9 +1,12 @@
 /* These routes are POST /v1/sessions, and GET, PATCH and DELETE of one. */
 #include "render/emit/motion.h"
 #include "render/emit/told.h"
+#include "render/output/clock.h"
+#include "scene/members.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
+#include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/planned.h"
 #include "server/session/sessions.h"
@@ -16,6 +19,7 @@
 
 #define JSON_TYPE "application/json"
 #define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
+#define PATH_VALUES 50000
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -44,9 +48,11 @@ done:
     return status;
 }
 
-/* {"id", "revision", "frame", "viewers", "scene", "varies", "emitters"}, and for who has just made it the token. */
+/* {"id", "revision", "frame", "viewers", "scene", "varies", "emitters"}, on a path "path", of one who falls "clock", and for who has just made it the
+ * token. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token, struct kd_buffer *out)
 {
+    struct kd_fall_clock clock;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "{\"id\":\"%s\",", kd_session_id(session)));
     if (token)
@@ -57,6 +63,14 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
     KD_TRY(add_varies(&state->scene, out));
     KD_TRY(kd_buffer_printf(out, ",\"emitters\":"));
     KD_TRY(kd_emit_to_json(&state->scene, out));
+    if (state->path_end > 0)
+        KD_TRY(kd_buffer_printf(out, ",\"path\":{\"at\":%.9g,\"end\":%.9g}", state->path_at, state->path_end));
+    if (kd_scene_clock(&state->scene, &clock)) {
+        KD_TRY(kd_buffer_printf(out, ",\"clock\":"));
+        struct kd_json json = kd_json_begin(out);
+        kd_fall_clock_json(&clock, &json, NULL);
+        KD_TRY(kd_json_finish(&json));
+    }
     KD_TRY(kd_buffer_printf(out, "}\n"));
 done:
     return status;
@@ -215,6 +229,70 @@ enum MHD_Result kd_handle_session_ringdown(struct kd_request *request)
     if (!session)
         return result;
     result = kd_session_owned(session, kd_token_of(request)) ? strike(request, session) : forbidden(request);
+    kd_session_release(session);
+    return result;
+}
+
+/* {"keyframes": [{"at": seconds, "scene", "proper_time"}, ...], "interpolation", "distances"}, from the scene as it is. */
+static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out, struct kd_error *error)
+{
+    static const struct kd_timeline_form by_second = { "at", KD_SESSION_PATH_S, false };
+    struct kd_timeline_items items = { 0 };
+    const struct kd_assets *assets = kd_asset_store_assets(request->server->assets);
+    const struct kd_buffer *body = &request->body;
+    const struct kd_member members[] = { { "keyframes", &items.keyframes }, { "interpolation", &items.interpolation },
+                                         { "distances", &items.distances } };
+    cJSON *root = NULL;
+    enum kd_status status;
+    KD_TRY(kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
+    if (!cJSON_IsObject(root))
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
+    KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
+    if (!items.keyframes)
+        KD_TRY(kd_error_field(error, "/keyframes", "keyframes is missing: say what changes, as in \"keyframes\": [{\"at\": 10, \"scene\": {\"time\": 100}}]"));
+    KD_TRY(kd_timeline_read(&items, &by_second, assets, now, out, error));
+    if (!(kd_timeline_end(out) > 0)) {
+        kd_timeline_finish(out);
+        KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s, allowed is later"));
+    }
+done:
+    cJSON_Delete(root);
+    return status;
+}
+
+static enum MHD_Result follow(struct kd_request *request, struct kd_session *session)
+{
+    struct kd_session_state state;
+    struct kd_timeline path = { 0 };
+    struct kd_error error = { 0 };
+    kd_session_state(session, &state);
+    enum kd_status status = read_path(request, &state.scene, &path, &error);
+    if (!status)
+        status = kd_session_follow(session, &path, &state, &error);
+    kd_timeline_finish(&path);
+    if (!status)
+        return answer(request, session, &state, false);
+    struct kd_problem problem = kd_problem_from(&error);
+    if (error.status == KD_EINVAL)
+        problem.type = *error.pointer ? KD_PROBLEM_INVALID_PARAMETERS : KD_PROBLEM_MALFORMED_JSON;
+    return kd_reply_problem(request, &problem);
+}
+
+enum MHD_Result kd_handle_session_path(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_session_state state;
+    struct kd_session *session = kd_session_of(request, &result);
+    if (!session)
+        return result;
+    if (!kd_session_owned(session, kd_token_of(request))) {
+        result = forbidden(request);
+    } else if (strcmp(request->method, "DELETE")) {
+        result = follow(request, session);
+    } else {
+        kd_session_stop(session, &state);
+        result = kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+    }
     kd_session_release(session);
     return result;
 }

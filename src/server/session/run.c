@@ -71,7 +71,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
      * frames of a drag are. */
     if (!turn->refining && s->governor.share < 1)
         live->job.plan.audit /= SHARED_AUDIT;
-    if (!turn->refining && s->exposed_revision == s->revision && kd_emit_moves(scene))
+    if (!turn->refining && s->exposed_revision == s->revision && (kd_emit_moves(scene) || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
     return live;
 }
@@ -81,14 +81,18 @@ void kd_session_pump(struct kd_session *s)
     if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s))
         return;
     double now = kd_clock_ms();
-    const struct kd_scene scene = kd_session_scene(s, now);
-    const bool moves = kd_emit_moves(&scene);
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    if (kd_session_scene(s, now, &scene, &error)) {
+        fail(s, &error);
+        return;
+    }
+    const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
     if (moves || s->moved) /* what has come to rest since the latest frame differs from it too */
-        kd_governor_changed(&s->governor, now, &scene, false);
+        kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);
     if (turn.wait_ms > 0)
         return; /* the sweep comes back */
-    struct kd_error error = { 0 };
     struct kd_session_frame *live = make_frame(s, &scene, &turn, now, &error);
     if (!live) {
         fail(s, &error);
@@ -96,6 +100,7 @@ void kd_session_pump(struct kd_session *s)
     }
     live->number = ++s->begun;
     s->moved = moves;
+    s->flew = flies;
     live->revision = s->revision;
     s->rendering = live;
     s->references++;

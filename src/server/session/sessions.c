@@ -1,6 +1,9 @@
 #include "base/clock.h"
 #include "server/session/internal.h"
 
+#include "scene/members.h"
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +30,7 @@ void kd_session_let_go(struct kd_session *s)
     if (--s->references)
         return;
     kd_live_frame_release(s->latest);
+    kd_timeline_finish(&s->path);
     free(s);
 }
 
@@ -46,11 +50,28 @@ void kd_session_unlist(struct kd_session *s)
     kd_session_let_go(s);
 }
 
-struct kd_scene kd_session_scene(const struct kd_session *s, double now)
+static double seconds_of(const struct kd_session *s, double now) { return fmax(1e-3 * (now - s->since_ms), 0); }
+
+bool kd_session_on_its_way(const struct kd_session *s, double now) { return seconds_of(s, now) < kd_timeline_end(&s->path); }
+
+enum kd_status kd_session_scene(const struct kd_session *s, double now, struct kd_scene *out, struct kd_error *error)
 {
-    struct kd_scene scene = s->scene;
-    kd_scene_advance(&scene, 1e-3 * (now - s->since_ms));
-    return scene;
+    const double seconds = seconds_of(s, now);
+    enum kd_status status = KD_OK;
+    *out = s->scene;
+    if (s->path.n_keys)
+        status = kd_timeline_scene(&s->path, fmin(seconds, kd_timeline_end(&s->path)), out, error);
+    if (!status)
+        kd_scene_advance(out, seconds);
+    return status;
+}
+
+/* The scene as far as it is known: where a path is no valid scene, what it began with. */
+static struct kd_scene scene_now(const struct kd_session *s, double now)
+{
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    return kd_session_scene(s, now, &scene, &error) ? s->scene : scene;
 }
 
 /* From here on functions take the lock themselves. */
@@ -161,8 +182,9 @@ static unsigned viewers_of(const struct kd_session *s) /* locked */
 
 static void state(const struct kd_session *s, struct kd_session_state *out) /* locked */
 {
-    *out = (struct kd_session_state) { .scene = kd_session_scene(s, kd_clock_ms()), .revision = s->revision,
-                                       .viewers = viewers_of(s), .frame = s->latest ? s->latest->number : 0 };
+    const double now = kd_clock_ms(), end = kd_timeline_end(&s->path);
+    *out = (struct kd_session_state) { .scene = scene_now(s, now), .revision = s->revision, .viewers = viewers_of(s),
+                                       .frame = s->latest ? s->latest->number : 0, .path_at = fmin(seconds_of(s, now), end), .path_end = end };
 }
 
 void kd_session_state(struct kd_session *s, struct kd_session_state *out)
@@ -172,13 +194,27 @@ void kd_session_state(struct kd_session *s, struct kd_session_state *out)
     pthread_mutex_unlock(&s->all->lock);
 }
 
+/* The scene is another from now on. Locked. */
+static void change(struct kd_session *s, double now, const struct kd_scene *scene, const struct kd_plan *plan)
+{
+    s->scene = *scene;
+    s->since_ms = now;
+    s->revision++;
+    s->failed = KD_OK;
+    kd_governor_changed(&s->governor, now, scene, strcmp(s->lens_key, plan->lens_key) != 0);
+    kd_session_expect(s, plan);
+    memcpy(s->lens_key, plan->lens_key, sizeof s->lens_key);
+    kd_session_drop_refinement(s);
+    kd_session_pump(s);
+}
+
 enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, struct kd_session_state *out,
                                 struct kd_error *error)
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
     pthread_mutex_lock(&s->all->lock);
-    struct kd_scene scene = kd_session_scene(s, now);
+    struct kd_scene scene = scene_now(s, now);
     pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread patches, so that it stays what it is */
     enum kd_status status;
     KD_TRY(kd_scene_patch(&scene, text, length, error));
@@ -186,19 +222,75 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     KD_TRY(kd_scene_validate(&scene, error));
     KD_TRY(make_plan(s->all, &scene, &plan, error));
     pthread_mutex_lock(&s->all->lock);
-    s->scene = scene;
-    s->since_ms = now;
-    s->revision++;
-    s->failed = KD_OK;
-    kd_governor_changed(&s->governor, now, &scene, strcmp(s->lens_key, plan.lens_key) != 0);
-    kd_session_expect(s, &plan);
-    memcpy(s->lens_key, plan.lens_key, sizeof s->lens_key);
-    kd_session_drop_refinement(s);
-    kd_session_pump(s);
+    kd_timeline_finish(&s->path);
+    change(s, now, &scene, &plan);
     state(s, out);
     pthread_mutex_unlock(&s->all->lock);
 done:
     return status;
+}
+
+#define PATH_LOOKS 100
+
+/* Whether all of it is possible, as far as some looks can tell. Frames on the way are planned anew. */
+static enum kd_status check_path(const struct kd_session *s, const struct kd_timeline *path, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_scene scene;
+    const double end = kd_timeline_end(path);
+    bool fallen = false, rates = false;
+    enum kd_status status;
+    kd_render_queue_capacity(s->all->params.renders, &capacity);
+    for (size_t i = 0; i < path->n_keys; i++) {
+        const struct kd_motion *m = &path->keys[i].scene.motion;
+        fallen |= path->keys[i].proper_time > 0;
+        rates |= m->time_rate != 0 || m->azimuth_rate_deg != 0;
+        if (memcmp(m, &path->keys[0].scene.motion, sizeof *m))
+            KD_TRY(kd_error_field(error, "/keyframes", "keyframe %zu changes motion, which stays what it is along a path", i));
+    }
+    if (fallen && rates)
+        KD_TRY(kd_error_field(error, "/keyframes", "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 alone: time and azimuth go on "
+                              "as they do on the observer's way"));
+    for (int i = 0; i <= PATH_LOOKS; i++) {
+        KD_TRY(kd_timeline_scene(path, end * i / PATH_LOOKS, &scene, error));
+        KD_TRY(kd_member_inside(kd_plan_check(&scene, &capacity, error), "/keyframes", error));
+    }
+done:
+    return status;
+}
+
+enum kd_status kd_session_follow(struct kd_session *s, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error)
+{
+    struct kd_plan plan;
+    const double now = kd_clock_ms();
+    enum kd_status status;
+    KD_TRY(check_path(s, path, error));
+    KD_TRY(make_plan(s->all, &path->keys[0].scene, &plan, error));
+    pthread_mutex_lock(&s->all->lock);
+    kd_timeline_finish(&s->path);
+    s->path = *path;
+    *path = (struct kd_timeline) { 0 };
+    change(s, now, &s->path.keys[0].scene, &plan);
+    state(s, out);
+    pthread_mutex_unlock(&s->all->lock);
+done:
+    return status;
+}
+
+void kd_session_stop(struct kd_session *s, struct kd_session_state *out)
+{
+    pthread_mutex_lock(&s->all->lock);
+    const double now = kd_clock_ms();
+    if (s->path.n_keys) {
+        s->scene = scene_now(s, now);
+        s->since_ms = now;
+        s->revision++;
+        kd_timeline_finish(&s->path);
+        kd_governor_changed(&s->governor, now, &s->scene, true);
+        kd_session_pump(s);
+    }
+    state(s, out);
+    pthread_mutex_unlock(&s->all->lock);
 }
 
 void kd_session_end(struct kd_session *s)

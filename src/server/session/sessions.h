@@ -8,6 +8,7 @@
 
 #include "server/render/live_frame.h"
 #include "server/render/queue.h"
+#include "scene/timeline.h"
 #include "server/http/counts.h"
 
 #include <microhttpd.h>
@@ -47,11 +48,17 @@ struct kd_session_state {
     struct kd_scene scene;
     unsigned revision, viewers;
     uint64_t frame; /* the newest one's number, 0: none yet */
+    double path_at, path_end; /* seconds along its path; both 0: it has none */
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
 /* Merges a patch (RFC 7396) into the scene. On failure nothing changes. */
 enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, struct kd_session_state *out,
                                 struct kd_error *error);
+#define KD_SESSION_PATH_S 3600 /* a path may take so long */
+/* Lets the session go along a path from now on, which begins with the scene as it is; takes it over. A patch ends it where it is then, and so does
+ * kd_session_stop. KD_EINVAL at /keyframes where something between them is no valid scene, by a look at every hundredth of it. */
+enum kd_status kd_session_follow(struct kd_session *session, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error);
+void kd_session_stop(struct kd_session *session, struct kd_session_state *out);
 /* Ends the session, and tells all who watch. */
 void kd_session_end(struct kd_session *session);
 

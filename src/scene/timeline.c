@@ -1,0 +1,129 @@
+#include "scene/timeline.h"
+
+#include "physics/worldline.h"
+#include "scene/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void kd_timeline_finish(struct kd_timeline *timeline)
+{
+    free(timeline->keys);
+    *timeline = (struct kd_timeline) { 0 };
+}
+
+double kd_timeline_end(const struct kd_timeline *t) { return t->n_keys ? t->keys[t->n_keys - 1].at : 0; }
+
+static bool continuous(const struct kd_field *field) { return field->kind == KD_FIELD_REAL || field->kind == KD_FIELD_WORD; }
+
+/* A number of every key: a field's, or without one the proper time. */
+struct column {
+    const struct kd_timeline *timeline;
+    const struct kd_field *field;
+    size_t index;
+    bool ratios; /* its logarithm is interpolated */
+};
+
+static double value_at(const struct column *c, size_t key)
+{
+    const struct kd_timeline_key *k = &c->timeline->keys[key];
+    double value = c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
+    return c->ratios ? log(value) : value;
+}
+
+static double apart(const struct column *c, size_t key) { return c->timeline->keys[key + 1].at - c->timeline->keys[key].at; }
+
+/* Gives the slope of the straight line from a key to the next; NAN where there is none: a word, or no next. */
+static double secant(const struct column *c, size_t key)
+{
+    if (key + 1 >= c->timeline->n_keys)
+        return NAN;
+    double rise = value_at(c, key + 1) - value_at(c, key); /* inf - inf is NAN too */
+    return isfinite(rise) ? rise / apart(c, key) : NAN;
+}
+
+/* The slope at a key that keeps the curve between its neighbours: the weighted harmonic mean of the secants, 0 at a turning point
+ * (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie that SLATEC's PCHIM takes). At rest at both
+ * ends. */
+static double slope(const struct column *c, size_t key)
+{
+    double before = key ? secant(c, key - 1) : NAN, after = secant(c, key);
+    if (!(before * after > 0))
+        return 0;
+    double h0 = apart(c, key - 1), h1 = apart(c, key), w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
+    return (w0 + w1) / (w0 / before + w1 / after);
+}
+
+static double cubic(const struct column *c, size_t key, double t, double from, double to)
+{
+    double h = apart(c, key), m0 = h * slope(c, key), m1 = h * slope(c, key + 1);
+    return from + t * (m0 + t * (3 * (to - from) - 2 * m0 - m1 + t * (m0 + m1 - 2 * (to - from)))); /* Hermite's */
+}
+
+static double between(const struct column *c, size_t key, double t)
+{
+    double from = value_at(c, key), to = value_at(c, key + 1);
+    if (!isfinite(from) || !isfinite(to) || from == to)
+        return c->ratios ? exp(from) : from;
+    double value = c->timeline->smooth ? cubic(c, key, t, from, to) : from + t * (to - from);
+    value = fmax(fmin(from, to), fmin(fmax(from, to), value)); /* it is between them; its rounding need not be */
+    return c->ratios ? exp(value) : value;
+}
+
+static bool is_distance(const struct kd_field *field)
+{
+    return !strcmp(field->section, "camera") && (!strcmp(field->name, "r") || !strcmp(field->name, "field_m"));
+}
+
+/* An element that only one of two keyframes has is at its defaults in the other. */
+static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section, struct kd_scene *out)
+{
+    size_t size = kd_section_size(&timeline->keys[key].scene, section), next = kd_section_size(&timeline->keys[key + 1].scene, section);
+    if (next > size)
+        kd_section_resize(out, section, size = next);
+    for (size_t index = 0; index < size; index++)
+        for (size_t i = section->first; i < section->first + section->count; i++) {
+            const struct kd_field *field = &kd_fields[i];
+            const struct column column = { timeline, field, index, timeline->geometric && is_distance(field) };
+            if (continuous(field) && kd_field_get(out, field, index) != kd_field_get(&timeline->keys[key + 1].scene, field, index))
+                kd_field_put(out, field, index, between(&column, key, t));
+        }
+}
+
+static enum kd_status go_on(struct kd_scene *scene, double proper_time, struct kd_error *error)
+{
+    const struct kd_vantage at = kd_scene_vantage(scene);
+    const struct kd_observer_motion motion = kd_scene_observer(scene);
+    if (proper_time == 0)
+        return KD_OK;
+    if (!kd_worldline_is_known(&motion, &at))
+        return kd_error_field(error, "", "proper_time is %.9g M, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without "
+                              "leaving its latitude, from a finite camera.r", proper_time);
+    kd_scene_go_on(scene, proper_time);
+    return KD_OK;
+}
+
+enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, struct kd_scene *out, struct kd_error *error)
+{
+    struct kd_error inner = { 0 };
+    size_t key = 0;
+    while (key + 1 < timeline->n_keys && timeline->keys[key + 1].at <= at)
+        key++;
+    const struct kd_timeline_key *from = &timeline->keys[key];
+    const struct column clock = { .timeline = timeline };
+    double proper_time = from->proper_time;
+    *out = from->scene;
+    if (from->at < at && key + 1 < timeline->n_keys) {
+        double t = (at - from->at) / (timeline->keys[key + 1].at - from->at);
+        for (size_t i = 0; i < KD_SECTION_COUNT; i++)
+            section_between(timeline, key, t, &kd_sections[i], out);
+        proper_time = between(&clock, key, t);
+    } else if (proper_time == 0) {
+        return KD_OK;
+    }
+    if (!kd_scene_validate(out, &inner) && !go_on(out, proper_time, &inner))
+        return KD_OK;
+    kd_error_field(error, "/keyframes", "%.400s", inner.message);
+    return KD_EINVAL;
+}

@@ -1,0 +1,139 @@
+/* Scenes between keyframes, in what is not a matter of jobs or of sessions alone: paths of observers, distances by ratios, what is refused. */
+#include "scene_support.h"
+
+#include "scene/timeline.h"
+
+static const struct kd_timeline_form seconds = { "at", 100, false };
+
+static enum kd_status read(const char *scene, const char *keyframes, const char *how, struct kd_timeline *out, struct kd_error *error)
+{
+    struct kd_scene first;
+    cJSON *keys = cJSON_Parse(keyframes), *word = how ? cJSON_CreateString(how) : NULL;
+    const bool geometric = how && !strcmp(how, "geometric");
+    kd_scene_smooth(&first);
+    assert_int_equal(support_parse(&first, scene, NULL), KD_OK);
+    assert_non_null(keys);
+    const struct kd_timeline_items items = { keys, geometric ? NULL : word, geometric ? word : NULL };
+    enum kd_status status = kd_timeline_read(&items, &seconds, NULL, &first, out, error);
+    cJSON_Delete(keys);
+    cJSON_Delete(word);
+    return status;
+}
+
+static struct kd_timeline made(const char *scene, const char *keyframes, const char *how)
+{
+    struct kd_timeline t;
+    struct kd_error error = { 0 };
+    if (read(scene, keyframes, how, &t, &error))
+        fail_msg("%s: %s %s", keyframes, error.pointer, error.message);
+    return t;
+}
+
+static struct kd_scene at(const struct kd_timeline *t, double where)
+{
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    if (kd_timeline_scene(t, where, &scene, &error))
+        fail_msg("at %g: %s %s", where, error.pointer, error.message);
+    return scene;
+}
+
+/* Rain in Schwarzschild: r^(3/2) falls evenly with proper time, from 8 M, in 4/3 M from the horizon to the end. */
+#define RAIN "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":8,\"observer\":\"infall\"}}"
+
+static void free_fall_by_proper_time(void **state)
+{
+    (void)state;
+    struct kd_timeline t = made(RAIN, "[{\"at\":4,\"proper_time\":2},{\"at\":6,\"proper_time\":\"horizon\"},{\"at\":16.5,\"proper_time\":\"end\"}]", NULL);
+    const double whole = sqrt(2) / 3 * pow(8, 1.5), horizon = whole - 4. / 3;
+    for (double s = 0; s <= 20; s += 0.25) {
+        const struct kd_scene scene = at(&t, s);
+        const double last = whole - sqrt(2) / 3 * 1e-3; /* at 0.01 M */
+        const double tau = s < 4 ? s / 2 : s < 6 ? 2 + (horizon - 2) * (s - 4) / 2 : s < 16.5 ? horizon + (last - horizon) * (s - 6) / 10.5 : last;
+        const double r = pow(3 / sqrt(2) * (whole - tau), 2. / 3);
+        if (!(fabs(scene.camera.r / r - 1) < 1e-10))
+            fail_msg("after %g s: r %.15g, wanted %.15g", s, scene.camera.r, r);
+        assert_true(scene.camera.azimuth_deg == 0);
+        assert_true(s == 0 ? scene.top.time == 0 : scene.top.time > tau);
+        assert_int_equal(kd_scene_validate(&scene, NULL), KD_OK);
+    }
+    assert_true(at(&t, 6).camera.r == 2 || fabs(at(&t, 6).camera.r - 2) < 1e-13);
+    kd_timeline_finish(&t);
+}
+
+/* At 10 M, where d(phi)/dtau = 1/(r^(3/2) sqrt(1 - 3/r)) without spin; and eased, halfway at half of the time. */
+static void an_orbit_by_proper_time(void **state)
+{
+    (void)state;
+    const char *scene = "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":10,\"observer\":\"keplerian\",\"inclination_deg\":90}}";
+    struct kd_timeline t = made(scene, "[{\"at\":10,\"proper_time\":80}]", "smooth");
+    const double root = sqrt(0.7), turned = 80 / (pow(10, 1.5) * root) * (180 / M_PI);
+    assert_true(fabs(at(&t, 10).camera.azimuth_deg - remainder(turned, 360)) < 1e-10);
+    assert_true(fabs(at(&t, 5).camera.azimuth_deg - remainder(turned / 2, 360)) < 1e-10);
+    assert_true(fabs(at(&t, 2).camera.azimuth_deg - turned * (3 * 0.04 - 2 * 0.008)) < 1e-10);
+    assert_true(fabs(at(&t, 10).top.time - 80 / root) < 1e-10);
+    kd_timeline_finish(&t);
+}
+
+static void an_approach_by_ratios(void **state)
+{
+    (void)state;
+    const char *keys = "[{\"at\":2,\"scene\":{\"camera\":{\"r\":10,\"fov_deg\":90}}},{\"at\":4,\"scene\":{\"camera\":{\"r\":40}}}]";
+    struct kd_timeline t = made("{\"camera\":{\"r\":1000,\"fov_deg\":30}}", keys, "geometric");
+    assert_true(fabs(at(&t, 0).camera.r - 1000) < 1e-9 && fabs(at(&t, 1).camera.r - 100) < 1e-11 && fabs(at(&t, 3).camera.r - 20) < 1e-11);
+    assert_true(at(&t, 2).camera.r == 10 && at(&t, 4).camera.r == 40 && at(&t, 9).camera.r == 40);
+    assert_true(fabs(at(&t, 1).camera.fov_deg - 60) < 1e-12); /* an angle is none */
+    kd_timeline_finish(&t);
+    t = made("{\"camera\":{\"field_m\":10}}", "[{\"at\":2,\"scene\":{\"camera\":{\"field_m\":40}}}]", "geometric");
+    assert_true(fabs(at(&t, 1).camera.field_m - 20) < 1e-12 && isinf(at(&t, 1).camera.r));
+    kd_timeline_finish(&t);
+    t = made("{\"camera\":{\"r\":1000}}", "[{\"at\":2,\"scene\":{\"camera\":{\"r\":10}}}]", NULL);
+    assert_true(fabs(at(&t, 1).camera.r - 505) < 1e-10);
+    kd_timeline_finish(&t);
+}
+
+static void what_is_no_path_is_refused(void **state)
+{
+    (void)state;
+    static const struct { const char *scene, *keys, *pointer, *says; } wrong[] = {
+        { "{}", "[{\"at\":1,\"proper_time\":1}]", "/keyframes/0/proper_time", "is 1, allowed is 0 unless camera.observer stays" },
+        { "{\"camera\":{\"r\":9}}", "[{\"at\":1,\"proper_time\":\"end\"}]", "/keyframes/0/proper_time", "of an observer that falls" },
+        { RAIN, "[{\"at\":1,\"proper_time\":\"soon\"}]", "/keyframes/0/proper_time", "\"horizon\" or \"end\"" },
+        { RAIN, "[{\"at\":1,\"proper_time\":-1}]", "/keyframes/0/proper_time", "is -1, allowed is 0 to" },
+        { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":1}},\"proper_time\":\"horizon\"}]", "/keyframes/0/proper_time", "from further out" },
+        { RAIN, "[{\"at\":1,\"scene\":{\"motion\":{\"proper_time_rate\":1}},\"proper_time\":1}]", "/keyframes/0/proper_time", "one of them" },
+        { RAIN, "[{\"at\":1,\"scene\":{}},{\"at\":1,\"scene\":{}}]", "/keyframes/1/at", "a number above 1 to 100" },
+        { RAIN, "[{\"at\":101,\"scene\":{}}]", "/keyframes/0/at", "0 to 100" },
+        { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame", "known are at, scene, proper_time" },
+        { RAIN, "[{\"at\":1}]", "/keyframes/0", "a scene or a proper_time" },
+        { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":0}}}]", "/keyframes/0/scene/camera/r", "allowed" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        struct kd_timeline t = { 0 };
+        struct kd_error error = { 0 };
+        assert_int_equal(read(wrong[i].scene, wrong[i].keys, NULL, &t, &error), KD_EINVAL);
+        if (strcmp(error.pointer, wrong[i].pointer) || !strstr(error.message, wrong[i].says))
+            fail_msg("%s: %s %s", wrong[i].keys, error.pointer, error.message);
+        assert_null(t.keys);
+    }
+    /* Between keyframes: from a fall onto an orbit that is none with that clock. */
+    struct kd_timeline t = made(RAIN, "[{\"at\":1,\"proper_time\":2},{\"at\":2,\"scene\":{\"camera\":{\"observer\":\"velocity\"}},\"proper_time\":0}]", NULL);
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    assert_int_equal(kd_timeline_scene(&t, 1.5, &scene, &error), KD_OK);
+    t.keys[1].scene.camera.observer = KD_OBSERVER_VELOCITY;
+    assert_int_equal(kd_timeline_scene(&t, 1.5, &scene, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/keyframes");
+    kd_timeline_finish(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(free_fall_by_proper_time),
+        cmocka_unit_test(an_orbit_by_proper_time),
+        cmocka_unit_test(an_approach_by_ratios),
+        cmocka_unit_test(what_is_no_path_is_refused),
+    };
+    return cmocka_run_group_tests_name("timeline", tests, NULL, NULL);
+}
