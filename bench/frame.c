@@ -1,5 +1,5 @@
 /* What a whole frame costs, pass by pass: the scene of a file, which stays the same when the default grows richer, with a cold lens map, and again with the map
- * reused, as when only the exposure or the palette changes. Prints one line of JSON: every run, in ms.
+ * reused, as when only the exposure or the palette changes; asked for, a third time from another azimuth, before which a sky turns. Prints one line of JSON: every run, in ms.
  * frame.py runs it with one and two lavapipe threads and takes medians. */
 #include "render/output/png.h"
 #include "render/render.h"
@@ -13,7 +13,7 @@
 struct options {
     const char *device, *scene;
     int width, height, repeat;
-    bool sky, particles;
+    bool sky, particles, turn;
 };
 
 static double now_ms(void)
@@ -80,13 +80,16 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     scene.sky.model = o->sky ? KD_SKY_GRID : scene.sky.model;
     scene.disk.model = o->particles ? KD_DISK_PARTICLES : scene.disk.model;
     cJSON *first = cJSON_AddArrayToObject(root, "first"), *cold = cJSON_AddArrayToObject(root, "cold");
-    cJSON *reused = cJSON_AddArrayToObject(root, "reused");
+    cJSON *reused = cJSON_AddArrayToObject(root, "reused"), *turned = o->turn ? cJSON_AddArrayToObject(root, "turned") : NULL;
     enum kd_status status = one_frame(renderer, &scene, first, error); /* compiles the kernels */
     for (int k = 0; k < o->repeat && !status; k++) {
         scene.camera.inclination_deg += 1e-3; /* another lens map of the same work */
         status = one_frame(renderer, &scene, cold, error);
         if (!status)
             status = one_frame(renderer, &scene, reused, error);
+        scene.camera.azimuth_deg += 0.5;
+        if (!status && o->turn)
+            status = one_frame(renderer, &scene, turned, error);
     }
     return status;
 }
@@ -102,6 +105,7 @@ static error_t option(int key, char *text, struct argp_state *state)
     case 's': o->scene = text; return 0;
     case 'k': o->sky = true; return 0;
     case 'p': o->particles = true; return 0;
+    case 't': o->turn = true; return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -116,9 +120,10 @@ int main(int argc, char **argv)
         { "scene", 's', "FILE", 0, "the scene (bench/scenes/frame.json)", 0 },
         { "sky", 'k', NULL, 0, "with a sky, which needs the integrator", 0 },
         { "particles", 'p', NULL, 0, "with a disk of particles", 0 },
+        { "turn", 't', NULL, 0, "and with the observer half a degree further round the hole", 0 },
         { 0 },
     };
-    struct options o = { "auto", "bench/scenes/frame.json", 1280, 720, 9, false, false };
+    struct options o = { "auto", "bench/scenes/frame.json", 1280, 720, 9, false, false, false };
     struct argp parser = { table, option, NULL, "What a whole frame costs, pass by pass.", NULL, NULL, NULL };
     argp_parse(&parser, argc, argv, 0, NULL, &o);
 

@@ -1,14 +1,14 @@
-/* This kernel spreads the images of stars over pixels. Of each pair of star_search.comp: the places in the ray's cell of the picture, [-1/2, 1/2]^2
+/* This kernel spreads the images of stars over pixels. Of each pair of star_tiles.comp and star_search.comp: the places in the ray's cell of the picture, [-1/2, 1/2]^2
  * steps, that the lens map takes to the star; and there the star's light, magnified, over the nearest pixels.
  *
  * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic projection): coefficients by
  * the eight rays round it, least squares for the first ones, second differences for the others; beside rays that do not escape, and at edges,
- * by those that there are, to first order. It has its roots by Newton's method from four starts, each counted once: up to four where a caustic
- * passes.
+ * by those that there are, to first order. It has its roots by Newton's method, from four starts where it is not plain that there is but one, each
+ * counted once: up to four where a caustic passes.
  *
  * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F over the solid angle of
  * the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the picture's own drops out. It is spread
- * as a Gaussian of KD_STAR_SIGMA pixels over 4 x 4, whose weights add up to 1.
+ * as a quadratic B-spline, of standard deviation half a pixel, over 3 x 3: the weights add up to 1, and their centre is the place.
  *
  * Light is added up in 64-bit fixed point, so that the sum does not depend on the order. */
 #version 450
@@ -25,7 +25,6 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #include "ray/camera.glsl"
 layout(set = 0, binding = 6) buffer PointLight { uint point_light[]; };
 
-#define KD_STAR_SIGMA 0.5
 #define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
 
 /* f(x, y) = a x + b y + aa x^2 + ab x y + bb y^2, in radians. */
@@ -100,17 +99,24 @@ float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 /* A root near `p`; beyond all cells if there is none. */
 vec2 root(kd_patch m, vec2 q, vec2 p)
 {
-    vec2 step_ = vec2(0.0);
-    for (int k = 0; k < 6; k++) {
+    float far = 1.0;
+    for (int k = 0; k < 6 && far > 1e-4; k++) { /* the next step would be 1e-8 */
         mat2 j = derivative(m, p);
         float det = determinant_of(j);
-        vec2 f = q - value(m, p);
-        step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
-        float far = max(abs(step_.x), abs(step_.y));
+        vec2 f = q - value(m, p), step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
+        far = max(abs(step_.x), abs(step_.y));
         p += far < 0.5 ? step_ : far < 1e9 ? step_ * (0.5 / far) : vec2(0.0);
     }
-    bool good = max(abs(step_.x), abs(step_.y)) < 1e-3;
-    return good ? p : vec2(1e9);
+    return far < 1e-3 ? p : vec2(1e9);
+}
+
+/* Whether the map has one inverse over a ray's cell: its derivative changes by less than itself. */
+bool is_plain(kd_patch m)
+{
+    mat2 j = mat2(m.a, m.b);
+    float det = determinant_of(j);
+    vec2 all = abs(m.aa) + abs(m.ab) + abs(m.bb);
+    return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
 void add(uint o, float light)
@@ -123,28 +129,25 @@ void add(uint o, float light)
         atomicAdd(point_light[o + 1u], high);
 }
 
-float weight(float d) { return exp(-d * d * (0.5 / (KD_STAR_SIGMA * KD_STAR_SIGMA))); }
+/* Those of the pixel before, at and after a place that is d from the middle one. */
+vec3 weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
 
 /* In pixels of the band. */
 void spread(vec2 place, vec3 light)
 {
-    vec2 base = floor(place) - 1.0, d = place - base;
-    vec4 wx = vec4(weight(d.x), weight(d.x - 1.0), weight(d.x - 2.0), weight(d.x - 3.0));
-    vec4 wy = vec4(weight(d.y), weight(d.y - 1.0), weight(d.y - 2.0), weight(d.y - 3.0));
-    wx /= wx.x + wx.y + wx.z + wx.w;
-    wy /= wy.x + wy.y + wy.z + wy.w;
+    vec2 middle = floor(place + 0.5);
+    vec3 wx = weights(place.x - middle.x), wy = weights(place.y - middle.y);
     int pixels_x = int(emission.frame.pixels_x), pixels_y = int(push.pixels_y);
-    for (int r = 0; r < 4; r++)
-        for (int c = 0; c < 4; c++) {
-            int px = int(base.x) + c, py = int(base.y) + r + int(push.up);
-            if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
-                uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
-                vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : r == 2 ? wy.z : wy.w) * (c == 0 ? wx.x : c == 1 ? wx.y : c == 2 ? wx.z : wx.w) * light, vec3(1e9));
-                add(o, part.r);
-                add(o + 2u, part.g);
-                add(o + 4u, part.b);
-            }
+    for (int k = 0; k < 9; k++) {
+        int r = k / 3, c = k - 3 * r, px = int(middle.x) + c - 1, py = int(middle.y) + r - 1 + int(push.up);
+        if (px >= 0 && px < pixels_x && py >= 0 && py < pixels_y) {
+            uint o = KD_STAR_LIGHT * uint(py * pixels_x + px);
+            vec3 part = min((r == 0 ? wy.x : r == 1 ? wy.y : wy.z) * (c == 0 ? wx.x : c == 1 ? wx.y : wx.z) * light, vec3(1e9));
+            add(o, part.r);
+            add(o + 2u, part.g);
+            add(o + 4u, part.b);
         }
+    }
 }
 
 /* Where two cells meet each has a share of the light, which goes from 0 to 1 over a fifth of a step: their maps put an image at slightly different
@@ -166,8 +169,9 @@ void images(uint at, uint k)
     vec3 flux = emission.sky.brightness * stars[4u * k + 3u] * kd_sky_shifted(stars[4u * push.stars + k], g, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
     vec2 found[4];
     uint fresh = 0u; /* bits of those that count */
-    for (int i = 0; i < 4; i++) {
-        vec2 p = root(m, q, vec2((i & 1) == 0 ? -0.3 : 0.3, i < 2 ? -0.3 : 0.3));
+    int starts = is_plain(m) ? 1 : 4;
+    for (int i = 0; i < starts; i++) {
+        vec2 p = root(m, q, starts == 1 ? vec2(0.0) : vec2((i & 1) == 0 ? -0.3 : 0.3, i < 2 ? -0.3 : 0.3));
         found[i] = p;
         bool counts = m.there && share(p.x) * share(p.y) > 0.0;
         for (int h = 0; h < i; h++)
@@ -177,6 +181,8 @@ void images(uint at, uint k)
     for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, for it alone skips work */
         vec2 p = (fresh & 1u) != 0u ? found[0] : (fresh & 2u) != 0u ? found[1] : (fresh & 4u) != 0u ? found[2] : found[3];
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
+        if (stars[4u * k + 3u] * cosine < KD_STAR_LEAST * det * float(SIDE * SIDE))
+            continue;
         spread((vec2(x, y) + p + 0.5) / float(SIDE) - 0.5, flux * (share(p.x) * share(p.y) * cosine / (det * float(SIDE * SIDE))));
     }
 }

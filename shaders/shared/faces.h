@@ -5,24 +5,34 @@
 #define KD_FACES_GLSL
 
 #define KD_FACE_EDGE 1.5
-#define KD_FACE_CELLS 192 /* along a side, edges included */
+#define KD_FACE_FINE 192   /* cells along a side, edges included; all stars are sorted into these, */
+#define KD_FACE_COARSE 32  /* and once more into these, for where one looks far and for bright ones alone */
+#define KD_FACE_FAR 0.06   /* that is so far on a face */
 #define KD_FACES 6
+#define KD_FACE_TABLE(side) (KD_FACES * (side) * (side) + 2) /* numbers: where each cell begins, and the end, twice */
 
 #ifdef VULKAN
-struct kd_face { int number; float p, q; };
+struct kd_face { uint number; float p, q; };
 
 kd_face kd_face_of(vec3 n)
 {
     vec3 a = abs(n);
     bool x = a.x >= a.y && a.x >= a.z, y = !x && a.y >= a.z;
     float along = x ? n.x : y ? n.y : n.z, unit = 1.0 / abs(along);
-    return kd_face((x ? 0 : y ? 2 : 4) + (along < 0.0 ? 1 : 0), (x ? n.y : y ? n.z : n.x) * unit, (x ? n.z : y ? n.x : n.y) * unit);
+    return kd_face((x ? 0u : y ? 2u : 4u) + (along < 0.0 ? 1u : 0u), (x ? n.y : y ? n.z : n.x) * unit, (x ? n.z : y ? n.x : n.y) * unit);
 }
 
-ivec2 kd_face_cell(float p, float q)
+/* The place of a direction on a face that it is before. */
+vec2 kd_face_place(uint face, vec3 n)
 {
-    vec2 at = (vec2(p, q) + KD_FACE_EDGE) * (float(KD_FACE_CELLS) / (2.0 * KD_FACE_EDGE));
-    return ivec2(clamp(at, vec2(0.0), vec2(float(KD_FACE_CELLS - 1))));
+    float unit = 1.0 / abs(face < 2u ? n.x : face < 4u ? n.y : n.z);
+    return vec2(face < 2u ? n.y : face < 4u ? n.z : n.x, face < 2u ? n.z : face < 4u ? n.x : n.y) * unit;
+}
+
+ivec2 kd_face_cell(float p, float q, float side)
+{
+    vec2 at = (vec2(p, q) + KD_FACE_EDGE) * (side * (1.0 / (2.0 * KD_FACE_EDGE)));
+    return ivec2(clamp(at, vec2(0.0), vec2(side - 1.0)));
 }
 #endif
 

@@ -51,17 +51,19 @@
     U(list)                 /* where the listed pixels are */
 #define KD_FOOTPRINT_EDGE 1e9 /* M, and radians: larger than all that is */
 
-/* star_search.comp and star_images.comp are told this. Rows are those of rays that the buffer holds. */
+/* star_tiles.comp, star_search.comp and star_images.comp are told this. Rows are those of rays that the buffer holds. */
 #define KD_STARS_FIELDS_(F, U)                                                                                 \
     U(width)                /* rays a row */                                                                   \
     U(rows)                 /* all of them */                                                                  \
-    U(first)                /* the first that is wanted */                                                     \
+    U(first) U(end)         /* those that are wanted */                                                        \
     U(stride)               /* rays from plane to plane */                                                     \
     U(row0)                 /* row of the picture's rays that the first of the buffer is */                    \
-    U(room)                 /* pairs of a ray and a star that there is room for */                             \
+    U(room)                 /* pairs of a ray and a star that there is room for, */                            \
+    U(tiles)                /* and small tiles */                                                              \
     U(stars)                /* places in their list: their temperatures lie behind directions and fluxes */ \
     U(pixels_y)             /* rows of pixels that light is written to */                                      \
     U(up)                   /* added to rows of pixels of the buffer, as a 32-bit integer of either sign: those of the light */
+#define KD_STAR_TILE 9      /* rays along the sides of a large tile of star_tiles.comp, a multiple of 3, and odd */
 #define KD_STAR_LEAST 0.03  /* of sky.brightness: images that brighten their pixel by less are left out */
 #define KD_STAR_PATCH 0.15  /* radians that a ray may stand for where images of stars are sought */
 

@@ -45,6 +45,8 @@
 #include "star_images.spv.h"
 #include "star_search.spv.h"
 #include "star_search_texels.spv.h"
+#include "star_tiles.spv.h"
+#include "star_tiles_texels.spv.h"
 #include "transfer.spv.h"
 
 #include <string.h>
@@ -67,9 +69,13 @@ static const struct kd_vk_pipeline_params sources[] = {
                                       3, 8 },
     [KD_KERNEL_RAYS_KS_TRACE_F64] = { "rays Kerr-Schild f64, told", kd_spv_rays_kerr_schild_f64_trace,
                                       sizeof kd_spv_rays_kerr_schild_f64_trace, 3, 8 },
-    [KD_KERNEL_STAR_SEARCH] = { "star search", kd_spv_star_search, sizeof kd_spv_star_search, 6, sizeof(struct kd_stars_push),
+    [KD_KERNEL_STAR_TILES] = { "star tiles", kd_spv_star_tiles, sizeof kd_spv_star_tiles, 7, sizeof(struct kd_stars_push),
+                               { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_STAR_TILES_TEXELS] = { "star tiles, texels", kd_spv_star_tiles_texels, sizeof kd_spv_star_tiles_texels, 7,
+                                      sizeof(struct kd_stars_push), { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_TEXELS_RGBA } },
+    [KD_KERNEL_STAR_SEARCH] = { "star search", kd_spv_star_search, sizeof kd_spv_star_search, 7, sizeof(struct kd_stars_push),
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA } },
-    [KD_KERNEL_STAR_SEARCH_TEXELS] = { "star search, texels", kd_spv_star_search_texels, sizeof kd_spv_star_search_texels, 6,
+    [KD_KERNEL_STAR_SEARCH_TEXELS] = { "star search, texels", kd_spv_star_search_texels, sizeof kd_spv_star_search_texels, 7,
                                        sizeof(struct kd_stars_push), { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_TEXELS_RGBA } },
     [KD_KERNEL_STAR_IMAGES] = { "star images", kd_spv_star_images, sizeof kd_spv_star_images, 7, sizeof(struct kd_stars_push),
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },

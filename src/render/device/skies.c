@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELLS = KD_FACES * KD_FACE_CELLS * KD_FACE_CELLS };
-
 /* A buffer that holds these bytes from now on. */
 static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes, const char *name, struct kd_error *error)
 {
@@ -27,66 +25,72 @@ done:
     return status;
 }
 
-/* The cell of a star on a face; -1: it is not there, beyond the edge. */
-static int64_t cell_on(const struct kd_star *s, int face)
+/* The cell of a star on a face of side x side; -1: it is not there, beyond the edge. */
+static int64_t cell_on(const struct kd_star *s, int face, int side)
 {
     const float n[] = { s->x, s->y, s->z, s->x, s->y }, *axis = &n[face / 2], along = face % 2 ? -*axis : *axis;
-    const float p = axis[1] / along, q = axis[2] / along, unit = (float)(KD_FACE_CELLS / (2 * KD_FACE_EDGE));
+    const float p = axis[1] / along, q = axis[2] / along, unit = (float)(side / (2 * KD_FACE_EDGE));
     if (!(along > 0) || !(fabsf(p) < (float)KD_FACE_EDGE) || !(fabsf(q) < (float)KD_FACE_EDGE))
         return -1;
     int x = (int)((p + (float)KD_FACE_EDGE) * unit), y = (int)((q + (float)KD_FACE_EDGE) * unit);
-    x = x < KD_FACE_CELLS ? x : KD_FACE_CELLS - 1;
-    y = y < KD_FACE_CELLS ? y : KD_FACE_CELLS - 1;
-    return ((int64_t)face * KD_FACE_CELLS + y) * KD_FACE_CELLS + x;
+    x = x < side ? x : side - 1;
+    y = y < side ? y : side - 1;
+    return ((int64_t)face * side + y) * side + x;
 }
 
-/* Where each cell begins: CELLS numbers, and how many places there are in all. */
-static void count(const struct kd_stars *stars, uint32_t *cells)
+/* Where each cell begins, as sort wants it: one number too late; places are taken from `from` on. The last number is where they end. */
+static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
-    memset(cells, 0, (CELLS + 2) * sizeof *cells);
+    const size_t n = (size_t)KD_FACE_TABLE(side) - 2;
+    memset(cells, 0, (n + 2) * sizeof *cells);
+    cells[0] = cells[1] = from;
     for (size_t i = 0; i < stars->n; i++)
         for (int face = 0; face < KD_FACES; face++) {
-            int64_t cell = cell_on(&stars->at[i], face);
+            int64_t cell = cell_on(&stars->at[i], face, side);
             if (cell >= 0)
                 cells[cell + 2]++;
         }
-    for (size_t i = 2; i < CELLS + 2; i++)
+    for (size_t i = 2; i < n + 2; i++)
         cells[i] += cells[i - 1];
 }
 
 /* Puts stars into their places, in order, so that each cell has its brightest first. As it goes, cells[c + 1] moves from the beginning of cell c to
- * its end, which is where the next one begins. */
-static void sort(const struct kd_stars *stars, uint32_t *cells, size_t n, float *rows)
+ * its end, which is where the next one begins. all: places, behind which temperatures are. */
+static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)
         for (int face = 0; face < KD_FACES; face++) {
             const struct kd_star *s = &stars->at[i];
             const float row[] = { s->x, s->y, s->z, s->flux };
-            int64_t cell = cell_on(s, face);
+            int64_t cell = cell_on(s, face, side);
             if (cell < 0)
                 continue;
             const size_t k = cells[cell + 1]++;
             memcpy(rows + 4 * k, row, sizeof row);
-            rows[4 * n + k] = s->kelvin;
+            rows[4 * all + k] = s->kelvin;
         }
 }
 
+/* The tables of fine and of coarse cells are one behind the other, and so are the places that they tell. */
 static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene, struct kd_error *error)
 {
+    const size_t words = KD_FACE_TABLE(KD_FACE_FINE) + KD_FACE_TABLE(KD_FACE_COARSE);
     struct kd_stars stars = { 0 };
-    uint32_t *cells = malloc((CELLS + 2) * sizeof *cells);
+    uint32_t *cells = malloc(words * sizeof *cells), *coarse = cells ? cells + KD_FACE_TABLE(KD_FACE_FINE) : NULL;
     float *rows = NULL;
     enum kd_status status;
     KD_TRY(kd_stars_make(scene, &stars, error));
     if (!cells)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for stars"));
-    count(&stars, cells);
-    b->n = cells[CELLS + 1];
+    count(&stars, KD_FACE_FINE, 0, cells);
+    count(&stars, KD_FACE_COARSE, coarse[-1], coarse);
+    b->n = cells[words - 1];
     rows = calloc(5 * (size_t)b->n + 4, sizeof *rows);
     if (!rows)
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for stars"));
-    sort(&stars, cells, b->n, rows);
-    KD_TRY(upload(r, &b->cells, cells, (CELLS + 1) * sizeof *cells, "cells of stars", error));
+    sort(&stars, KD_FACE_FINE, cells, b->n, rows);
+    sort(&stars, KD_FACE_COARSE, coarse, b->n, rows);
+    KD_TRY(upload(r, &b->cells, cells, words * sizeof *cells, "cells of stars", error));
     KD_TRY(upload(r, &b->stars, rows, (5 * (size_t)b->n + 4) * sizeof *rows, "stars", error));
 done:
     kd_stars_finish(&stars);

@@ -11,8 +11,8 @@
 struct kd_sky_buffers {
     struct kd_vk_buffer *panorama; /* words, render/sky/panorama.h; NULL: never was any */
     struct kd_vk_buffer *stars;    /* direction and flux of each, cell by cell, the brightest of a cell first; then all temperatures */
-    uint32_t n;                    /* of them: a star has up to three places */
-    struct kd_vk_buffer *cells;    /* places in that list where the cells of faces.h begin, and the end */
+    uint32_t n;                    /* of them: a star has up to three places among fine cells, and as many among coarse ones */
+    struct kd_vk_buffer *cells;    /* places in that list where the cells of faces.h begin */
     struct kd_sky of;              /* what is in them, */
     bool there;                    /* if anything is */
 };

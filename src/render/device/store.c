@@ -36,12 +36,20 @@ done:
     return status;
 }
 
+static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->count * bands->band_bytes; }
+static uint64_t bytes_of_map(const struct kd_lens_map *map)
+{
+    return bytes_of_bands(&map->bands) + bytes_of_bands(&map->critical) + bytes_of_bands(&map->star_light);
+}
+
 static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
 {
     bands_finish(&map->bands, vk);
     bands_finish(&map->critical, vk);
+    bands_finish(&map->star_light, vk);
     kd_critical_pixels_finish(&map->pixels);
     map->key[0] = 0;
+    map->star_key.lens[0] = 0;
     map->used = 0;
 }
 
@@ -55,7 +63,7 @@ static void make_room(struct kd_store *store, const struct kd_plan *plan, const 
             struct kd_lens_map *m = &store->maps[i];
             if (m == spare || !m->bands.count)
                 continue;
-            held += m->bands.count * m->bands.band_bytes + m->critical.count * m->critical.band_bytes;
+            held += bytes_of_map(m);
             if (!oldest || m->used < oldest->used)
                 oldest = m;
         }
@@ -84,6 +92,16 @@ bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan)
     return false;
 }
 
+/* Room for the light of stars. New buffers hold none yet. */
+static enum kd_status make_star_light(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map *map, struct kd_error *error)
+{
+    struct kd_bands *light = &map->star_light;
+    if (!plan->points || (light->count == plan->bands && light->band_bytes == kd_plan_star_bytes(plan)))
+        return KD_OK;
+    map->star_key.lens[0] = 0;
+    return bands_init(light, store->vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error);
+}
+
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error)
 {
@@ -97,19 +115,23 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
             *out = m;
             *reused = true;
             make_room(store, plan, m);
-            return KD_OK;
+            return make_star_light(store, plan, m, error);
         }
         if (m->used < oldest->used)
             oldest = m;
     }
     make_room(store, plan, oldest);
     oldest->key[0] = 0;
+    oldest->star_key.lens[0] = 0;
     oldest->used = ++store->clock;
     *out = oldest;
     enum kd_status status;
     KD_TRY(bands_init(&oldest->bands, store->vk, plan->cacheable ? plan->bands : 1, bytes, "lens map", error));
     KD_TRY(bands_init(&oldest->critical, store->vk, kd_plan_critical_parts(plan), kd_plan_critical_bytes(plan),
                       "lens map at the critical curve", error));
+    if (!plan->points)
+        bands_finish(&oldest->star_light, store->vk);
+    KD_TRY(make_star_light(store, plan, oldest, error));
     if (!store->undecided)
         KD_TRY(kd_vk_buffer_create(store->vk, 16, KD_VK_DEVICE, "undecided rays", &store->undecided, error));
 done:
@@ -207,11 +229,9 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
         KD_TRY(kd_store_at_least(vk, &store->light, kd_light_bytes(plan), KD_VK_DEVICE, "light", error));
         KD_TRY(kd_store_at_least(vk, &store->light_host, kd_light_bytes(plan), KD_VK_READBACK, "light on the host", error));
     }
-    if (!plan->points)
-        bands_finish(&store->star_light, vk);
     if (plan->points) {
-        KD_TRY(bands_init(&store->star_light, vk, plan->bands, kd_plan_star_bytes(plan), "light of stars", error));
         KD_TRY(kd_store_at_least(vk, &store->star_pairs, kd_plan_pair_bytes(), KD_VK_DEVICE, "pairs of rays and stars", error));
+        KD_TRY(kd_store_at_least(vk, &store->star_rays, kd_plan_star_ray_bytes(plan), KD_VK_DEVICE, "rays that seek stars", error));
     }
 done:
     return status;
@@ -266,18 +286,19 @@ void kd_store_give_up(struct kd_store *store)
 {
     store->sent_whole = false;
     store->cameras_sent = false;
+    for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
+        store->maps[i].star_key.lens[0] = 0;
 }
 
-static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->count * bands->band_bytes; }
 static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
 
 uint64_t kd_store_bytes(const struct kd_store *store)
 {
     uint64_t sum = bytes_of_bands(&store->radiance) + bytes_of_bands(&store->layers) + bytes_of(store->words) + bytes_of(store->readback) + bytes_of(store->transfer);
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
-        sum += bytes_of_bands(&store->maps[i].bands) + bytes_of_bands(&store->maps[i].critical);
+        sum += bytes_of_map(&store->maps[i]);
     sum += bytes_of_bands(&store->beamed) + bytes_of(store->beam_lines) + bytes_of(store->beam_grids) + bytes_of(store->palette);
-    sum += bytes_of_bands(&store->star_light) + bytes_of(store->star_pairs);
+    sum += bytes_of(store->star_pairs) + bytes_of(store->star_rays);
     return sum + bytes_of(store->listed) + bytes_of(store->bloom) + bytes_of(store->light) + bytes_of(store->light_host);
 }
 
@@ -309,8 +330,8 @@ void kd_store_finish(struct kd_store *store)
     kd_vk_buffer_destroy(store->vk, store->bloom);
     kd_vk_buffer_destroy(store->vk, store->light);
     kd_vk_buffer_destroy(store->vk, store->light_host);
-    bands_finish(&store->star_light, store->vk);
     kd_vk_buffer_destroy(store->vk, store->star_pairs);
+    kd_vk_buffer_destroy(store->vk, store->star_rays);
     kd_vk_buffer_destroy(store->vk, store->undecided);
     kd_vk_buffer_destroy(store->vk, store->listed);
 }

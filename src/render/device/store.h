@@ -19,11 +19,21 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
+/* Light of points depends on this beside the lens map: it stays while only time runs. */
+struct kd_star_key {
+    char lens[65];
+    bool visible; /* brightness as the eye weighs it */
+    struct kd_sky sky;
+    struct kd_sky_block block;
+};
+
 struct kd_lens_map {
     char key[65]; /* "" while empty or half made */
     struct kd_bands bands;
     struct kd_bands critical; /* the same of the pixels at the critical curve, part by part, each with their list behind it */
     struct kd_critical_pixels pixels;
+    struct kd_bands star_light;  /* of the pixels of a band, KD_STAR_LIGHT words each, as the map shows points of light; none: no frame had any */
+    struct kd_star_key star_key; /* what that was made of, "" lens: it was not, or not to its end */
     struct kd_accuracy_report accuracy;
     uint64_t used;
 };
@@ -49,8 +59,8 @@ struct kd_store {
     struct kd_bands beamed;                /* radiance as a telescope's beam sees it; none: the plan has no beam */
     struct kd_vk_buffer *beam_lines, *beam_grids; /* rows of cells, and grids of them, on the way there; NULL: never was any */
     struct kd_vk_buffer *palette;          /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never was any */
-    struct kd_bands star_light;            /* of the pixels of a band, KD_STAR_LIGHT words each; none: no frame had points of light */
-    struct kd_vk_buffer *star_pairs;       /* rays, and stars that they may see */
+    struct kd_vk_buffer *star_pairs;       /* rays, and stars that they may see; NULL: no frame had points of light */
+    struct kd_vk_buffer *star_rays;        /* rays whose stars are sought one by one */
     struct kd_vk_buffer *listed;           /* lens map of listed pixels, part by part: nothing is kept in it */
     struct kd_vk_buffer *undecided;        /* rays that lens_map.comp gave up: a counter */
 };

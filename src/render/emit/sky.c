@@ -48,7 +48,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
-    const uint64_t cells = KD_FACES * KD_FACE_CELLS * KD_FACE_CELLS + 1, places = 3ull * kd_stars_most(scene);
+    const uint64_t cells = KD_FACE_TABLE(KD_FACE_FINE) + KD_FACE_TABLE(KD_FACE_COARSE), places = 6ull * kd_stars_most(scene);
     const uint32_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT; /* at most */
     return (is_spread(scene) ? 4ull * kd_panorama_words(2 * rows, rows) : 0) +
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);

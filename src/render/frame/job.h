@@ -93,8 +93,8 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels. Its map
- * must be whole. */
+/* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels; nothing where
+ * that light is there from the frame before. Its map must be whole. The bands of a frame from the first to the last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);

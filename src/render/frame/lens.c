@@ -157,7 +157,7 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
         { 0 },
     };
     kd_prepared_buffers(j->prepared, j->plan, own);
-    own[KD_OWN_point_light] = j->plan->points ? j->store->star_light.buffers[band] : NULL; /* stars.c has made it, band by band */
+    own[KD_OWN_point_light] = j->plan->points ? j->lens->star_light.buffers[band] : NULL; /* stars.c has made it, band by band */
     for (int i = 0; i < KD_OWN_COUNT; i++) /* something must be bound where nothing is read */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {

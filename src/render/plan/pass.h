@@ -47,7 +47,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(FOOTPRINT, "footprint", footprints, PART("footprint.comp", RAY_FULL, 0.5), RAYS, MAP)                                      \
     P(AUDIT, "audit", audited, BY(audit), FIXED, MAP)                                                                            \
     KD_EMIT_PASSES                                                                                                               \
-    P(STARS, "stars", starred, PART("star_search.comp", SAMPLE_TRANSFER, 3), RAYS, FRAME)                                        \
+    P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
     P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
     P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \

@@ -148,10 +148,24 @@ static inline uint64_t kd_plan_followed_most(const struct kd_plan *plan)
 /* Linear light takes so many bytes a pixel. */
 static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan *plan) { return plan->apart ? 16 : 12; }
 
-/* Where points of light are spread: fixed-point numbers of a band of pixels; and pairs of a ray and a point of one slice (frame/stars.c). */
+/* Where points of light are spread: fixed-point numbers of a band of pixels; and pairs of a ray and a point, and rays, of one slice of so many
+ * rays, or a row (frame/stars.c): some 20 ms, and few enough that their pairs have room. */
 #define KD_PLAN_PAIRS (1u << 18)
+#define KD_PLAN_STAR_RAYS (1u << 17)
 static inline uint64_t kd_plan_star_bytes(const struct kd_plan *plan) { return 24ull * plan->width * plan->band_rows; }
 static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
+static inline uint32_t kd_plan_star_slice(const struct kd_plan *plan)
+{
+    const uint32_t row = plan->width * plan->side;
+    return row > KD_PLAN_STAR_RAYS ? row : KD_PLAN_STAR_RAYS;
+}
+/* Tiles of three rays a side, the last ones of which may be narrower, and lower. */
+static inline uint32_t kd_plan_star_tiles(const struct kd_plan *plan)
+{
+    const uint32_t row = plan->width * plan->side, rows = kd_plan_star_slice(plan) / row;
+    return (row / 3 + 1) * (rows / 3 + 1);
+}
+static inline uint64_t kd_plan_star_ray_bytes(const struct kd_plan *plan) { return 4ull * (2 + kd_plan_star_tiles(plan) + kd_plan_star_slice(plan)); }
 
 /* Counts the bytes of one layer, a band of pixels: a multiple of what a binding may begin at. */
 static inline uint64_t kd_plan_layer_bytes(const struct kd_plan *plan) { return (4ull * plan->width * plan->band_rows + 255) / 256 * 256; }

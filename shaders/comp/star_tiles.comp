@@ -1,0 +1,178 @@
+/* This kernel lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands for a cell of the picture one step wide;
+ * star_images.comp finds where in it the star's image is.
+ *
+ * Nine rays of a tile, in threes, give the map over it to second order, from places in the tile to the plane of the sky that is square to the middle
+ * ray. A tile is simple where all nine escape; where the map's derivative changes by less than KD_STAR_TILE_BENT of itself, so that it has one inverse
+ * there, which Newton's method finds; and where the corners say that terms of third order amount to less than KD_STAR_TILE_OFF rays. Tiles that are
+ * not simple are listed: large ones, KD_STAR_TILE rays a side, as small ones of three rays a side, for the next run of this kernel; and of small ones the
+ * rays, for star_search.comp.
+ *
+ * Stars are sorted as faces.h says, the brightest of a cell first; a cell's search ends with the star that would brighten a pixel by less than
+ * KD_STAR_LEAST. */
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/interface.h"
+#include "shared/spec.h"
+KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
+#include "ray/sky_map.glsl"
+#include "ray/star_list.glsl"
+
+#define KD_STAR_TILE_BENT 0.7
+#define KD_STAR_TILE_OFF 0.2
+const int HALF = int(TILE) / 2;
+const float NEAR = TILE == KD_STAR_TILE ? 0.72 : 0.65; /* rays that a star may be off the one that it is paired with: images are sought to 0.6 */
+
+/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, u and v from -1 to 1 from its first rays to its last ones. In units of a and b
+ * for aa, ab and bb. */
+struct kd_tile { vec3 n, e1, e2; vec2 a, b, aa, ab, bb; float det, bent; kd_cells cells; bool simple; };
+
+vec2 solve(kd_tile t, vec2 q) { return vec2(t.b.y * q.x - t.b.x * q.y, t.a.x * q.y - t.a.y * q.x) / t.det; }
+
+float most(vec2 v) { return max(abs(v.x), abs(v.y)); }
+
+/* whole: all its rays are there. */
+kd_tile tile_about(uint at, bool whole)
+{
+    kd_tile t;
+    vec3 n = kd_sky_from(at);
+    vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
+    bool escape = whole && kd_sky_escapes(at);
+    uint face = kd_face_of(kd_sky_galactic(n)).number;
+    vec2 low = vec2(1e9), high = vec2(-1e9); /* of the places of all nine */
+    vec2 corners = vec2(0.0), sides = vec2(0.0); /* of u v^2 and u^2 v: what the corners have beyond the rest */
+    t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
+    for (int k = 0; k < 9; k++) {
+        int row = k / 3, i = k - 3 * row - 1, j = row - 1;
+        uint there = whole ? at + uint(HALF * (j * int(push.width) + i)) : at;
+        vec3 other = kd_sky_from(there);
+        vec2 q = vec2(dot(e1, other), dot(e2, other));
+        float u = float(i), v = float(j);
+        escape = escape && kd_sky_escapes(there) && dot(n, other) > 0.5;
+        vec2 place = kd_face_place(face, kd_sky_galactic(other));
+        low = min(low, place);
+        high = max(high, place);
+        t.a += u * q * (1.0 / 6.0);
+        t.b += v * q * (1.0 / 6.0);
+        corners += (i == 0 || j == 0 ? -0.5 : 0.25) * u * q;
+        sides += (i == 0 || j == 0 ? -0.5 : 0.25) * v * q;
+        t.ab += 0.25 * u * v * q;
+        t.aa += j == 0 ? 0.5 * u * u * q : vec2(0.0);
+        t.bb += i == 0 ? 0.5 * v * v * q : vec2(0.0);
+    }
+    t.n = kd_sky_galactic(n);
+    t.e1 = kd_sky_galactic(e1);
+    t.e2 = kd_sky_galactic(e2);
+    t.det = t.a.x * t.b.y - t.b.x * t.a.y;
+    t.aa = solve(t, t.aa);
+    t.ab = solve(t, t.ab);
+    t.bb = solve(t, t.bb);
+    vec2 room = (high - low) * (0.5 * NEAR / float(HALF) + 0.05); /* cells reach beyond the rays by half a step */
+    t.cells = kd_cells_of(face, low - room, high + room);
+    escape = escape && most(low - room) < KD_FACE_EDGE && most(high + room) < KD_FACE_EDGE;
+    t.bent = 2.0 * (most(t.aa) + most(t.ab) + most(t.bb));
+    float off = (most(solve(t, corners)) + most(solve(t, sides))) * float(HALF);
+    t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && kd_sky_number(KD_LENS_SKY_FOOTPRINT, at) < KD_STAR_PATCH;
+    return t;
+}
+
+/* From the place by the linear map to that by the quadratic one. */
+vec2 place_of(kd_tile t, vec2 linear)
+{
+    vec2 p = linear;
+    for (int k = 0; k < 3; k++) {
+        vec2 left = p + p.x * p.x * t.aa + p.x * p.y * t.ab + p.y * p.y * t.bb - linear;
+        vec2 du = vec2(1.0, 0.0) + 2.0 * p.x * t.aa + p.y * t.ab, dv = vec2(0.0, 1.0) + p.x * t.ab + 2.0 * p.y * t.bb;
+        p -= vec2(dv.y * left.x - dv.x * left.y, du.x * left.y - du.y * left.x) / (du.x * dv.y - du.y * dv.x);
+    }
+    return p;
+}
+
+/* The area that the map takes a ray's cell to there. */
+float area(kd_tile t, vec2 p)
+{
+    vec2 du = vec2(1.0, 0.0) + 2.0 * p.x * t.aa + p.y * t.ab, dv = vec2(0.0, 1.0) + p.x * t.ab + 2.0 * p.y * t.bb;
+    return abs((du.x * dv.y - du.y * dv.x) * t.det) * (1.0 / float(HALF * HALF));
+}
+
+/* The pairs of star k, whose place is that many rays from the middle one; none, if it is too faint. */
+void note(uint at, vec2 place, uint k, bool bright)
+{
+    ivec2 low = max(ivec2(ceil(place - NEAR)), ivec2(-HALF)), high = min(ivec2(floor(place + NEAR)), ivec2(HALF));
+    int across = high.x - low.x + 1, all = across * (high.y - low.y + 1);
+    if (!bright || across <= 0 || all <= 0)
+        return;
+    uint first = atomicAdd(pairs[0], uint(all));
+    for (int i = 0; i < all; i++) {
+        int j = i / across;
+        if (first + uint(i) < push.room) {
+            pairs[2u + 2u * (first + uint(i))] = at + uint((low.y + j) * int(push.width) + low.x + i - across * j);
+            pairs[3u + 2u * (first + uint(i))] = k;
+        }
+    }
+}
+
+/* What a tile is made of, from ray `first` of the map at (x, y) on, as far as it is there: rays, or small tiles, onto their list. */
+void list(uint first, uint x, uint y)
+{
+    const bool large = TILE == KD_STAR_TILE;
+    const uint step_ = large ? 3u : 1u;
+    uint columns = (min(TILE, push.width - x) + step_ - 1u) / step_, all = columns * ((min(TILE, push.end - y) + step_ - 1u) / step_);
+    uint to = (large ? 2u : 2u + push.tiles) + atomicAdd(listed[large ? 0u : 1u], all);
+    for (uint i = 0; i < all; i++) {
+        uint row = i / columns;
+        listed[to + i] = first + step_ * (row * push.width + i - columns * row);
+    }
+}
+
+/* The tile whose first ray is at (x, y). */
+void seek(uint x, uint y)
+{
+    uint first = y * push.width + x;
+    bool whole = x + TILE <= push.width && y + TILE <= push.end;
+    uint at = whole ? first + uint(HALF) * (push.width + 1u) : first;
+    kd_tile t = tile_about(at, whole);
+    /* u and v of a star are these products; of one in a cell of the tile, by the linear map, at most so large. */
+    vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
+    float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
+    float sharp = 1.0 - t.bent, least = sharp * sharp * KD_STAR_LEAST * abs(t.det) * (float(SIDE * SIDE) / float(HALF * HALF)); /* where it is brightest */
+    kd_star_walk walk = kd_star_walk_from(t.cells, t.simple);
+    for (;;) {
+        bool near = false;
+        vec2 place = vec2(0.0);
+        vec4 star = vec4(0.0);
+        for (;;) { /* lavapipe skips work only by leaving a loop */
+            kd_star_next_cell(t.cells, walk);
+            if (walk.k < walk.end && !walk.done) {
+                star = star_row(walk.k);
+                place = vec2(dot(star.xyz, to_u), dot(star.xyz, to_v));
+                near = abs(place.x) <= most_ && abs(place.y) <= most_ && dot(star.xyz, t.n) > 0.5 && star.w >= least;
+                walk.k = star.w < least ? walk.end : walk.k + 1u;
+            }
+            if (walk.done || near)
+                break;
+        }
+        if (walk.done)
+            break;
+        place = place_of(t, place);
+        note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * KD_STAR_LEAST * float(SIDE * SIDE) * area(t, place));
+    }
+    if (!t.simple)
+        list(first, x, y);
+}
+
+void main()
+{
+    kd_sky_map_read();
+    if (TILE == KD_STAR_TILE) {
+        uint x = gl_GlobalInvocationID.x * TILE;
+        if (x < push.width)
+            seek(x, push.first + gl_WorkGroupID.y * TILE);
+        return;
+    }
+    uint n = listed[0], all = gl_NumWorkGroups.x * KD_GROUP_SIZE;
+    for (uint i = gl_GlobalInvocationID.x; i < n; i += all) {
+        uint first = listed[2u + i], y = first / push.width;
+        seek(first - y * push.width, y);
+    }
+}
