@@ -117,6 +117,7 @@ async function watch(scene) {
     URL.revokeObjectURL(old);
     old = url;
     const { complain, drawOverlays } = await parts;
+    fall?.then(({ shown }) => shown(frame));
     say(caption(frame), frame.final && !scene.goesOn());
     if (frame.final && stage.dataset.final !== 'true') drawOverlays();
     stage.dataset.final = frame.final;
@@ -135,9 +136,23 @@ async function watch(scene) {
     light?.then(follow => follow(source.address(), wanted));
   }
 
+  // The fall, once somebody wants to.
+  let fall = null;
+  byId('fall-in').addEventListener('click', () => {
+    fall ??= load(import('./fall.js')).then(({ buildFall }) => buildFall(scene));
+    fall.then(({ begin }) => begin()).catch(error => ((fall = null), sayWrong(error.message)));
+  });
+
+  // Names of stars, once there are any that have one.
+  let stars = null;
+  function nameStars() {
+    if (scene.get('sky.model') === 'catalogue') stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
+  }
+
   async function refuse(error) {
     seen();
     const { complain } = await parts;
+    fall?.then(({ halt }) => halt());
     complain(error.pointer, error.message);
     sayWrong(error.message);
     if (error.again) status.append(t(' – trying again', ' – si riprova'));
@@ -156,9 +171,11 @@ async function watch(scene) {
   built({ complain, drawOverlays });
 
   for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, followLight);
+  nameStars();
   scene.addEventListener('change', () => {
     stage.dataset.final = false;
     source.refresh();
+    nameStars();
   });
   // It is the hole that rings, about its own axis, whichever way the disk turns.
   const hole = () => ({ spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)), mass_msun: scene.get('spacetime.mass_msun') });

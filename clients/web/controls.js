@@ -39,7 +39,7 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    box.value = !given ? '' : value >= 1e6 ? value.toExponential().replace('+', '') : Number(value.toPrecision(8));
+    box.value = !given ? '' : field.path === 'time' ? Math.round(value * 100) / 100 : value >= 1e6 ? value.toExponential().replace('+', '') : Number(value.toPrecision(8));
     if (!given) return;
     slider.value = short ? value : s.to(value);
     slider.setAttribute('aria-valuetext', `${number(value)} ${unit(field.unit)}`);

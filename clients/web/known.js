@@ -40,6 +40,6 @@ export function meansSomething(scene, path) {
     key = scene.switches.get(home);
   if (field.varies) return field.varies.some(word => scene.varies.includes(word));
   if (key && key !== path && scene.get(key) === off(scene.fields.get(key))) return false;
-  if (!Object.entries(field.with ?? {}).every(([other, value]) => scene.get(`${home}.${other}`) === value)) return false;
+  if (!Object.entries(field.with ?? {}).every(([other, values]) => [values].flat().includes(scene.get(`${home}.${other}`)))) return false;
   return home !== 'camera' || hasChoice(scene, path.slice(dot + 1));
 }

@@ -141,7 +141,8 @@ export function openSource(scene, size, shown, failed) {
     if (answer.status === 204) return;
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
-    const final = quality.final === 1 && Number(get('Kerrd-Revision')) >= from.revision;
+    const current = Number(get('Kerrd-Revision')) >= from.revision,
+      final = quality.final === 1 && current;
     if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final);
     from.frame = Number(get('Kerrd-Frame'));
     recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
@@ -149,6 +150,7 @@ export function openSource(scene, size, shown, failed) {
       picture: await answer.blob(),
       ...quality,
       final,
+      shows: current ? from.document : null,
       pace: scene.goesOn() && recent.length > 2 && recent.length / 2,
       accuracy: figures(get('Kerrd-Accuracy')),
       approximations: sentences(get('Kerrd-Approximations')),

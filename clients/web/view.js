@@ -1,26 +1,101 @@
-// The camera is moved by hand: drag to go round the hole, wheel or pinch to come nearer, keys for both.
+// The camera is moved by hand: drag to go round the hole, or near it to look around; wheel or pinch to come nearer, or to see less; keys for all.
+import { byId } from './dom.js';
+import { t } from './i18n.js';
+import * as link from './link.js';
+
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
+const round = (x, digits) => Number(x.toFixed(digits));
+const radians = Math.PI / 180;
+const near_r = 10; // M, within which a camera looks around unless somebody chose
 
-export function handle(stage, scene) {
-  const pointers = new Map();
-  let begin = null;
+// Whether a drag turns the camera instead of the place from which it looks. What was chosen by hand is in the address.
+function looker(scene) {
+  const button = byId('look'),
+    how = byId('how'),
+    usual = how.textContent;
+  let chosen = link.get('look');
+  const can = () => scene.get('camera.r') !== 'infinity' && scene.get('camera.projection') !== 'ring';
+  const deep = () =>
+    scene.get('camera.r') <= near_r || scene.get('camera.observer') === 'infall' || ['equirectangular', 'fulldome'].includes(scene.get('camera.projection'));
+  const looks = () => can() && (chosen == null ? deep() : chosen === '1');
 
-  const far = () => scene.get('camera.r') === 'infinity';
-  const tilt = degrees => clamp(degrees, 0, 180);
-  const round = (x, digits) => Number(x.toFixed(digits));
-
-  // At infinity the field narrows, elsewhere the camera comes nearer; it stops outside every static limit (r = 2).
-  function zoom(factor, from) {
-    if (far()) scene.change({ 'camera.field_m': round(clamp((from ?? scene.get('camera.field_m')) * factor, 0.5, 1e4), 3) });
-    else scene.change({ 'camera.r': round(clamp((from ?? scene.get('camera.r')) * factor, 2.1, 1e5), 3) });
+  function show() {
+    button.hidden = !can();
+    button.setAttribute('aria-pressed', looks());
+    const words = looks()
+      ? t(
+          'Drag to look around, wheel or pinch to see less or more; on a keyboard arrows, + and −, 0 for the hole, L to go round it, F for the picture alone.',
+          'Trascina per guardarti attorno, rotella o due dita per vedere meno o più; da tastiera frecce, + e −, 0 per il buco, L per girargli attorno, F per la sola immagine.',
+        )
+      : usual;
+    if (how.textContent !== words) how.textContent = words;
   }
 
-  function go(right_deg, up_deg, from = { azimuth: scene.get('camera.azimuth_deg'), tilt: scene.get('camera.inclination_deg') }) {
+  function toggle() {
+    if (!can()) return;
+    chosen = looks() ? '0' : '1';
+    link.set('look', (chosen === '1') === deep() ? null : chosen);
+    show();
+  }
+
+  button.addEventListener('click', toggle);
+  for (const event of ['change', 'settle']) scene.addEventListener(event, show);
+  show();
+  return { looks, toggle };
+}
+
+export function handle(stage, scene) {
+  const pointers = new Map(),
+    { looks, toggle } = looker(scene);
+  let begin = null;
+
+  const get = name => scene.get('camera.' + name);
+  const far = () => get('r') === 'infinity';
+  const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
+
+  // What wheel and fingers change: at infinity and where one looks around the field narrows, elsewhere the camera comes nearer; it stops outside every
+  // static limit (r = 2), unless it is within already.
+  function reach() {
+    if (far()) return { name: 'field_m', low: 0.5, high: 1e4 };
+    if (narrows()) return { name: 'fov_deg', low: 2, high: 150 };
+    return { name: 'r', low: Math.min(2.1, get('r')), high: 1e5 };
+  }
+
+  function zoom(factor, from) {
+    const { name, low, high } = reach();
+    scene.change({ ['camera.' + name]: round(clamp((from ?? get(name)) * factor, low, high), 3) });
+  }
+
+  function go(right_deg, up_deg, from = { azimuth: get('azimuth_deg'), tilt: get('inclination_deg') }) {
     scene.change({
       'camera.azimuth_deg': round(turn(from.azimuth + right_deg), 2),
-      'camera.inclination_deg': round(tilt(from.tilt - up_deg), 2),
+      'camera.inclination_deg': round(clamp(from.tilt - up_deg, 0, 180), 2),
     });
+  }
+
+  function look(right_deg, up_deg, from = { yaw: get('yaw_deg'), pitch: get('pitch_deg') }) {
+    scene.change({
+      'camera.yaw_deg': round(turn(from.yaw + right_deg), 2),
+      'camera.pitch_deg': round(clamp(from.pitch + up_deg, -90, 90), 2),
+    });
+  }
+
+  // Degrees that a pixel in the middle of the picture is wide.
+  function pixel() {
+    const { clientWidth: width, clientHeight: height } = stage;
+    if (get('projection') === 'equirectangular') return 360 / width;
+    if (get('projection') === 'fulldome') return 180 / Math.min(width, height);
+    return (2 * Math.tan((get('fov_deg') / 2) * radians)) / width / radians;
+  }
+
+  // What lies under the pointer comes along.
+  function drag(right, down) {
+    if (!looks()) return go((-right * 180) / stage.clientWidth, (down * 180) / stage.clientHeight, begin);
+    const roll = get('roll_deg') * radians,
+      side = right * Math.cos(roll) - down * Math.sin(roll),
+      up = -right * Math.sin(roll) - down * Math.cos(roll);
+    look((-side * pixel()) / Math.max(Math.cos(begin.pitch * radians), 0.2), -up * pixel(), begin);
   }
 
   function note() {
@@ -30,15 +105,17 @@ export function handle(stage, scene) {
           x: at[0].x,
           y: at[0].y,
           gap: at.length > 1 ? Math.hypot(at[0].x - at[1].x, at[0].y - at[1].y) : 0,
-          azimuth: scene.get('camera.azimuth_deg'),
-          tilt: scene.get('camera.inclination_deg'),
-          reach: scene.get(far() ? 'camera.field_m' : 'camera.r'),
+          azimuth: get('azimuth_deg'),
+          tilt: get('inclination_deg'),
+          yaw: get('yaw_deg'),
+          pitch: get('pitch_deg'),
+          reach: get(reach().name),
         }
       : null;
   }
 
   stage.addEventListener('pointerdown', event => {
-    if (event.button || event.target.closest('button, a, input')) return;
+    if (event.button || event.target.closest('button, a, input, #fall')) return;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     stage.setPointerCapture(event.pointerId);
     note();
@@ -48,7 +125,7 @@ export function handle(stage, scene) {
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     const [one, two] = [...pointers.values()];
     if (two && begin.gap) zoom(begin.gap / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 1), begin.reach);
-    else go(((begin.x - one.x) * 180) / stage.clientWidth, ((one.y - begin.y) * 180) / stage.clientHeight, begin);
+    else drag(one.x - begin.x, one.y - begin.y);
   });
   for (const end of ['pointerup', 'pointercancel'])
     stage.addEventListener(end, event => {
@@ -64,15 +141,19 @@ export function handle(stage, scene) {
     { passive: false },
   );
 
+  const move = (right, up) => (looks() ? look(right, up) : go(right, up));
   const keys = {
-    ArrowUp: step => go(0, step),
-    ArrowDown: step => go(0, -step),
-    ArrowLeft: step => go(-step, 0),
-    ArrowRight: step => go(step, 0),
+    ArrowUp: step => move(0, step),
+    ArrowDown: step => move(0, -step),
+    ArrowLeft: step => move(-step, 0),
+    ArrowRight: step => move(step, 0),
     '+': () => zoom(1 / 1.1),
     '=': () => zoom(1 / 1.1),
     '-': () => zoom(1.1),
     _: () => zoom(1.1),
+    0: () => looks() && scene.change({ 'camera.yaw_deg': null, 'camera.pitch_deg': null }),
+    l: toggle,
+    L: toggle,
   };
   stage.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target !== stage || !keys[event.key]) return;

@@ -21,6 +21,7 @@
     O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds")                                            \
     O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds")                                                \
     O(velocity, .unit = "1", .help = "towards the hole past one of zero angular momentum, in units of that of light; null within the horizon") \
+    O(g_behind, .unit = "1", .help = "frequency of starlight from straight behind, as it measures it, over that far away")  \
     O(energy, .unit = "1", .fixed = true, .help = "per mass")                                                          \
     O(end, .unit = "M", .fixed = true, .help = "radius where the model ends")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -65,6 +66,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->proper_time_to_horizon = within ? NAN : kd_infall_proper_time(&motion, &at, horizon);
     o->proper_time_to_end_s = second * o->proper_time_to_end;
     o->proper_time_to_horizon_s = second * o->proper_time_to_horizon;
+    o->g_behind = 1 / (frame.t.energy - frame.r.energy); /* of what flies inwards along -e_r */
     o->velocity = NAN;
     if (!within) {
         const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);

@@ -19,10 +19,16 @@ static bool is_of(const struct kd_control *control, const struct kd_field *field
     return !strncmp(control->path, field->section, n) && control->path[n] == '.' && !strcmp(control->path + n + 1, field->name);
 }
 
-const struct kd_control *kd_control_find(const struct kd_field *field, enum kd_control_kind kind)
+static const struct kd_control *from(size_t i, const struct kd_field *field, enum kd_control_kind kind)
 {
-    for (size_t i = 0; i < kd_control_count; i++)
-        if (kd_controls[i].kind == kind && is_of(&kd_controls[i], field))
-            return &kd_controls[i];
-    return NULL;
+    while (i < kd_control_count && (kd_controls[i].kind != kind || !is_of(&kd_controls[i], field)))
+        i++;
+    return i < kd_control_count ? &kd_controls[i] : NULL;
+}
+
+const struct kd_control *kd_control_find(const struct kd_field *field, enum kd_control_kind kind) { return from(0, field, kind); }
+
+const struct kd_control *kd_control_next(const struct kd_field *field, const struct kd_control *found)
+{
+    return from((size_t)(found - kd_controls) + 1, field, found->kind);
 }

@@ -40,7 +40,7 @@
          "polar angle of the observer: 0 over the pole of the disk's rotation, 90 in its plane")                     \
     REAL(camera, azimuth_deg, PHYSICS, REST, 0.0, -360.0, 360.0, "degrees",                                          \
          "Boyer-Lindquist azimuth of the observer; of one that falls, ingoing Kerr-Schild azimuth, the same far away")   \
-    ENUM(camera, observer, PHYSICS, REST, KD_OBSERVER_STATIC,                                                        \
+    ENUM(camera, observer, PHYSICS, FRONT, KD_OBSERVER_STATIC,                                                        \
          "state of motion at a finite radius" KD_OBSERVER_HELP, KD_OBSERVER_WORDS)                                   \
     REAL(camera, velocity_r, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity outwards, past one of zero angular momentum (observer: velocity)") \
     REAL(camera, velocity_theta, PHYSICS, REST, 0.0, -1.0, 1.0, "c", "velocity away from the north pole, likewise (observer: velocity)") \
@@ -263,6 +263,9 @@
     ROW(style, colour_bar,  0,                 0,                 0,                 1,                 0)           \
     ROW(style, dither,      1,                 0,                 1,                 1,                 1)
 
+/* Skies that have light between their stars, or a picture of it. */
+#define KD_WITH_SPREAD_(WITH, path) WITH(path, "model", KD_SKY_STARS) WITH(path, "model", KD_SKY_CATALOGUE) WITH(path, "model", KD_SKY_IMAGE)
+
 /* Controls of a page (scene/control.h), by the fields' paths, of a list's without a number; a section's stand together. */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                                 \
     SPAN("spacetime.spin", -0.998, 0.998)                                                                            \
@@ -296,8 +299,11 @@
     SWITCH("sky.model")                                                                                              \
     SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
-    SPAN("sky.milky_way", 0, 4)                                                                                      \
-    SPAN("sky.seed", 0, 1000)                                                                                        \
+    SPAN("sky.milky_way", 0, 4) KD_WITH_SPREAD_(WITH, "sky.milky_way")                                               \
+    KD_WITH_SPREAD_(WITH, "sky.image")                                                                               \
+    WITH("sky.limit_mag", "model", KD_SKY_STARS) WITH("sky.limit_mag", "model", KD_SKY_CATALOGUE)                    \
+    SPAN("sky.seed", 0, 1000) KD_WITH_SPREAD_(WITH, "sky.seed")                                                      \
+    KD_WITH_SPREAD_(WITH, "sky.orientation") KD_WITH_SPREAD_(WITH, "sky.turn_deg") KD_WITH_SPREAD_(WITH, "sky.tilt_deg") \
     FIRST("image.samples", 2)                                                                                        \
     WITH("image.pixel_error", "samples", INFINITY)                                                                   \
     SPAN("style.exposure", -10, 10) FIRST("style.exposure", 0)                                                       \

@@ -130,6 +130,19 @@ static void write_list(struct kd_writer *w, const char *text)
     kd_write(w, "]");
 }
 
+/* Writes one value, or the list of several. */
+static void write_with(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
+{
+    const struct kd_field *other = kd_field_find(field->section, control->text);
+    const bool several = kd_control_next(field, control);
+    kd_write(w, "{\"%s\":%s", control->text, several ? "[" : "");
+    for (const struct kd_control *c = control; c; c = kd_control_next(field, c)) {
+        kd_write(w, "%s", c == control ? "" : ",");
+        kd_write_value(w, other, c->a);
+    }
+    kd_write(w, "%s}", several ? "]" : "");
+}
+
 static void write_control(struct kd_writer *w, const struct kd_field *field, const struct kd_control *control)
 {
     static const char *const keys[] = {
@@ -147,11 +160,7 @@ static void write_control(struct kd_writer *w, const struct kd_field *field, con
         return;
     case KD_CONTROL_FIRST: kd_write_value(w, field, control->a); return;
     case KD_CONTROL_SWITCH: kd_write(w, "true"); return;
-    case KD_CONTROL_WITH:
-        kd_write(w, "{\"%s\":", control->text);
-        kd_write_value(w, kd_field_find(field->section, control->text), control->a);
-        kd_write(w, "}");
-        return;
+    case KD_CONTROL_WITH: write_with(w, field, control); return;
     case KD_CONTROL_VARIES: write_list(w, control->text); return;
     case KD_CONTROL_BUTTON:
         kd_write(w, "{\"title\":\"%s\",\"value\":", control->text);

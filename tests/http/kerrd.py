@@ -385,6 +385,49 @@ class Kerrd(unittest.TestCase):
         self.assertEqual(self.daemon.request('PATCH', '/v1/sessions/' + session['id'], json.dumps({'spot1': None}), headers=patch).status, 200)
         self.assertNotIn('light', self.event(session, b'"revision":2'))
 
+    def test_named_stars_are_where_the_picture_has_their_light(self):
+        """Alone in the neighbourhood each gives its pixels F g^4 / (solid angle of the sky), by magnitude, and by the magnification over the pixel's own."""
+        width, height, fov, ask = 400, 240, 80, 'application/vnd.kerrd.stars+json'
+        scene = {'spacetime': {'spin': 0.9}, 'camera': {'r': 15, 'fov_deg': fov, 'inclination_deg': 70, 'azimuth_deg': 40, 'observer': 'infall', 'yaw_deg': 30, 'roll_deg': 20},
+                 'disk': {'model': 'none'}, 'sky': {'model': 'catalogue', 'milky_way': 0, 'limit_mag': 4, 'brightness': 1, 'tilt_deg': 25, 'orientation': 'equatorial'},
+                 'image': {'width': width, 'height': height, 'layers': ['rgb']}}
+        answer = self.daemon.post('/v1/render', scene, Accept=ask)
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, ask))
+        told = answer.json()
+        self.assertEqual((told['width'], told['height'], len(told['images'])), (width, height, min(told['found'], 400)))
+        light = struct.unpack(f'<{3 * width * height}f', self.daemon.post('/v1/render', scene, Accept='application/x-npy').body[-12 * width * height:])
+        luminance = lambda x, y: sum(w * light[3 * (y * width + x) + c] for c, w in enumerate((0.2126, 0.7152, 0.0722)))
+        unit, judged = 2 * math.tan(math.radians(fov / 2)) / width, 0
+        for star in told['images'][:60]:
+            x, y = star['x'], star['y']
+            alone = all(math.hypot(s['x'] - x, s['y'] - y) > 8 or s is star for s in told['images'])
+            if not (alone and 4 < x < width - 4 and 4 < y < height - 4):
+                continue
+            near = [(luminance(i, j), i + 0.5, j + 0.5) for i in range(int(x) - 3, int(x) + 4) for j in range(int(y) - 3, int(y) + 4)]
+            whole = sum(part for part, _, _ in near)
+            self.assertAlmostEqual(sum(part * i for part, i, _ in near) / whole, x, delta=0.15, msg=star)
+            self.assertAlmostEqual(sum(part * j for part, _, j in near) / whole, y, delta=0.15, msg=star)
+            pixel = unit ** 2 / (1 + (unit * (x - width / 2)) ** 2 + (unit * (y - height / 2)) ** 2) ** 1.5
+            flux = 10 ** (-0.4 * (star['seen_magnitude'] - 21)) * math.radians(1 / 3600) ** 2
+            self.assertAlmostEqual(whole / (flux / pixel), 1, delta=0.1, msg=star)
+            self.assertAlmostEqual(star['seen_magnitude'], star['magnitude'] - 2.5 * math.log10(star['magnification'] * star['g'] ** 4), delta=5e-3)
+            judged += 1
+        self.assertGreater(judged, 20)
+
+    def test_stars_behind_a_disk_and_from_far(self):
+        sky, ask = {'model': 'catalogue', 'limit_mag': 4}, 'application/vnd.kerrd.stars+json'
+        near = lambda disk: self.daemon.post('/v1/render', {'camera': {'r': 60, 'inclination_deg': 40}, 'sky': sky, 'disk': disk, 'image': {'width': 200, 'height': 120}}, Accept=ask).json()
+        bare, behind, opaque = near({'model': 'none'}), near({}), near({'emission_opacity': 0, 'gas': {'amplitude': 0}})
+        self.assertEqual((bare['found'], {s['through'] for s in bare['images']}), (behind['found'], {1}))
+        self.assertTrue(any(0.01 < s['through'] < 0.99 for s in behind['images']), 'the disk shines, and is seen through')
+        self.assertTrue({0, 1} <= {s['through'] for s in opaque['images']})
+        self.assertIsNone(next(s for s in opaque['images'] if s['through'] == 0)['seen_magnitude'])
+        far = self.daemon.post('/v1/render', {'sky': sky, 'image': {'width': 200, 'height': 120}}, Accept=ask).json()
+        self.assertEqual({s['magnification'] for s in far['images']}, {None}, 'parallel rays have no solid angle')
+        for scene, at in (({}, '/sky/model'), ({'sky': {'model': 'stars'}}, '/sky/model'), ({'sky': sky, 'camera': {'projection': 'ring'}}, '/camera/projection')):
+            refused = self.daemon.post('/v1/render', scene, Accept=ask)
+            self.assertEqual((refused.status, refused.json()['pointer']), (422, at))
+
     def test_a_job_of_layers_makes_the_arrays_that_a_render_makes(self):
         scene = {'image': {'width': 40, 'height': 24, 'layers': ['rgb', 'g', 'r_1']}}
         refused = self.daemon.post('/v1/jobs', {'scene': scene})

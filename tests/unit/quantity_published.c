@@ -130,6 +130,10 @@ static void fall(void **state)
     published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1, 1e-12); /* pi from 2 M on */
     published("from rest", ASK("infall", "proper_time_to_end", "r=10", "infall_from=10"), 0.5 * M_PI * sqrt(500), 1e-10);
     published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"), 0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
+    /* Rain in the coordinates of Painleve and Gullstrand: E of light inwards over what rain measures of it is 1 + its velocity, sqrt(2/r). */
+    published("starlight behind rain", ASK("infall", "g_behind", "r=8"), 2.0 / 3, 1e-14);
+    published("starlight behind rain at the horizon", ASK("infall", "g_behind", "r=2"), 0.5, 1e-14);
+    published("starlight behind rain within", ASK("infall", "g_behind", "r=0.5"), 1.0 / 3, 1e-14);
     published("seconds of Sgr A*", ASK("infall", "proper_time_to_end_s", "r=2", "mass_msun=4.3e6"), 4.0 / 3 * seconds, 1e-6);
     published("velocity", ASK("infall", "velocity", "r=8"), 0.5, 1e-14);
     for (int i = 0; i <= steps; i++) { /* Simpson's rule for r^2/sqrt(2r (r^2 + a^2)), in sqrt(r) */

@@ -330,10 +330,14 @@ static void controls_are_of_fields(void **state)
         const struct kd_control *c = &kd_controls[k];
         const struct kd_field *of = NULL;
         for (int i = 0; i < KD_FIELD_COUNT; i++)
-            if (kd_control_find(&kd_fields[i], c->kind) == c)
-                of = &kd_fields[i];
+            for (const struct kd_control *found = kd_control_find(&kd_fields[i], c->kind); found; found = kd_control_next(&kd_fields[i], found))
+                if (found == c)
+                    of = &kd_fields[i];
         if (!of)
-            fail_msg("%s is no field, or has two controls of this kind", c->path);
+            fail_msg("%s is no field", c->path);
+        const struct kd_control *first = kd_control_find(of, c->kind);
+        if (first != c && (c->kind != KD_CONTROL_WITH || strcmp(first->text, c->text) || first->a == c->a))
+            fail_msg("%s has two controls of this kind", c->path);
         if (c->kind == KD_CONTROL_SPAN)
             assert_true(of->minimum <= c->a && c->a < c->b && c->b <= of->maximum);
         if (c->kind == KD_CONTROL_FIRST || c->kind == KD_CONTROL_BUTTON)

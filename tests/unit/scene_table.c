@@ -263,7 +263,7 @@ static void schema_has_natures_places_and_groups(void **state)
 static void schema_has_controls(void **state)
 {
     (void)state;
-    static const char *const all[] = { "time", "bodies.r", "bodies.dark", "bodies.moons", "stops.time", "bodies.shape" };
+    static const char *const all[] = { "time", "bodies.r", "bodies.dark", "bodies.moons", "bodies.texture", "bodies.texture", "stops.time", "bodies.shape" };
     struct kd_buffer text = { 0 };
     assert_int_equal(kd_scene_schema(&text), KD_OK);
     const char *json = (const char *)text.data;
@@ -271,6 +271,7 @@ static void schema_has_controls(void **state)
     assert_non_null(strstr(json, ",\"x-first\":7"));
     assert_non_null(strstr(json, ",\"x-front\":true,\"x-switch\":true"));
     assert_non_null(strstr(json, ",\"x-with\":{\"shape\":\"ring\"}"));
+    assert_non_null(strstr(json, ",\"x-with\":{\"shape\":[\"ball\",\"disk\"]}"));
     assert_non_null(strstr(json, ",\"x-varies\":[\"here\",\"there\"]"));
     assert_non_null(strstr(json, ",\"x-button\":{\"title\":\"A ball\",\"value\":\"ball\"}"));
     assert_int_equal(kd_control_count, sizeof all / sizeof *all);

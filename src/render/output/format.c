@@ -55,7 +55,9 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
         scene->style.exposure = 0;
     if (!(format->carries & shows))
         scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
-    enum kd_status status = check_layers(format, scene, error);
+    enum kd_status status = format->draws ? format->draws(scene, error) : KD_OK;
+    if (!status)
+        status = check_layers(format, scene, error);
     if (status)
         return status;
     struct kd_needs needs = kd_needs_of(scene);

@@ -33,6 +33,8 @@ struct kd_format {
     const char *magic;      /* with which every file begins; "": none has a beginning of its own */
     unsigned carries;
     bool live;              /* KD_EFFORT_LIVE is for it */
+    /* Makes a scene one of which a frame carries what the format needs; NULL: any is. KD_EINVAL at a field of one that has nothing to tell. */
+    enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
     /* Append a file to *out. *memory: of this thread's earlier calls, NULL at first; `forget` frees it. Errors: KD_ENOMEM, or
      * KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
     enum kd_status (*encode)(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
@@ -42,7 +44,7 @@ struct kd_format {
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
 
-#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(npy)
+#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(npy) FORMAT(stars)
 #define KD_FORMAT_DECLARE(name) extern const struct kd_format kd_format_##name;
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
@@ -57,7 +59,7 @@ const struct kd_format *kd_format_of_bytes(const void *data, size_t size);      
 const struct kd_format *kd_format_live(void);                                    /* what live views are made of */
 
 /* The plan of a frame that carries what the format needs. What would show in none of it, auto exposure and layers, is taken from the
- * scene. Errors as kd_plan_make, and KD_EINVAL at /image/layers for more of them than the format holds. */
+ * scene. Errors as kd_plan_make and the format's `draws`, and KD_EINVAL at /image/layers for more of them than the format holds. */
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error);
 

@@ -140,20 +140,32 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene)
     return o;
 }
 
-void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, struct kd_camera_label *out)
+/* On the image plane: alpha, beta, 0; else along e_r, e_theta, e_phi, of any length. */
+static struct vec direction(const struct kd_camera_exact *c, double px, double py)
 {
     double x = px - c->middle_x, y = c->middle_y - py, ahead = kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &x, &y);
-    double kx = ahead * c->c0x + x * c->cxx + y * c->cyx, ky = ahead * c->c0y + x * c->cxy + y * c->cyy;
+    return (struct vec) { ahead * c->c0x + x * c->cxx + y * c->cyx, ahead * c->c0y + x * c->cxy + y * c->cyy, ahead * c->c0z + x * c->cxz + y * c->cyz };
+}
+
+void kd_camera_direction(const struct kd_camera_exact *c, double x, double y, double out[3])
+{
+    const struct vec k = direction(c, x, y);
+    double n = 1 / sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
+    out[0] = n * k.x, out[1] = n * k.y, out[2] = n * k.z;
+}
+
+void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, struct kd_camera_label *out)
+{
+    const struct vec k = direction(c, px, py);
     if (c->w0 == 0) {
-        *out = (struct kd_camera_label) { .alpha = kx, .beta = ky, .energy = 1 };
+        *out = (struct kd_camera_label) { .alpha = k.x, .beta = k.y, .energy = 1 };
         return;
     }
-    double kz = ahead * c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrt(kx * kx + ky * ky + kz * kz);
-    double m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
+    double n = 1 / sqrt(k.x * k.x + k.y * k.y + k.z * k.z), m_r = -k.x * n, m_theta = -k.y * n, m_phi = -k.z * n;
     kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
                        c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,
-                       c->p_t - (c->p_r * kx + c->p_theta * ky + c->p_phi * kz) * n,
-                       c->dw_t - (c->dw_r * kx + c->dw_theta * ky + c->dw_phi * kz) * n < 0, out);
+                       c->p_t - (c->p_r * k.x + c->p_theta * k.y + c->p_phi * k.z) * n,
+                       c->dw_t - (c->dw_r * k.x + c->dw_theta * k.y + c->dw_phi * k.z) * n < 0, out);
 }
 
 /* Labels have no place for E = 0; a ray next to it is the same to 1e-12 of what the observer measures. */

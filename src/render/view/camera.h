@@ -36,6 +36,10 @@ struct kd_camera_label {
     bool outward; /* at a finite radius: the traced ray starts away from the hole */
     double energy; /* at infinity, per unit that the observer measures; not 0 */
 };
+/* Where the ray at (x, y), in rays from the upper left one, comes from in the observer's own frame: a unit vector along e_r, e_theta, e_phi. Of a camera
+ * at a finite radius. */
+void kd_camera_direction(const struct kd_camera_exact *camera, double x, double y, double out[3]);
+
 /* From E, L/sin(theta), and what beta is times |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
 void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);

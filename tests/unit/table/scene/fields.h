@@ -29,6 +29,7 @@
 #define KD_SCENE_STYLES(ROW)
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON)                                         \
     SPAN("time", -1, 2) FIRST("bodies.r", 7) SWITCH("bodies.dark") WITH("bodies.moons", "shape", 2)          \
+    WITH("bodies.texture", "shape", 0) WITH("bodies.texture", "shape", 1)                                    \
     VARIES("stops.time", "here|there") BUTTON("bodies.shape", 0, "A ball")
 #define KD_SCENE_OLD_NAMES(OLD) OLD(finish, stops, 2) OLD(start, stops, 0)
 

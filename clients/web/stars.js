@@ -1,0 +1,94 @@
+// Names of stars: of a sky that has real ones, the server says which images of which bright stars are where in the picture. The one that a pointer
+// is at is named, with all others of the same star.
+import { byId, el, latest, svg } from './dom.js';
+import { number, t } from './i18n.js';
+import { ask } from './server.js';
+
+const near_px = 16;
+const rest_ms = 250; // that a camera has been still
+const hidden = 0.02; // through which part of a disk a star shows
+
+export const hasNames = scene => scene.get('sky.model') === 'catalogue' && scene.get('camera.projection') !== 'ring';
+export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
+
+// What decides where they are, as a key; the clock does not.
+function sceneOf(scene, { clientWidth: width, clientHeight: height }) {
+  const { time, motion, style, ...document } = scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1 });
+  return JSON.stringify(document);
+}
+
+let kept = { key: '', answer: null };
+
+// { width, height, images: [{ name, designation, magnitude, x, y, magnification, g, through, seen_magnitude, mirrored }] } of the stage as it is, the
+// brightest first.
+export function starsIn(scene, stage) {
+  const key = sceneOf(scene, stage);
+  if (kept.key !== key) {
+    const answer = ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json', Accept: 'application/vnd.kerrd.stars+json' }, body: key }).then(async reply => {
+      const list = await reply.json();
+      list.images = list.images.filter(image => image.through > hidden);
+      return list;
+    });
+    kept = { key, answer };
+    answer.catch(() => kept.answer === answer && (kept = { key: '', answer: null }));
+  }
+  return kept.answer;
+}
+
+function told(image, others) {
+  const parts = [t(`magnitude ${number(image.magnitude, 3)}`, `magnitudine ${number(image.magnitude, 3)}`)];
+  if (image.seen_magnitude != null) parts.push(t(`seen as ${number(image.seen_magnitude, 3)}`, `vista come ${number(image.seen_magnitude, 3)}`));
+  if (image.magnification != null) parts.push(t(`magnified × ${number(image.magnification, 2)}`, `ingrandita × ${number(image.magnification, 2)}`));
+  if (image.mirrored) parts.push(t('mirrored', 'specchiata'));
+  if (others) parts.push(t(`${others + 1} images`, `${others + 1} immagini`));
+  return parts.join(', ');
+}
+
+export function buildStars(stage, scene) {
+  const label = byId('star'),
+    marks = byId('star-marks');
+  let timer = 0,
+    pointer = null;
+
+  function clear() {
+    label.hidden = true;
+    marks.replaceChildren();
+  }
+
+  function name(list) {
+    const { x, y } = pointer,
+      image = list.images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
+    clear();
+    if (!image) return;
+    const all = list.images.filter(one => one.name === image.name && one.designation === image.designation);
+    marks.setAttribute('viewBox', `0 0 ${list.width} ${list.height}`);
+    marks.replaceChildren(...all.map(one => svg('circle', { cx: one.x, cy: one.y, r: one === image ? 9 : 6, class: one === image ? 'this' : '' })));
+    label.replaceChildren(el('b', {}, nameOf(image)), el('span', {}, told(image, all.length - 1)));
+    label.hidden = false;
+    const { offsetWidth, offsetHeight } = label;
+    label.style.left = `${Math.min(Math.max(image.x + 14, 4), stage.clientWidth - offsetWidth - 4)}px`;
+    label.style.top = `${image.y + 14 + offsetHeight > stage.clientHeight ? Math.max(image.y - 14 - offsetHeight, 4) : image.y + 14}px`;
+  }
+
+  const look = latest(async () => {
+    if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.azimuth_rate_deg'))) return clear();
+    const list = await starsIn(scene, stage).catch(() => null); // without them the picture is as good
+    if (list && pointer) name(list);
+  });
+
+  function point(event) {
+    const box = stage.getBoundingClientRect();
+    pointer = event.target.closest('button, a, input, #fall') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
+    clearTimeout(timer);
+    if (!pointer || event.buttons) return clear();
+    timer = setTimeout(look, label.hidden ? rest_ms : 0);
+  }
+  stage.addEventListener('pointermove', point);
+  stage.addEventListener('pointerup', point);
+  stage.addEventListener('pointerleave', () => ((pointer = null), clear()));
+  scene.addEventListener('change', () => {
+    clear();
+    clearTimeout(timer);
+    if (pointer) timer = setTimeout(look, 2 * rest_ms);
+  });
+}

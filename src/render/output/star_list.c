@@ -1,0 +1,194 @@
+/* This writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have names, the one that gives its
+ * pixels most light first (docs/physics/sky.md). Places come from the lens map, one ray a pixel; brightness is of one star's image alone. */
+#include "render/output/format.h"
+
+#include "base/json.h"
+#include "render/plan/layer_kinds.h"
+#include "render/sky/star_images.h"
+#include "render/sky/star_names.h"
+#include "render/sky/star.h"
+#include "render/view/camera.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { MOST = 400 }; /* images in a file: those beyond give less light */
+
+/* How the picture sees one. light: the mean radiance that it gives a pixel, in units of kd_star_flux. */
+struct image { struct kd_star_image at; double magnification, g, through, light; };
+
+struct list {
+    const struct kd_picture *picture;
+    struct kd_camera_exact camera;
+    struct kd_star_name names[KD_STAR_NAMES];
+    struct kd_vec places[KD_STAR_NAMES]; /* directions from which their light comes to the hole, in the frame of the lens map */
+    size_t n_stars;
+    struct image *images;
+    size_t n, room;
+};
+
+/* Wants the places in the sky where rays end, and how deep the disk is before them. */
+static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
+{
+    const bool disk = scene->disk.model != KD_DISK_NONE;
+    if (scene->sky.model != KD_SKY_CATALOGUE)
+        return kd_error_field(error, "/sky/model", "sky.model is not \"catalogue\": the stars of no other sky have names");
+    if (scene->camera.projection == KD_PROJECTION_RING)
+        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", which has no stars to name: allowed are the others");
+    scene->image.samples = 1;
+    scene->image.critical_factor = 1;
+    scene->image.layers = (struct kd_words) { 2, { { KD_LAYER_sky_theta, -1 }, { KD_LAYER_sky_phi, -1 } } };
+    for (int order = 0; disk && order < scene->accuracy.orders; order++)
+        scene->image.layers.at[scene->image.layers.count++] = (struct kd_numbered_word) { KD_LAYER_optical_depth, (int16_t)order };
+    return KD_OK;
+}
+
+/* Stars in the frame of the rays: their rotation's transpose leads there. */
+static void name_stars(struct list *list)
+{
+    const struct kd_scene *scene = list->picture->scene;
+    const struct kd_rotation galactic = kd_rotation_galactic(), to = kd_sky_rotation(scene);
+    struct kd_rotation back;
+    const char *text = NULL;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            back.m[i][j] = to.m[j][i];
+    for (kd_star_name_next(&text, &list->names[0]); text; kd_star_name_next(&text, &list->names[list->n_stars])) {
+        const struct kd_catalogue_star star = kd_catalogue_star(list->names[list->n_stars].place);
+        if (star.magnitude > scene->sky.limit_mag)
+            break;
+        const struct kd_vec n = kd_rotate(&galactic, kd_sky_direction(star.ra, star.dec));
+        list->places[list->n_stars] = kd_rotate(&back, n);
+        if (++list->n_stars == KD_STAR_NAMES)
+            break;
+    }
+}
+
+/* Solid angle of a pixel, by the directions of its corners' neighbours. NAN at infinity, where parallel rays have none. */
+static double pixel_angle(const struct kd_camera_exact *camera, double x, double y)
+{
+    double a[3], b[3], c[3];
+    if (camera->sight == KD_SIGHT_PLANE)
+        return NAN;
+    kd_camera_direction(camera, x - 0.5, y - 0.5, a);
+    kd_camera_direction(camera, x + 0.5, y - 0.5, b);
+    kd_camera_direction(camera, x - 0.5, y + 0.5, c);
+    return fabs(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]));
+}
+
+/* The part of light from behind that the disk lets through there, at all crossings of the nearest ray. */
+static double through(const struct kd_picture *picture, size_t pixel)
+{
+    double depth = 0;
+    char name[KD_LAYER_NAME];
+    for (int order = 0; order < picture->scene->accuracy.orders; order++) {
+        kd_layer_name((struct kd_plan_layer) { KD_LAYER_optical_depth, (int16_t)order }, name);
+        const struct kd_layer *layer = kd_frame_layer(picture->frame, name);
+        double here = layer ? ((const float *)layer->data)[pixel] : NAN;
+        depth += here > 0 ? here : 0;
+    }
+    return exp(-depth);
+}
+
+static enum kd_status add(void *user, const struct kd_star_image *found)
+{
+    struct list *list = user;
+    const uint32_t width = list->picture->frame->width, height = list->picture->frame->height;
+    const uint32_t x = (uint32_t)fmin(found->x, width - 1), y = (uint32_t)fmin(found->y, height - 1);
+    struct kd_camera_label label;
+    if (list->n == list->room) {
+        size_t room = list->room ? 2 * list->room : 256;
+        struct image *images = realloc(list->images, room * sizeof *images);
+        if (!images)
+            return KD_ENOMEM;
+        list->images = images;
+        list->room = room;
+    }
+    kd_camera_label(&list->camera, x, y, &label);
+    struct image image = {
+        .at = *found, .magnification = pixel_angle(&list->camera, found->x - 0.5, found->y - 0.5) / found->solid_angle, .g = 1 / label.energy,
+        .through = through(list->picture, (size_t)y * width + x),
+    };
+    const double g2 = image.g * image.g;
+    image.light = kd_star_flux(kd_catalogue_star(list->names[found->star].place).magnitude) * g2 * g2 * image.through / found->solid_angle;
+    list->images[list->n++] = image;
+    return KD_OK;
+}
+
+static int brighter(const void *a, const void *b)
+{
+    double p = ((const struct image *)a)->light, q = ((const struct image *)b)->light;
+    return (p < q) - (p > q);
+}
+
+/* To four digits. */
+static void write_number(struct kd_json *json, const char *name, double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", value);
+    kd_json_number(json, name, strtod(text, NULL));
+}
+
+static void write_image(struct kd_json *json, const struct list *list, const struct image *image)
+{
+    const struct kd_star_name *name = &list->names[image->at.star];
+    const double g2 = image->g * image->g, magnitude = kd_catalogue_star(name->place).magnitude;
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", name->name);
+    kd_json_string(json, "designation", name->designation);
+    kd_json_number(json, "magnitude", magnitude);
+    kd_json_number(json, "x", round(100 * image->at.x) / 100);
+    kd_json_number(json, "y", round(100 * image->at.y) / 100);
+    write_number(json, "magnification", image->magnification);
+    write_number(json, "g", image->g);
+    write_number(json, "through", image->through);
+    write_number(json, "seen_magnitude", magnitude - 2.5 * log10(image->magnification * g2 * g2 * image->through));
+    kd_json_bool(json, "mirrored", image->at.mirrored);
+    kd_json_end(json);
+}
+
+static enum kd_status write_list(const struct list *list, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_number(&json, "width", list->picture->frame->width);
+    kd_json_number(&json, "height", list->picture->frame->height);
+    kd_json_number(&json, "found", (double)list->n);
+    kd_json_array(&json, "images");
+    for (size_t i = 0; i < list->n && i < MOST; i++)
+        write_image(&json, list, &list->images[i]);
+    kd_json_end(&json);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out,
+                             struct kd_error *error)
+{
+    const struct kd_frame *frame = picture->frame;
+    const struct kd_layer *theta = kd_frame_layer(frame, "sky_theta"), *phi = kd_frame_layer(frame, "sky_phi");
+    struct list *list = calloc(1, sizeof *list);
+    enum kd_status status = list ? KD_OK : KD_ENOMEM;
+    (void)effort, (void)memory;
+    if (!theta || !phi)
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the frame does not say where in the sky its rays end"));
+    KD_TRY(status);
+    list->picture = picture;
+    list->camera = kd_camera_exact(picture->scene);
+    name_stars(list);
+    const struct kd_sky_places map = { frame->width, frame->height, theta->data, phi->data, picture->scene->camera.azimuth_deg * (M_PI / 180) };
+    KD_TRY(kd_star_images(&map, list->places, list->n_stars, add, list));
+    if (list->n)
+        qsort(list->images, list->n, sizeof *list->images, brighter);
+    KD_TRY(write_list(list, out));
+done:
+    if (list)
+        free(list->images);
+    free(list);
+    return status == KD_ENOMEM ? kd_error_set(error, status, "out of memory for a list of stars") : status;
+}
+
+const struct kd_format kd_format_stars = {
+    .name = "stars", .media_type = "application/vnd.kerrd.stars+json", .magic = "", .carries = KD_CARRIES_LAYERS, .draws = draws, .encode = encode,
+};

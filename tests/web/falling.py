@@ -1,0 +1,104 @@
+"""A near camera: the fall through the horizon, looking around, names of stars: falling.py KERRD FOLDER (browser.py)."""
+import math
+
+from browser import AT_REST, SMOOTH, Browser, main, value
+import daemon
+
+SKY = SMOOTH + '&lang=en&disk.model=none&sky.model=catalogue&sky.milky_way=0&spacetime.spin=0&camera.fov_deg=90'
+
+
+class Falling(Browser):
+    def told(self, page, name):
+        return page.inner_text('#fall-' + name)
+
+    def camera_r(self, page):
+        return float(self.field(page, 'camera.r'))
+
+    def test_the_fall_and_its_clock(self):
+        """By the closed form of rain without spin: 2^(1/2)/3 r^(3/2) to the end, starlight from behind at 1/(1 + (2/r)^(1/2))."""
+        page = self.open(SMOOTH + '&lang=en&spacetime.spin=0&spacetime.mass_msun=1e6&look=0', viewport={'width': 500, 'height': 400})
+        page.click('#fall-in')
+        self.assertTrue(daemon.eventually(lambda: page.is_visible('#fall') and self.told(page, 'r') != '20 M', 60))
+        page.click('#fall-play')
+        self.assertEqual((page.inner_text('#fall-play'), self.told(page, 'where')), ('Go on', 'Falling freely'))
+        r = self.camera_r(page)
+        end, seconds = self.told(page, 'end').split(' = ')
+        self.assertAlmostEqual(value(end.split()[0]) / (math.sqrt(2) / 3 * r ** 1.5), 1, delta=0.006)
+        self.assertAlmostEqual(value(seconds.split()[0]) / (value(end.split()[0]) * 4.9254909), 1, delta=0.01) if seconds.endswith(' s') else self.assertIn('minutes', seconds)
+        self.assertAlmostEqual(value(self.told(page, 'horizon').split()[0]) / (math.sqrt(2) / 3 * (r ** 1.5 - 2 ** 1.5)), 1, delta=0.006)
+        self.assertAlmostEqual(value(self.told(page, 'behind').split()[1]), 1 / (1 + math.sqrt(2 / r)), delta=1e-3)
+        page.locator('#fall-at').fill('1000')
+        self.assertEqual((self.told(page, 'where'), self.told(page, 'horizon')), ('The singularity: the end', 'behind'))
+        self.assertTrue(daemon.eventually(lambda: self.told(page, 'disk') not in ('', '–')))
+        page.wait_for_selector(AT_REST, timeout=60000)
+        self.assertLess(self.camera_r(page), 0.1)
+        page.click('#fall-back')
+        self.assertFalse(page.is_visible('#fall'))
+        self.assertTrue(page.is_checked('[data-path="camera.r"] input[type=checkbox]'), 'it is far again')
+        self.assertEqual(page.input_value('[data-path="sky.model"] select'), 'none')
+
+    def test_the_disk_at_the_horizon(self):
+        """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it at an angle from straight ahead
+        with r sin = b (1 - v cos): 42.1 degrees at r = 2."""
+        page = self.open(SKY + '&camera.observer=infall&camera.r=2.001', viewport={'width': 400, 'height': 300}, reduced_motion='reduce')
+        page.click('#fall-in')
+        self.assertTrue(daemon.eventually(lambda: self.told(page, 'disk') not in ('', '–')))
+        self.assertEqual(page.inner_text('#fall-play'), 'Go on', 'who wants no motion has none')
+        self.assertAlmostEqual(value(self.told(page, 'disk').split('°')[0]), 2 * 42.1, delta=0.15)
+        page.focus('#fall-at')
+        page.keyboard.press('ArrowRight')
+        self.assertEqual(self.told(page, 'where'), 'Within the horizon')
+        self.expected = '422'  # nothing stays where it is there
+        self.open_groups(page)
+        page.select_option('[data-path="camera.observer"] select', 'static')
+        self.assertFalse(page.is_visible('#fall'), 'who changes the observer has the camera')
+
+    def test_a_near_camera_looks_around(self):
+        page = self.open(SKY + '&camera.r=8', viewport={'width': 640, 'height': 480})
+        camera = lambda: [float(self.field(page, 'camera.' + name)) for name in ('yaw_deg', 'pitch_deg', 'azimuth_deg', 'inclination_deg')]
+        self.assertEqual(page.get_attribute('#look', 'aria-pressed'), 'true')
+        self.drag(page, 100, 50)
+        yaw, pitch, azimuth, tilt = camera()
+        wide = page.evaluate('document.getElementById("stage").clientWidth')
+        self.assertAlmostEqual(yaw, -100 * 2 / wide * 180 / math.pi, delta=0.02)  # 90 degrees across: a tangent of 1 at the edge
+        self.assertAlmostEqual(pitch, 50 * 2 / wide * 180 / math.pi, delta=0.02)
+        self.assertEqual((azimuth, tilt), (0, 82))
+        page.keyboard.press('Shift+ArrowUp')
+        page.keyboard.press('ArrowLeft')
+        self.assertEqual([round(a - b, 2) for a, b in zip(camera(), (yaw, pitch, 0, 82))], [-2, 10, 0, 0])
+        page.keyboard.press('-')
+        self.assertEqual((float(self.field(page, 'camera.fov_deg')), self.camera_r(page)), (99, 8))
+        page.keyboard.press('0')
+        self.assertEqual(camera(), [0, 0, 0, 82])
+        page.keyboard.press('l')
+        self.assertEqual(page.get_attribute('#look', 'aria-pressed'), 'false')
+        page.keyboard.press('ArrowLeft')
+        self.assertEqual(camera(), [0, 0, -2, 82])
+        self.assertTrue(daemon.eventually(lambda: 'look=0' in page.evaluate('location.hash')))
+        page.click('#look')
+        self.assertTrue(daemon.eventually(lambda: 'look=' not in page.evaluate('location.hash')))
+        self.assertFalse(self.open('lang=en').is_visible('#look'), 'from far there is nothing to look around at')
+
+    def test_a_star_says_its_name(self):
+        """Where the server says that an image is, the picture has its brightest point; the pointer there is told its name."""
+        page = self.open(SKY + '&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial', viewport={'width': 640, 'height': 480})
+        with page.expect_response(lambda r: r.url.endswith('/v1/render')) as answer:
+            page.mouse.move(100, 100)
+        images = answer.value.json()['images']
+        wide, high = page.evaluate('[document.getElementById("stage").clientWidth, document.getElementById("stage").clientHeight]')
+        at = next(i for i in images if i['name'] and 20 < i['x'] < wide - 80 and 20 < i['y'] < high - 20)
+        box = page.locator('#stage').bounding_box()
+        page.mouse.move(box['x'] + at['x'] + 3, box['y'] + at['y'])
+        page.wait_for_selector('#star:not([hidden])')
+        self.assertIn(at['name'], page.inner_text('#star'))
+        self.assertIn(at['designation'], page.inner_text('#star'))
+        self.assertEqual(page.locator('#star-marks circle').count(), sum(i['designation'] == at['designation'] for i in images if i['through'] > 0.02))
+        asked = len([r for r in self.requests if r.url.endswith('/v1/render')])
+        page.hover('#reset')
+        self.assertTrue(daemon.eventually(lambda: page.is_hidden('#star')))
+        self.assertEqual(len([r for r in self.requests if r.url.endswith('/v1/render')]), asked, 'once is enough')
+        self.shot(page, 'stars')
+
+
+if __name__ == '__main__':
+    main()
