@@ -1,0 +1,252 @@
+#include "image/fits.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { VALUE = 10, PIECE = 67, ROOM = 20 }; /* where a value begins; most characters of a text between its quotes beside a "&"; a number's width */
+
+static enum kd_status put_card(struct kd_buffer *cards, const char *text)
+{
+    char card[KD_FITS_CARD + 1];
+    snprintf(card, sizeof card, "%-*.*s", KD_FITS_CARD, KD_FITS_CARD, text);
+    return kd_buffer_append(cards, card, KD_FITS_CARD);
+}
+
+/* A value that is written already. */
+static enum kd_status put_value(struct kd_buffer *cards, const char *key, const char *value, const char *comment)
+{
+    char card[2 * KD_FITS_CARD];
+    snprintf(card, sizeof card, "%-8.8s= %-*s%s%s", key, ROOM, value, comment ? " / " : "", comment ? comment : "");
+    return put_card(cards, card);
+}
+
+enum kd_status kd_fits_integer(struct kd_buffer *cards, const char *key, long long value, const char *comment)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%*lld", ROOM, value);
+    return put_value(cards, key, text, comment);
+}
+
+enum kd_status kd_fits_real(struct kd_buffer *cards, const char *key, double value, const char *comment)
+{
+    char number[40], text[48];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(number, sizeof number, "%.*G", digits, value);
+        if (strtod(number, NULL) == value)
+            break;
+    }
+    snprintf(text, sizeof text, "%*s%s", ROOM - (strpbrk(number, ".E") ? 0 : 1), number, strpbrk(number, ".E") ? "" : ".");
+    return put_value(cards, key, text, comment);
+}
+
+enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text)
+{
+    char card[2 * KD_FITS_CARD];
+    snprintf(card, sizeof card, "COMMENT %s", text);
+    return put_card(cards, card);
+}
+
+/* The length of the next piece of a text between quotes, which doubles those inside it; a pair is not parted. */
+static size_t piece_of(const char *text, size_t most, char *out)
+{
+    size_t used = 0, n = 0;
+    for (; text[n]; n++) {
+        size_t needs = text[n] == '\'' ? 2 : 1;
+        if (used + needs > most)
+            break;
+        memset(out + used, text[n] >= ' ' && text[n] <= '~' ? text[n] : '?', needs);
+        used += needs;
+    }
+    out[used] = 0;
+    return n;
+}
+
+enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char *value, const char *comment)
+{
+    char piece[KD_FITS_CARD], text[KD_FITS_CARD + 8];
+    size_t n = piece_of(value, PIECE + 1, piece);
+    if (!value[n]) { /* at least eight characters */
+        snprintf(text, sizeof text, "'%-8s'", piece);
+        return put_value(cards, key, text, comment);
+    }
+    for (bool first = true; *value; first = false) {
+        size_t taken = piece_of(value, PIECE, piece);
+        value += taken;
+        snprintf(text, sizeof text, "'%s%s'", piece, *value ? "&" : "");
+        char card[2 * KD_FITS_CARD];
+        snprintf(card, sizeof card, "%-8.8s%s%s", first ? key : "CONTINUE", first ? "= " : "  ", text);
+        enum kd_status status = put_card(cards, card);
+        if (status)
+            return status;
+    }
+    return KD_OK;
+}
+
+/* The ones' complement sum of big-endian words of 32 bits, a whole number of which there are. */
+static uint32_t sum_of(uint32_t sum, const uint8_t *data, size_t size)
+{
+    uint64_t all = sum;
+    for (size_t i = 0; i < size; i += 4)
+        all += (uint32_t)data[i] << 24 | (uint32_t)data[i + 1] << 16 | (uint32_t)data[i + 2] << 8 | data[i + 3];
+    while (all >> 32)
+        all = (all & 0xffffffffu) + (all >> 32);
+    return (uint32_t)all;
+}
+
+/* Sixteen letters and digits whose sum, where they stand, is the complement of another: appendix J.2 of the standard. */
+static void encode_sum(uint32_t sum, char out[17])
+{
+    uint32_t value = ~sum;
+    char letters[16];
+    for (int i = 0; i < 4; i++) {
+        int byte = (int)(value >> (24 - 8 * i) & 0xff), ch[4];
+        for (int j = 0; j < 4; j++)
+            ch[j] = byte / 4 + '0' + (j ? 0 : byte % 4);
+        for (bool again = true; again;) { /* no punctuation: pairs are moved apart */
+            again = false;
+            for (int j = 0; j < 4; j += 2)
+                for (int k = 0; k < 2; k++)
+                    if ((ch[j + k] >= ':' && ch[j + k] <= '@') || (ch[j + k] >= '[' && ch[j + k] <= '`')) {
+                        ch[j]++;
+                        ch[j + 1]--;
+                        again = true;
+                        break;
+                    }
+        }
+        for (int j = 0; j < 4; j++)
+            letters[4 * j + i] = (char)ch[j];
+    }
+    for (int i = 0; i < 16; i++)
+        out[i] = letters[(i + 15) % 16];
+    out[16] = 0;
+}
+
+static enum kd_status pad(struct kd_buffer *out, size_t from, char with)
+{
+    char block[KD_FITS_BLOCK];
+    memset(block, with, sizeof block);
+    size_t over = (out->size - from) % KD_FITS_BLOCK;
+    return over ? kd_buffer_append(out, block, KD_FITS_BLOCK - over) : KD_OK;
+}
+
+static void put_row(const struct kd_fits_array *array, uint32_t y, uint32_t channel, uint8_t *to)
+{
+    const float *from = array->data + (size_t)y * array->width * array->channels + channel;
+    for (uint32_t x = 0; x < array->width; x++, to += 4) {
+        uint32_t bits;
+        memcpy(&bits, from + (size_t)x * array->channels, 4);
+        to[0] = (uint8_t)(bits >> 24);
+        to[1] = (uint8_t)(bits >> 16);
+        to[2] = (uint8_t)(bits >> 8);
+        to[3] = (uint8_t)bits;
+    }
+}
+
+static enum kd_status put_data(struct kd_buffer *out, const struct kd_fits_array *array)
+{
+    size_t row = 4ull * array->width, from = out->size;
+    uint8_t *bytes = malloc(row);
+    enum kd_status status = bytes ? KD_OK : KD_ENOMEM;
+    for (uint32_t c = 0; c < array->channels; c++)
+        for (uint32_t y = array->height; y-- && !status;) {
+            put_row(array, y, c, bytes);
+            status = kd_buffer_append(out, bytes, row);
+        }
+    free(bytes);
+    return status ? status : pad(out, from, 0);
+}
+
+/* The cards that say what the data are. */
+static enum kd_status put_shape(struct kd_buffer *out, bool primary, const struct kd_fits_array *array)
+{
+    enum kd_status status;
+    if (primary)
+        KD_TRY(put_value(out, "SIMPLE", "                   T", "conforms to the FITS standard"));
+    else
+        KD_TRY(kd_fits_text(out, "XTENSION", "IMAGE", "image extension"));
+    KD_TRY(kd_fits_integer(out, "BITPIX", -32, "IEEE numbers of 32 bits"));
+    KD_TRY(kd_fits_integer(out, "NAXIS", array->channels > 1 ? 3 : 2, NULL));
+    KD_TRY(kd_fits_integer(out, "NAXIS1", array->width, "from the left"));
+    KD_TRY(kd_fits_integer(out, "NAXIS2", array->height, "from the lowest row"));
+    if (array->channels > 1)
+        KD_TRY(kd_fits_integer(out, "NAXIS3", array->channels, NULL));
+    if (primary) {
+        KD_TRY(put_value(out, "EXTEND", "                   T", NULL));
+    } else {
+        KD_TRY(kd_fits_integer(out, "PCOUNT", 0, NULL));
+        KD_TRY(kd_fits_integer(out, "GCOUNT", 1, NULL));
+    }
+done:
+    return status;
+}
+
+enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array, const struct kd_buffer *cards)
+{
+    struct kd_buffer data = { 0 };
+    const size_t from = out->size;
+    char text[32], letters[17];
+    enum kd_status status;
+    KD_TRY(put_data(&data, array));
+    KD_TRY(put_shape(out, primary, array));
+    KD_TRY(kd_buffer_append(out, cards->data, cards->size));
+    const uint32_t data_sum = sum_of(0, data.data, data.size);
+    snprintf(text, sizeof text, "%u", data_sum);
+    KD_TRY(kd_fits_text(out, "DATASUM", text, "of the data: ones' complement"));
+    const size_t checksum = out->size + VALUE + 1;
+    KD_TRY(kd_fits_text(out, "CHECKSUM", "0000000000000000", "of header and data"));
+    KD_TRY(put_card(out, "END"));
+    KD_TRY(pad(out, from, ' '));
+    encode_sum(sum_of(data_sum, out->data + from, out->size - from), letters);
+    memcpy(out->data + checksum, letters, 16);
+    KD_TRY(kd_buffer_append(out, data.data, data.size));
+done:
+    kd_buffer_finish(&data);
+    return status;
+}
+
+/* Appends what stands between the quotes of a card; whether a piece follows. */
+static enum kd_status unquote(const char *card, struct kd_buffer *out, bool *more)
+{
+    const char *at = card + VALUE, *end = card + KD_FITS_CARD;
+    size_t from = out->size;
+    *more = false;
+    if (*at++ != '\'')
+        return KD_EINVAL;
+    for (; at < end; at++) {
+        if (*at == '\'' && (at + 1 == end || at[1] != '\''))
+            break;
+        at += *at == '\'';
+        enum kd_status status = kd_buffer_append(out, at, 1);
+        if (status)
+            return status;
+    }
+    if (at == end)
+        return KD_EINVAL;
+    *more = out->size > from && out->data[out->size - 1] == '&';
+    if (*more)
+        out->size--;
+    return KD_OK;
+}
+
+enum kd_status kd_fits_find(const void *data, size_t size, const char *key, struct kd_buffer *out)
+{
+    char wanted[12];
+    snprintf(wanted, sizeof wanted, "%-8.8s= ", key);
+    for (size_t at = 0; at + KD_FITS_CARD <= size; at += KD_FITS_CARD) {
+        const char *card = (const char *)data + at;
+        bool more = true;
+        if (!strncmp(card, "END     ", 8))
+            break;
+        if (strncmp(card, wanted, VALUE))
+            continue;
+        enum kd_status status = unquote(card, out, &more);
+        while (!status && more && (at += KD_FITS_CARD) + KD_FITS_CARD <= size) {
+            card = (const char *)data + at;
+            status = strncmp(card, "CONTINUE  ", VALUE) ? KD_EINVAL : unquote(card, out, &more);
+        }
+        return status ? status : more ? KD_EINVAL : KD_OK;
+    }
+    return KD_EINVAL;
+}
