@@ -202,7 +202,7 @@ export const fields = {
   ],
   'image.samples': ['Campioni', 'Raggi per lato di un pixel: n dà n × n raggi, mediati; auto: uno, e 16 dove l’immagine mostra che uno non basta'],
   'image.pixel_error': ['Errore per pixel', 'Di quanto, rispetto al bianco, un pixel di un solo raggio può sembrare errato prima di averne altri (con campioni: auto)'],
-  'image.layers': ['Contenuto', 'Che cosa contiene il file: l’immagine, o mappe dei raggi (docs/layers.md); del primo attraversamento sul disco, o con _N in coda dell’ordine N; un PNG ne mostra una in falsi colori, NPY ne contiene più d’una come numeri'],
+  'image.layers': ['Contenuto', 'Che cosa contiene il file: l’immagine, o mappe dei raggi (docs/layers.md); del primo attraversamento sul disco, o con _N in coda dell’ordine N; un PNG ne mostra una in falsi colori, FITS, EXR, NPZ e NPY ne contengono più d’una come numeri'],
   'image.layer_min': ['Minimo della scala', 'Numero all’estremo inferiore dei colori di una mappa; automatico: come dice docs/layers.md di ciascuna'],
   'image.layer_max': ['Massimo della scala', 'Lo stesso all’estremo superiore'],
   'image.legend': ['Legenda', 'Una scala dei colori nell’angolo in basso a sinistra di una mappa in falsi colori'],
@@ -535,7 +535,7 @@ export const sentences = {
     'resa: l’alone di un obiettivo; parte della luce viva è sparsa attorno al suo posto, la sua somma si conserva, e ciò che uscirebbe dall’immagine resta al bordo',
   'layers: maps of places and angles are those of one ray a pixel, and no means over it':
     'mappe: quelle di luoghi e angoli sono di un solo raggio per pixel, non medie su di esso',
-  'layers: a picture of a map has false colours; NPY has its numbers': 'mappe: l’immagine di una mappa è in falsi colori; NPY ne contiene i numeri',
+  'layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers': 'mappe: l’immagine di una mappa è in falsi colori; FITS, EXR, NPZ e NPY ne contengono i numeri',
   'post: a film-like tone curve; pixel values are not proportional to radiance':
     'resa: una curva dei toni da pellicola; i valori dei pixel non sono proporzionali alla radianza',
   "post: a Gaussian beam stands for a telescope: no gaps between stations, no noise, no reconstruction; nothing comes from beyond the picture's edge":

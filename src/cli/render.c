@@ -27,12 +27,12 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* "PNG", "PNG or FITS" */
+/* "PNG or NPY", "PNG, NPY or FITS" */
 static void name_formats(char *out, size_t size)
 {
     *out = 0;
     for (size_t i = 0, n = 0; i < kd_n_formats && n < size; i++) {
-        n += (size_t)snprintf(out + n, size - n, "%s", i ? " or " : "");
+        n += (size_t)snprintf(out + n, size - n, "%s", !i ? "" : i + 1 < kd_n_formats ? ", " : " or ");
         for (const char *p = kd_formats[i]->name; *p && n + 1 < size; p++)
             out[n++] = (char)toupper((unsigned char)*p);
         out[n < size ? n : size - 1] = 0;
@@ -43,7 +43,7 @@ static void name_formats(char *out, size_t size)
  * refused. */
 static const struct kd_format *format_of(const char *path, const struct argp_state *state)
 {
-    static const char *const others[] = { ".jpg", ".jpeg", ".gif", ".webp", ".tif", ".tiff", ".bmp", ".exr", ".hdr", ".fits", ".pdf", ".svg" };
+    static const char *const others[] = { ".jpg", ".jpeg", ".gif", ".webp", ".tif", ".tiff", ".bmp", ".hdr", ".pdf", ".svg" };
     const struct kd_format *format = kd_format_of_path(path);
     const char *dot = strrchr(path, '.');
     char known[80];

@@ -166,7 +166,7 @@
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16")                                   \
     WORDS(image, layers, LOOK, REST,                                                                                 \
           "what the file holds: the picture, or maps of the rays (docs/layers.md); of the first crossing on the disk, or behind _N of " \
-          "image order N; a PNG shows one in false colour, NPY holds several as numbers",                            \
+          "image order N; a PNG shows one in false colour, FITS, EXR, NPZ and NPY hold several as numbers",         \
           "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|footprint_N|sky_footprint|optical_depth_N")       \
     WORD(image, layer_min, LOOK, REST, INFINITY, -1e12, 1e12, "1",                                                   \
          "number at the lower end of the colours of a layer; auto: what docs/layers.md says of each", "auto")        \

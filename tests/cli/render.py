@@ -128,8 +128,8 @@ class Pictures(Case):
         self.bad(2, "image.layers holds 2, allowed in a file of the format png is one", "render", *SMALL, "--set", "image.layers=g,r", "-o", self.path("c.png"))
 
     def test_no_picture_under_a_false_name(self):
-        self.bad(2, "allowed is a PNG or NPY file", "render", *SMALL, "-o", self.path("a.JPG"))
-        self.bad(2, "allowed is a PNG or NPY file", "render", *SMALL, "-o", self.path("a.exr"))
+        self.bad(2, "allowed is a PNG, NPY, NPZ, FITS, EXR or STARS file", "render", *SMALL, "-o", self.path("a.JPG"))
+        self.bad(2, "allowed is a PNG, NPY, NPZ, FITS, EXR or STARS file", "render", *SMALL, "-o", self.path("a.hdr"))
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_damaged_pictures(self):

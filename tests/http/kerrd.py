@@ -428,25 +428,28 @@ class Kerrd(unittest.TestCase):
             refused = self.daemon.post('/v1/render', scene, Accept=ask)
             self.assertEqual((refused.status, refused.json()['pointer']), (422, at))
 
-    def test_a_job_of_layers_makes_the_arrays_that_a_render_makes(self):
+    def test_a_job_of_layers_makes_the_files_that_a_render_makes(self):
         scene = {'image': {'width': 40, 'height': 24, 'layers': ['rgb', 'g', 'r_1']}}
         refused = self.daemon.post('/v1/jobs', {'scene': scene})
         self.assertEqual((refused.status, refused.json()['pointer']), (422, '/scene/image/layers'))
-        job = self.daemon.post('/v1/jobs', {'scene': scene, 'keyframes': [{'frame': 2, 'scene': {'camera': {'inclination_deg': 60}}}], 'output': 'layers'}).json()
-        at = '/v1/jobs/' + job['id']
-        while (status := self.daemon.get(at).json())['state'] in ('waiting', 'running'):
-            time.sleep(0.02)
-        self.assertEqual((status['state'], status['output']), ('done', 'layers'), status)
-        with zipfile.ZipFile(io.BytesIO(self.daemon.get(at + '/result').body)) as files:
-            self.assertEqual(files.namelist(), ['000000.npy', '000001.npy', '000002.npy'])
-            last = files.read('000002.npy')
-        one = self.daemon.get(at + '/result?format=npy&frame=2')
-        self.assertEqual((one.header('Content-Type'), one.body == last), ('application/x-npy', True))
-        scene['camera'] = {'inclination_deg': 60}
-        self.assertEqual(self.daemon.post('/v1/render', scene, Accept='application/x-npy').body, last)
-        self.assertEqual(len(self.daemon.get(at + '/result?format=stream').body), 3 * (16 + len(last)))
-        for rest in ('/preview.png', '/result?format=png', '/result?format=csv'):
-            self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
+        for output, end, kind in (('layers', 'npy', 'application/x-npy'), ('fits', 'fits', 'application/fits'), ('exr', 'exr', 'image/x-exr'),
+                                  ('npz', 'npz', 'application/x-npz')):
+            with self.subTest(output):
+                keyframes = [{'frame': 2, 'scene': {'camera': {'inclination_deg': 60}}}]
+                job = self.daemon.post('/v1/jobs', {'scene': scene, 'keyframes': keyframes, 'output': output}).json()
+                at = '/v1/jobs/' + job['id']
+                while (status := self.daemon.get(at).json())['state'] in ('waiting', 'running'):
+                    time.sleep(0.02)
+                self.assertEqual((status['state'], status['output']), ('done', output), status)
+                with zipfile.ZipFile(io.BytesIO(self.daemon.get(at + '/result').body)) as files:
+                    self.assertEqual(files.namelist(), [f'00000{i}.{end}' for i in range(3)])
+                    last = files.read('000002.' + end)
+                one = self.daemon.get(at + f'/result?format={end}&frame=2')
+                self.assertEqual((one.header('Content-Type'), one.body == last), (kind, True))
+                self.assertEqual(self.daemon.post('/v1/render', {**scene, 'camera': {'inclination_deg': 60}}, Accept=kind).body, last)
+                self.assertEqual(len(self.daemon.get(at + '/result?format=stream').body) > 3 * 16 + len(last), True)
+                for rest in ('/preview.png', '/result?format=png', '/result?format=csv'):
+                    self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_vanished_client_stops_its_render(self):
         scene = {'image': {'width': 4000, 'height': 4000, 'samples': 2}, 'accuracy': {'profile': 'high'}}

@@ -14,7 +14,7 @@ import daemon
 CONFIG = """post_hooks: []
 content_type_overrides:
 """ + ''.join(f'  {kind}: application/octet-stream\n' for kind in (
-    'image/png', 'audio/wav', 'application/x-npy', 'application/zip', 'application/x-kerrd-frames', 'multipart/x-mixed-replace',
+    'image/png', 'audio/wav', 'application/x-npy', 'application/x-npz', 'application/fits', 'image/x-exr', 'application/zip', 'application/x-kerrd-frames', 'multipart/x-mixed-replace',
     '"*/*"')) + ''.join(f'  {kind}: text/html\n' for kind in ('text/event-stream', 'application/x-ndjson'))
 
 

@@ -43,7 +43,7 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
 {
     if (scene->image.layers.count <= 1 || format->carries & KD_CARRIES_LAYERS)
         return KD_OK;
-    return kd_error_field(error, "/image/layers", "image.layers holds %d, allowed in a file of the format %s is one; npy holds all", scene->image.layers.count,
+    return kd_error_field(error, "/image/layers", "image.layers holds %d, allowed in a file of the format %s is one; fits, exr, npz and npy hold all", scene->image.layers.count,
                           format->name);
 }
 
@@ -51,7 +51,7 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
                               struct kd_plan *out, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    if (!(format->carries & KD_CARRIES_PICTURE) && isinf(scene->style.exposure))
+    if (!(format->carries & KD_CARRIES_PICTURE) && !format->scene && isinf(scene->style.exposure))
         scene->style.exposure = 0;
     if (!(format->carries & shows))
         scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };

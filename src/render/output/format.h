@@ -44,7 +44,7 @@ struct kd_format {
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
 
-#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(npy) FORMAT(stars)
+#define KD_FORMATS(FORMAT) FORMAT(png) FORMAT(npy) FORMAT(npz) FORMAT(fits) FORMAT(exr) FORMAT(stars)
 #define KD_FORMAT_DECLARE(name) extern const struct kd_format kd_format_##name;
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
@@ -58,8 +58,9 @@ const struct kd_format *kd_format_of_path(const char *path);                    
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size);       /* by its beginning; NULL: none */
 const struct kd_format *kd_format_live(void);                                    /* what live views are made of */
 
-/* The plan of a frame that carries what the format needs. What would show in none of it, auto exposure and layers, is taken from the
- * scene. Errors as kd_plan_make and the format's `draws`, and KD_EINVAL at /image/layers for more of them than the format holds. */
+/* The plan of a frame that carries what the format needs. What would show in none of it, and is in no scene that the file carries,
+ * auto exposure and layers, is taken from the scene. Errors as kd_plan_make and the format's `draws`, and KD_EINVAL at /image/layers for
+ * more of them than the format holds. */
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene, const struct kd_capacity *capacity,
                               struct kd_plan *out, struct kd_error *error);
 

@@ -44,3 +44,13 @@ void kd_notes_finish(struct kd_notes *notes)
     kd_buffer_finish(&notes->scene);
     kd_buffer_finish(&notes->approximations);
 }
+
+enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error)
+{
+    struct kd_scene scene; /* *out stays as it was when the document is refused */
+    kd_scene_smooth(&scene); /* the document is whole: what it lacks was not there when it was written */
+    enum kd_status status = kd_scene_from_json(&scene, text, length, error);
+    if (!status)
+        *out = scene;
+    return status;
+}

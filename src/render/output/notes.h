@@ -21,4 +21,7 @@ struct kd_notes {
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 
+/* The scene of a file's notes, *out as it was on error. */
+enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error);
+
 #endif

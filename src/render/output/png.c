@@ -71,11 +71,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
         return status;
     const char *text = kd_png_text_find(&picture, "kerrd:scene");
     if (text) {
-        struct kd_scene scene; /* *out stays as it was when the document is refused */
-        kd_scene_smooth(&scene); /* the document is whole: what it lacks was not there when it was written */
-        status = kd_scene_from_json(&scene, text, strlen(text), error);
-        if (!status)
-            *out = scene;
+        status = kd_notes_scene(text, strlen(text), out, error);
     } else {
         status = kd_error_set(error, KD_EINVAL,
                               "the picture holds no scene: it was not made by kerrd, or its text "

@@ -24,15 +24,15 @@ WHEN(crossings, kd_emit_at_crossings(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(adapted, plan->adaptive)
 WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
-WHEN(film, scene->style.tone_map == KD_TONE_ACES && !kd_plan_is_map(plan))
-WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !kd_plan_is_map(plan))
-WHEN(bloom, plan->bloom.levels && !kd_plan_is_map(plan))
+WHEN(film, scene->style.tone_map == KD_TONE_ACES && !plan->numbers && !kd_plan_is_map(plan))
+WHEN(neutral, scene->style.tone_map == KD_TONE_NEUTRAL && !plan->numbers && !kd_plan_is_map(plan))
+WHEN(bloom, plan->bloom.levels && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(beam, plan->beam.cell)
 WHEN(near_beam, plan->beam.cell && isfinite(scene->camera.r))
-WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !kd_plan_is_map(plan))
+WHEN(heat, scene->style.palette == KD_PALETTE_HEAT && !plan->numbers && !kd_plan_is_map(plan))
 WHEN(maps, plan->n_layers > 0)
 WHEN(cut, plan->points && plan->bands > 1 && !plan->cacheable)
-WHEN(coloured, kd_plan_is_map(plan))
+WHEN(coloured, kd_plan_is_map(plan) && !plan->numbers)
 WHEN(projected, plan->ring)
 WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
 WHEN(single, plan->setting.precision == KD_PRECISION_F32)
@@ -57,7 +57,7 @@ static const struct sentence {
     { "post: false colours; brightness is of the model's band and no brightness temperature at a radio frequency", heat },
     { "sky: images of stars are cut at the edges of the bands that a picture of this size is made in", cut },
     { "layers: maps of places and angles are those of one ray a pixel, and no means over it", maps },
-    { "layers: a picture of a map has false colours; NPY has its numbers", coloured },
+    { "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
     { "projection: angles as distances, over half the sky or all of it; areas are not to scale", rounded },
     { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
@@ -383,6 +383,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         plan.bloom = kd_bloom_of(plan.width, plan.height, scene->style.bloom);
     plan.light = needs->light;
     plan.unseen = needs->unseen;
+    plan.numbers = needs->radiance;
     plan.ring = scene->camera.projection == KD_PROJECTION_RING;
     kd_emit_traits(scene, plan.traits);
     plan.apart = kd_emit_apart(scene);

@@ -67,6 +67,7 @@ struct kd_plan {
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
     bool unseen;                    /* no pixels are made of the radiance */
+    bool numbers;                   /* the frame is for a file of numbers: what is done to a picture behind its light does not count there */
     bool ring;                      /* rays are listed, round the critical curve */
     bool ingoing;                   /* the observer falls, in coordinates that know no outer horizon */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* maps of numbers beside the picture */

@@ -1,0 +1,39 @@
+#include "render/output/wcs.h"
+
+#include "physics/scale.h"
+#include "render/view/camera.h"
+
+#include <math.h>
+
+#define DEGREE (M_PI / 180)
+#define MICROARCSECOND (1 / 3.6e9) /* degrees */
+
+static struct kd_wcs plane(const struct kd_scene *scene)
+{
+    const struct kd_camera *c = &scene->camera;
+    double step = kd_camera_pixel(scene), angle = step * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc) * MICROARCSECOND;
+    double x = 0.5 * (scene->image.width + 1) - c->centre_alpha / step, y = 0.5 * (scene->image.height + 1) - c->centre_beta / step;
+    return (struct kd_wcs) {
+        .known = true, .far = true,
+        .at = { { "RA---SIN", "deg", x, 0, -angle }, { "DEC--SIN", "deg", y, 0, angle } },
+        .impact = { { "ALPHA", "", x, 0, step }, { "BETA", "", y, 0, step } },
+    };
+}
+
+struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
+{
+    static const char *const types[][2] = { [KD_SIGHT_PINHOLE] = { "CLON-TAN", "CLAT-TAN" }, [KD_SIGHT_SPHERE] = { "CLON-CAR", "CLAT-CAR" },
+                                            [KD_SIGHT_DOME] = { "CLON-ARC", "CLAT-ARC" } };
+    const double width = scene->image.width, height = scene->image.height;
+    const uint32_t sight = kd_camera_sight(scene);
+    if (scene->camera.projection == KD_PROJECTION_RING)
+        return (struct kd_wcs) { 0 };
+    if (sight == KD_SIGHT_PLANE)
+        return plane(scene);
+    double step = sight == KD_SIGHT_SPHERE ? 360 / width : sight == KD_SIGHT_DOME ? 180 / fmin(width, height) : kd_camera_pixel(scene) / DEGREE;
+    return (struct kd_wcs) {
+        .known = true,
+        .at = { { types[sight][0], "deg", 0.5 * (width + 1), 0, step },
+                { types[sight][1], "deg", 0.5 * (height + 1), 0, sight == KD_SIGHT_SPHERE ? 180 / height : step } },
+    };
+}

@@ -1,0 +1,133 @@
+"""Files of numbers: the same to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read them; units, world coordinates, the scene inside."""
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import warnings
+
+import support
+
+try:
+    import numpy
+    import OpenEXR
+    from astropy.io import fits
+    from astropy.wcs import WCS
+except ImportError as missing:
+    print(f"left out: {missing}; scripts/setup --browser installs it")
+    sys.exit(77)
+
+LAYERS = ["r", "rgb", "g_1", "intensity", "sky_theta"]
+SCENE = [*support.SMALL, "--set", "sky.model=grid", "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
+M_UAS = 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16) * math.degrees(1) * 3.6e9  # G m_sun/c^2 = 1476.625 m
+
+
+def bits(array):
+    return numpy.ascontiguousarray(array, numpy.float32).view(numpy.uint32)
+
+
+class Files(support.Case):
+    @classmethod
+    def setUpClass(cls):
+        """One scene in each format: a.npy, a.npz, a.fits, a.exr."""
+        super().setUpClass()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.files = {end: os.path.join(folder.name, "a." + end) for end in ("npy", "npz", "fits", "exr")}
+        for path in cls.files.values():
+            subprocess.run([support.KERRD, "render", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), "-o", path], check=True, timeout=120)
+
+    def shot(self, name, *more, layers=LAYERS):
+        self.good("render", *SCENE, "--set", "image.layers=" + ",".join(layers), *more, "-o", self.path(name))
+        return self.path(name)
+
+    def opened(self, path):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            units = fits.open(path, checksum=True)
+            units.verify("exception")
+        self.addCleanup(units.close)
+        return units
+
+    def test_the_same_numbers(self):
+        whole = numpy.load(self.files["npy"])
+        apart = numpy.load(self.files["npz"])
+        units = self.opened(self.files["fits"])
+        channels = OpenEXR.File(self.files["exr"], separate_channels=True).channels()
+        self.assertEqual([unit.header["EXTNAME"] for unit in units], LAYERS)
+        self.assertEqual(set(apart), {*LAYERS, "notes.json"})
+        self.assertEqual(set(channels), {*LAYERS, "R", "G", "B"} - {"rgb"})
+        for name, unit in zip(LAYERS, units):
+            rows = unit.data[..., ::-1, :]  # the lowest row comes first
+            other = numpy.dstack([channels[c].pixels for c in "RGB"]) if name == "rgb" else channels[name].pixels
+            for found in (apart[name], numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows, other):
+                self.assertTrue(numpy.array_equal(bits(found), bits(whole[name])), name)
+        self.assertTrue(numpy.isnan(whole["r"]).any() and numpy.nanmin(whole["r"]) > 1 and whole["intensity"].max() > 0)
+        self.assertFalse(numpy.array_equal(bits(whole["intensity"]), bits(whole["intensity"][::-1])))  # up is not down
+
+    def test_a_file_makes_itself_again(self):
+        for end in ("fits", "exr", "npz"):
+            self.good("render", "--from", self.files[end], "-o", self.path("b." + end))
+            self.write("a." + end, pathlib.Path(self.files[end]).read_bytes())
+            self.assertEqual(self.read("a." + end), self.read("b." + end), end)
+        self.good("render", *SCENE, "-o", self.path("c.png"))
+        self.good("render", "--from", self.files["fits"], "--set", "image.layers=rgb", "-o", self.path("b.png"))
+        self.assertEqual(self.read("b.png"), self.read("c.png"))
+        for end, head, words in (("fits", 2880, "no whole card KDSCENE"), ("exr", 400, "EXR: "), ("npz", 900, "no notes.json")):
+            self.write("cut." + end, self.read("a." + end)[:head])
+            self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
+
+    def test_what_a_file_tells(self):
+        header = self.opened(self.files["fits"])[0].header
+        notes = json.loads(numpy.load(self.files["npz"])["notes.json"])
+        texts = OpenEXR.File(self.files["exr"]).header()
+        sentences = [header[f"KDAPPR{i + 1}"] for i in range(len(header["KDAPPR*"]))]
+        self.assertEqual(notes["approximations"], sentences)
+        self.assertEqual(texts["kerrd:approximations"].split("\n"), sentences)
+        self.assertTrue(any("'" in s for s in sentences) and any(len(s) > 140 for s in sentences))
+        self.assertFalse(any("tone curve" in s or "glare" in s for s in sentences))
+        self.assertEqual(json.loads(header["KDSCENE"]), notes["scene"])
+        self.assertEqual(json.loads(texts["kerrd:scene"]), notes["scene"])
+        self.assertEqual(len({header["KDHASH"], notes["hash"], texts["kerrd:hash"]}), 1)
+        self.assertEqual((header["BUNIT"], header["SPIN"], header["CAM_R"], notes["units"]["sky_theta"]), ("M", 0.7, "infinity", "rad"))
+        self.assertAlmostEqual(header["M_UAS"] / M_UAS, 1, delta=1e-6)
+        self.assertIn("sampled=", header["KDACCUR"])
+
+    def test_world_coordinates(self):
+        """By hand: half a width of pixels from the middle, east to the left, north up."""
+        header = self.opened(self.shot("a.fits", "--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", layers=["r"]))[0].header
+        alpha, beta = WCS(header, key="A").pixel_to_world_values(0, 35)  # the upper left pixel
+        self.assertAlmostEqual(float(alpha), 4 - 16 + 0.25, places=9)
+        self.assertAlmostEqual(float(beta), 9 - 0.25, places=9)
+        east, north = WCS(header).pixel_to_world_values(0, 35)
+        self.assertAlmostEqual(float(east) * 3.6e9 / (11.75 * M_UAS), 1, delta=1e-6)
+        self.assertAlmostEqual(float(north) * 3.6e9 / (8.75 * M_UAS), 1, delta=1e-6)
+        near = ["--set", "camera.r=20", "--set", "camera.fov_deg=90", "--set", "accuracy.orders=2"]
+        header = self.opened(self.shot("b.fits", *near, layers=["r"]))[0].header
+        right, up = WCS(header).pixel_to_world_values(63, 17.5)
+        self.assertAlmostEqual(float(right), math.degrees(math.atan(63 / 64)), places=6)
+        self.assertAlmostEqual(float(up), 0, places=9)
+        header = self.opened(self.shot("c.fits", *near, "--set", "camera.projection=equirectangular", layers=["r"]))[0].header
+        right, up = WCS(header).pixel_to_world_values(47.5, 26.5)
+        self.assertAlmostEqual(float(right), 90, places=6)
+        self.assertAlmostEqual(float(up), 45, places=6)
+        header = self.opened(self.shot("d.fits", *near, "--set", "camera.projection=fulldome", layers=["r"]))[0].header
+        right, up = WCS(header).pixel_to_world_values(31.5, 17.5 + 9)
+        self.assertAlmostEqual(float(up), 45, places=6)
+
+    def test_the_standard(self):
+        """By the standard's own tool; and the sum of the pixels by astropy is that by numpy."""
+        path = self.files["fits"]
+        light = numpy.load(self.files["npy"])["intensity"].astype(float).sum()
+        self.assertAlmostEqual(self.opened(path)["intensity"].data.astype(float).sum() / light, 1, delta=1e-9)
+        if not shutil.which("fitsverify"):
+            self.skipTest("fitsverify is missing")
+        done = subprocess.run(["fitsverify", path], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
+
+
+support.main(needs_device=True)
