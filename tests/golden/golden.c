@@ -37,6 +37,7 @@ static const struct shot {
     { "gas-stars", "gas-stars", "{\"time\":1000," SIZE "}" },
     { "falling", "falling", "{" SIZE "}" },
     { "inside", "falling", "{\"camera\":{\"r\":1,\"projection\":\"equirectangular\"}," SIZE "}" },
+    { "infall", "infall", "{" SIZE "}" },
     { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
@@ -78,6 +79,31 @@ static const struct shot {
       "\"style\":{\"tone_map\":\"srgb\"}}" },
 };
 #define SHOTS (sizeof shots / sizeof *shots)
+
+/* Each sky as each observer sees it: aberrated, shifted, and in coordinates of its own where the observer falls. */
+#define SKY(name, model, fields) { name, "{\"model\":\"" model "\"," fields "}" }
+static const struct { const char *name, *json; } skies[] = {
+    SKY("grid", "grid", "\"brightness\":0.25"),
+    SKY("stars", "stars", "\"brightness\":0.06,\"seed\":3"),
+    SKY("catalogue", "catalogue", "\"brightness\":0.06,\"orientation\":\"sgra\""),
+    SKY("image", "image", "\"brightness\":0.35,\"orientation\":\"sgra\",\"image\":\"" STUDIO_SKY "\""),
+    SKY("image-stars", "catalogue", "\"brightness\":0.2,\"milky_way\":0.7,\"limit_mag\":5,\"orientation\":\"equatorial\",\"image\":\"" STUDIO_SKY "\""),
+};
+#define OBSERVER(word, fields) { word, "\"observer\":\"" word "\"" fields }
+static const struct { const char *name, *json; } observers[] = {
+    OBSERVER("static", ""), OBSERVER("zamo", ""), OBSERVER("keplerian", ""), OBSERVER("infall", ""),
+    OBSERVER("velocity", ",\"velocity_r\":-0.3,\"velocity_theta\":0.2,\"velocity_phi\":0.4"),
+};
+enum { SKIES = sizeof skies / sizeof *skies, OBSERVERS = sizeof observers / sizeof *observers };
+
+static void sky_shot(size_t i, char name[64], char json[640], struct shot *out)
+{
+    snprintf(name, 64, "sky-%s-%s", skies[i / OBSERVERS].name, observers[i % OBSERVERS].name);
+    snprintf(json, 640,
+             "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":7,\"inclination_deg\":90,\"fov_deg\":120,\"pitch_deg\":10,%s},\"disk\":{\"model\":\"none\"},"
+             "\"sky\":%s,\"style\":{\"exposure\":1},\"image\":{\"width\":144,\"height\":81,\"samples\":2}}", observers[i % OBSERVERS].json, skies[i / OBSERVERS].json);
+    *out = (struct shot) { name, NULL, json };
+}
 
 /* The last bits of sqrt, log2 and sin differ between devices: some 1e-6 of a crossing radius. With the rays'
  * places off by 1e-5 the grid, all sharp lines, is at 50 dB and every other picture above 57; with a
@@ -207,10 +233,15 @@ int main(int argc, char **argv)
     int code = studio_open();
     if (code)
         return code;
-    for (size_t i = 0; i < SHOTS; i++) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s/%s.png", argv[1 + updating], shots[i].name);
-        if (!(updating ? update : compare)(&shots[i], path))
+    for (size_t i = 0; i < SHOTS + SKIES * OBSERVERS; i++) {
+        char path[1024], name[64], json[640];
+        struct shot shot;
+        if (i < SHOTS)
+            shot = shots[i];
+        else
+            sky_shot(i - SHOTS, name, json, &shot);
+        snprintf(path, sizeof path, "%s/%s.png", argv[1 + updating], shot.name);
+        if (!(updating ? update : compare)(&shot, path))
             code = 1;
     }
     /* a preset that no picture shows */

@@ -1,5 +1,6 @@
 #include "studio.h"
 
+#include "image/png.h"
 #include "vk/instance.h"
 #include "vk/vk.h"
 
@@ -10,12 +11,46 @@
 #include <string.h>
 
 static struct kd_renderer *renderer;
+static struct kd_buffer sky;
 
 static _Noreturn void stop(const char *what, const struct kd_error *error)
 {
     fprintf(stderr, "%s: %s %s\n", what, error->pointer, error->message);
     exit(1);
 }
+
+enum { ROWS = 256 };
+
+static void sky_pixel(double l, double b, uint8_t rgb[3])
+{
+    static const struct { double l, b; uint8_t rgb[3]; } discs[] = {
+        { 0, 0, { 255, 150, 30 } }, { 90, 0, { 230, 20, 20 } }, { 180, 0, { 20, 200, 40 } }, { 270, 0, { 30, 60, 255 } }, { 0, 90, { 255, 255, 255 } },
+    };
+    const double degree = M_PI / 180;
+    const bool line = fabs(remainder(l, 30)) * cos(b * degree) < 0.7 || fabs(remainder(b, 30)) < 0.7;
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (uint8_t)(line ? 150 : 60 + 40 * cos((l - 120 * c) * degree));
+    for (size_t i = 0; i < sizeof discs / sizeof *discs; i++)
+        if (sin(b * degree) * sin(discs[i].b * degree) + cos(b * degree) * cos(discs[i].b * degree) * cos((l - discs[i].l) * degree) > cos(12 * degree))
+            memcpy(rgb, discs[i].rgb, 3);
+}
+
+static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
+{
+    static uint8_t pixels[3 * 2 * ROWS * ROWS];
+    struct kd_error error;
+    (void)user;
+    if (strcmp(hash, STUDIO_SKY))
+        return false;
+    for (size_t i = 0; i < (size_t)2 * ROWS * ROWS && !sky.size; i++)
+        sky_pixel(180 - 180 * ((double)(i % (2 * ROWS)) + 0.5) / ROWS, 90 - 180 * ((double)(i / (2 * ROWS)) + 0.5) / ROWS, &pixels[3 * i]);
+    if (!sky.size && kd_png_encode(&(struct kd_png_params) { .width = 2 * ROWS, .height = ROWS, .bit_depth = 8, .pixels = pixels }, &sky, &error))
+        stop("the sky", &error);
+    *out = (struct kd_asset_bytes) { sky.data, sky.size, NULL };
+    return true;
+}
+static void give_back(void *user, struct kd_asset_bytes *bytes) { (void)user, (void)bytes; }
+static const struct kd_assets assets = { NULL, take, give_back, "STUDIO_SKY", NULL };
 
 int studio_open(void)
 {
@@ -30,7 +65,7 @@ int studio_open(void)
     }
     free(infos);
     const char *device = getenv("KERRD_TEST_DEVICE");
-    const struct kd_renderer_params params = { .device = device ? device : "auto", .cache_dir = "" };
+    const struct kd_renderer_params params = { .device = device ? device : "auto", .cache_dir = "", .assets = &assets };
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);
@@ -41,6 +76,7 @@ void studio_close(void)
 {
     kd_renderer_destroy(renderer);
     renderer = NULL;
+    kd_buffer_finish(&sky);
 }
 
 bool studio_has_float64(const char *what)

