@@ -62,12 +62,11 @@ bool goes_on(kd_leg leg, bool falls, float limit)
 }
 
 /* Whether polar.first is a time at all. Where A > 0 it is none if Q < 0, and rounding has its way where Q nearly vanishes (polar.glsl): the
- * plane is not reached sooner than at the greatest speed, u'^2 = Q + A u^2 - e u^4 at its largest. Where A < 0 and Q = 0, in the plane, half periods
- * are counted as ever, though nothing is crossed. */
-bool first_is_known(kd_geodesic m, kd_polar polar, float u)
+ * plane is not reached sooner than at the greatest speed, which is s / 2 sqrt(e), as u'^2 = Q + A u^2 - e u^4 is s^2/4e at its largest. Where A < 0
+ * and Q = 0, in the plane, half periods are counted as ever, though nothing is crossed. */
+bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
-    float pull = max(m.a2, 0.0), fastest2 = m.q + 0.25 * pull * pull / max(m.energy2, 1e-30);
-    return m.a2 <= 0.0 || (m.q > 0.0 && polar.first > 0.99 * abs(u) * inversesqrt(fastest2));
+    return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));
 }
 
 /* Keep crossing n; zeros for none. */
@@ -135,7 +134,7 @@ void main()
     kd_drag_terms drag = kd_drag_terms_of(m, ray.e, cam.spin, cam.root, a.unit, !kd_flies_out(barrier, start));
     float edge = cam.horizon * a.scale, limit = time_limit(barrier, start, ray.e, drag.falls);
 
-    const bool known = first_is_known(m, polar, cam.u);
+    const bool known = first_is_known(m, polar, cam.u, cam.spin * ray.e);
     polar.first = known ? polar.first : min(limit, polar.half_);
     float z1 = polar.first * a.scale, zh = polar.half_ * a.scale;
     kd_nodes n1 = kd_nodes_of(a.l, z1), nh = kd_nodes_of(a.l, zh);

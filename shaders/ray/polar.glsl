@@ -16,6 +16,7 @@ struct kd_polar {
     float first;  /* Mino time from the observer to the first crossing */
     float half_;  /* from each crossing to the next                    */
     float b;      /* q^2 above                                         */
+    float s;      /* s above                                           */
     bool crosses; /* false: the motion stays on one side of the plane, or in it */
 };
 
@@ -24,6 +25,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
 {
     kd_polar o;
     float root = sqrt(max(m.a2 * m.a2 + 4.0 * m.energy2 * m.q, 0.0));
+    o.s = root;
     o.crosses = u == 0.0 ? ray.p != 0.0 : m.q > 0.0; /* from the plane Q = p^2, which may be too small for a float */
     /* This is (s - A)/2, without cancellation for either sign of A. */
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * m.q / (root + m.a2);
