@@ -15,7 +15,9 @@ kd_table_places kd_tables()
     KD_EMIT_TABLES
     return at;
 }
+/* A kernel counts once: what it does at each read the driver has to fold away at each. */
+kd_table_places kd_table_at = kd_tables();
 /* The row of a table, by the table's name. */
-#define kd_table_row(table, row) texelFetch(tables, int(kd_tables().table + (row)))
+#define kd_table_row(table, row) texelFetch(tables, int(kd_table_at.table + (row)))
 
 #endif
