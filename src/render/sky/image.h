@@ -1,4 +1,4 @@
-/* A picture of the whole sky from a PNG file: sky.image. Pure; any thread.
+/* sky.image is a picture of the whole sky from a PNG file. Pure; any thread.
  *
  * The file is of 8 or 16 bits a channel, sRGB whatever it says of itself, and has the axes of panorama.h. It is averaged over areas to the
  * power of two of rows that is nearest to its own, KD_SKY_IMAGE_ROWS at most: what a device binds at once, and 5.3 minutes of arc a texel. White
