@@ -170,9 +170,6 @@ static char *command_of(int argc, char **argv)
 
 int kd_cli_bench(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = options,
         .parser = parse,
@@ -180,7 +177,7 @@ int kd_cli_bench(int argc, char **argv)
         .doc = "Measure speed and error of every engine, precision and number of steps on this device, against the closed form.\v"
                "The table is kept for this device, and GET /v1/accuracy serves it. Errors are those of the crossings of the "
                "equatorial plane, speeds the device's own time. Without --quick it takes some minutes.",
-        .children = children,
+        .children = kd_cli_device_children,
     };
     struct arguments arguments = { 0 };
     struct kd_buffer said = { 0 };

@@ -53,6 +53,7 @@ static const struct argp_option device_options[] = {
     { 0 },
 };
 const struct argp kd_cli_device_argp = { .options = device_options, .parser = parse_device };
+const struct argp_child kd_cli_device_children[] = { { &kd_cli_device_argp, 0, NULL, 0 }, { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
 
 int kd_cli_fail(const struct kd_error *error)
 {

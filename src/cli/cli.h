@@ -28,6 +28,7 @@ int kd_cli_bench(int argc, char **argv);
 /* Children for argp: --log-level (no input), and --device with a `const char *` as its input, which
  * starts as $KERRD_DEVICE or "auto". */
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
+extern const struct argp_child kd_cli_device_children[]; /* both, the device first */
 
 /* "kerrd: MESSAGE (at /pointer)" on stderr; returns the exit code for the status. */
 int kd_cli_fail(const struct kd_error *error);

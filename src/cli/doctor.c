@@ -214,16 +214,13 @@ static int selftest(const struct arguments *arguments)
 
 int kd_cli_doctor(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = options,
         .parser = parse,
         .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
                "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The self-test "
                "takes a few seconds; docs/accuracy.md says what it compares with what.",
-        .children = children,
+        .children = kd_cli_device_children,
     };
     struct arguments arguments = { 0 };
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);

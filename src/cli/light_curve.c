@@ -145,10 +145,6 @@ done:
 
 int kd_cli_light_curve(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
-                                                  { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = table,
         .parser = parse,
@@ -156,7 +152,7 @@ int kd_cli_light_curve(int argc, char **argv)
         .doc = "Flux and centroid of a scene as its time goes on: of the whole picture and of its hot spots alone.\v"
                "Flux is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M (degrees to "
                "the right of the hole and above it). What lies outside the picture is not counted.",
-        .children = children,
+        .children = kd_scene_device_children,
     };
     struct arguments arguments = { .frames = 121, .output = "-" };
     struct kd_error error = { 0 };
@@ -164,10 +160,5 @@ int kd_cli_light_curve(int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
-    if (!status)
-        return KD_EXIT_OK;
-    int code = kd_cli_fail(&error);
-    if (status == KD_ECANCELLED)
-        kd_progress_reraise();
-    return code;
+    return kd_progress_exit(status, &error);
 }

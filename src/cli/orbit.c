@@ -234,10 +234,5 @@ int kd_cli_orbit(int argc, char **argv)
     set_options(options, names);
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
-    if (!status)
-        return KD_EXIT_OK;
-    int code = kd_cli_fail(&error);
-    if (status == KD_ECANCELLED)
-        kd_progress_reraise();
-    return code;
+    return kd_progress_exit(status, &error);
 }

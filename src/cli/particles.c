@@ -115,10 +115,6 @@ done:
 
 int kd_cli_particles(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
-                                                  { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = table,
         .parser = parse,
@@ -126,7 +122,7 @@ int kd_cli_particles(int argc, char **argv)
         .doc = "Where the particles of a scene are at its time, and how they move, as an NPY array: a record a particle.\v"
                "Columns: x, y, z, r, phi, latitude, energy, angular_momentum, dr_dt, dphi_dt, dlatitude_dt; docs/live.md says what "
                "they are.",
-        .children = children,
+        .children = kd_scene_device_children,
     };
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };

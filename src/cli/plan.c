@@ -40,15 +40,11 @@ done:
 
 int kd_cli_plan(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
-                                                  { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
         .doc = "Print what rendering a scene takes: passes, rays, bytes, estimated time, approximations.",
-        .children = children,
+        .children = kd_scene_device_children,
     };
     struct arguments arguments = { 0 };
     struct kd_buffer out = { 0 };

@@ -1,5 +1,7 @@
 #include "cli/progress.h"
+
 #include "base/clock.h"
+#include "cli/cli.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -69,4 +71,12 @@ void kd_progress_reraise(void)
         signal(caught, SIG_DFL);
         raise(caught);
     }
+}
+
+int kd_progress_exit(enum kd_status status, const struct kd_error *error)
+{
+    int code = status ? kd_cli_fail(error) : KD_EXIT_OK;
+    if (status == KD_ECANCELLED)
+        kd_progress_reraise();
+    return code;
 }

@@ -244,9 +244,6 @@ done:
 
 int kd_cli_rays(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = table,
         .parser = parse,
@@ -255,7 +252,7 @@ int kd_cli_rays(int argc, char **argv)
                "direction of escape, and an error for each.\v"
                "FILE is what POST /v1/rays takes: a JSON document, or an NPY array of pairs (alpha, beta). Options "
                "change what it says, and --ray adds to it. The closed engine needs no device.",
-        .children = children,
+        .children = kd_cli_device_children,
     };
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
@@ -263,10 +260,5 @@ int kd_cli_rays(int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     enum kd_status status = (arguments.trace ? run_trace : run)(&arguments, &error);
     kd_rays_request_finish(&arguments.more);
-    if (!status)
-        return KD_EXIT_OK;
-    int code = kd_cli_fail(&error);
-    if (status == KD_ECANCELLED)
-        kd_progress_reraise();
-    return code;
+    return kd_progress_exit(status, &error);
 }

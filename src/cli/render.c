@@ -159,10 +159,6 @@ done:
 
 int kd_cli_render(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_scene_options_argp, 0, NULL, 0 },
-                                                  { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = table,
         .parser = parse,
@@ -170,7 +166,7 @@ int kd_cli_render(int argc, char **argv)
         .doc = "Render a scene to a PNG file. Without a scene, the default one.\v"
                "Merged in this order: defaults or --preset; SCENE.json, or the scene of --from; every --set. "
                "The picture carries its scene: --from renders it again.",
-        .children = children,
+        .children = kd_scene_device_children,
     };
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
@@ -178,10 +174,5 @@ int kd_cli_render(int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     enum kd_status status = run(&arguments, &error);
     kd_scene_options_finish(&arguments.scene);
-    if (!status)
-        return KD_EXIT_OK;
-    int code = kd_cli_fail(&error);
-    if (status == KD_ECANCELLED)
-        kd_progress_reraise();
-    return code;
+    return kd_progress_exit(status, &error);
 }

@@ -81,6 +81,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 const struct argp kd_scene_options_argp = { .options = options_table, .parser = parse };
+const struct argp_child kd_scene_device_children[] = {
+    { &kd_scene_options_argp, 0, NULL, 0 }, { &kd_cli_device_argp, 0, NULL, 0 }, { &kd_cli_log_argp, 0, NULL, 0 }, { 0 },
+};
 
 static const char *shown(const char *path)
 {

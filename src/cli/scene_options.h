@@ -23,6 +23,8 @@ struct kd_scene_options {
 
 /* An argp child; its input is a struct kd_scene_options that starts zeroed. Takes the positional argument. */
 extern const struct argp kd_scene_options_argp;
+/* That and the two of cli.h, the scene first. */
+extern const struct argp_child kd_scene_device_children[];
 
 /* The merged scene, valid. */
 enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out,

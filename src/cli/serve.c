@@ -125,9 +125,6 @@ static enum kd_status serve(const struct arguments *arguments, struct kd_error *
 
 int kd_cli_serve(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_cli_device_argp, 0, NULL, 0 },
-                                                  { &kd_cli_log_argp, 0, NULL, 0 },
-                                                  { 0 } };
     static const struct argp argp = {
         .options = table,
         .parser = parse,
@@ -135,7 +132,7 @@ int kd_cli_serve(int argc, char **argv)
             "Serve pictures over HTTP.\v"
             "SIGTERM, SIGINT or SIGHUP: /readyz fails at once, running and queued renders finish, then the exit code "
             "is 0. It is 1 when the device was lost: start it again.",
-        .children = children,
+        .children = kd_cli_device_children,
     };
     struct arguments arguments = { .listen = "127.0.0.1", .port = 8080, .queue = 16, .sessions = 16, .jobs = 16 };
     struct kd_error error = { 0 };

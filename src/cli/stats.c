@@ -1,6 +1,7 @@
 #include "cli/stats.h"
 
 #include "base/json.h"
+#include "render/output/notes.h"
 #include "scene/writer.h"
 
 #include <string.h>
@@ -37,25 +38,9 @@ static void add_setting(struct kd_json *json, const struct kd_stats *stats)
 
 static void add_accuracy(struct kd_json *json, const struct kd_stats *stats)
 {
-    const struct kd_accuracy_report *report = &stats->frame->accuracy;
     kd_json_object(json, "accuracy");
     add_setting(json, stats);
-    kd_json_number(json, "undecided", (double)report->undecided);
-    kd_json_number(json, "sampled", report->sampled);
-    if (report->sampled) {
-        kd_json_number(json, "crossings", report->crossings);
-        kd_json_number(json, "differ", report->differ);
-        kd_json_number(json, "radius_error_median", report->median);
-        kd_json_number(json, "radius_error_worst", report->worst);
-    }
-    if (report->pixel_sampled) {
-        kd_json_number(json, "followed", (double)report->followed);
-        kd_json_number(json, "refined", (double)report->refined);
-        kd_json_number(json, "between", (double)report->between);
-        kd_json_number(json, "pixel_sampled", report->pixel_sampled);
-        kd_json_number(json, "pixel_error", report->pixel_error);
-        kd_json_number(json, "pixel_error_worst", report->pixel_error_worst);
-    }
+    kd_accuracy_members(json, &stats->frame->accuracy, "radius_error_median", "radius_error_worst");
     kd_json_end(json);
 }
 

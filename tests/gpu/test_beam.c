@@ -1,16 +1,10 @@
 /* A telescope's beam, and brightness in false colour: pictures of light that the tests make up, through the passes beam, expose, bloom and post.
  * The oracle adds up a Gaussian over all pixels of the picture, in double. */
-#include "render_support.h"
+#include "made_up_light.h"
 
 #include "image/colour_map.h"
-#include "render/frame/job.h"
 
 #include <math.h>
-
-enum { MOST = 640 * 360 };
-static float light[3 * MOST];
-static uint16_t pixels[3 * MOST], others[3 * MOST];
-
 
 /* sigma: of the beam, in pixels; 0: none. rows: of a band, 0: as many as there are; lit: rows whose light is there, 0: all. */
 struct look {
@@ -46,7 +40,6 @@ static double show(const struct look *look, uint16_t *out)
     struct kd_scene scene = scene_of(look);
     struct kd_capacity c;
     struct kd_plan plan;
-    struct kd_error why = { 0 };
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(&scene, &error));
     OK(kd_plan_make(&scene, &c, &plan, &error));
@@ -55,28 +48,7 @@ static double show(const struct look *look, uint16_t *out)
         plan.band_rows = (uint32_t)look->rows;
         plan.bands = (plan.height + plan.band_rows - 1) / plan.band_rows;
     }
-
-    struct kd_vk *vk = renderer->vk;
-    struct kd_vk_buffer *staging;
-    struct kd_frame frame = { .width = plan.width, .height = plan.height };
-    struct kd_frame_job job = { .r = renderer, .store = &renderer->store, .scene = &scene, .plan = &plan, .frame = &frame, .weight = 1,
-                                .lit = look->lit ? (uint32_t)look->lit : plan.height, .error = &why };
-    OK(kd_frame_add_layer(&frame, "rgb", 3, KD_LAYER_U16, &error));
-    memset(kd_frame_pixels(&frame), 0, 6ull * plan.width * plan.height);
-    OK(kd_store_frame(&renderer->store, &plan, 16, &error));
-    OK(kd_vk_buffer_create(vk, 12ull * plan.width * plan.height, KD_VK_UPLOAD, "light", &staging, &error));
-    memcpy(kd_vk_buffer_map(staging), light, 12ull * plan.width * plan.height);
-    for (uint32_t band = 0; band < plan.bands; band++)
-        OK(kd_vk_copy(vk, "upload", renderer->store.radiance.buffers[band], 0, staging, 12ull * plan.width * kd_frame_band_first(&job, band),
-                      12ull * plan.width * kd_frame_band_rows(&job, band), &error));
-    OK(kd_frame_beam(&job));
-    OK(kd_frame_expose(&job));
-    OK(kd_frame_bloom(&job));
-    OK(kd_frame_post(&job));
-    memcpy(out, kd_frame_pixels(&frame), 6ull * plan.width * plan.height);
-    kd_vk_buffer_destroy(vk, staging);
-    kd_frame_finish(&frame);
-    return frame.exposure;
+    return show_light(&scene, &plan, look->lit ? (uint32_t)look->lit : plan.height, out);
 }
 
 /* Points, thin rings and a ramp, up to the edges: what is hard for a coarse grid. */

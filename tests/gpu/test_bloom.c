@@ -1,15 +1,8 @@
 /* The glare of a lens: pictures of light that the tests make up, through the passes bloom and post. The oracle adds up Gaussians of the
  * stated widths, mirrored at the edges, in double. */
-#include "render_support.h"
-
-#include "render/frame/job.h"
+#include "made_up_light.h"
 
 #include <math.h>
-
-enum { MOST = 640 * 360 };
-static float light[3 * MOST];
-static uint16_t pixels[3 * MOST], others[3 * MOST];
-
 
 /* Light to pixels of 16 bits, proportional to it. rows: of a band, 0: as many as there are. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
@@ -17,7 +10,6 @@ static void show(int width, int height, double bloom, int rows, uint16_t *out)
     struct kd_scene scene;
     struct kd_capacity c;
     struct kd_plan plan;
-    struct kd_error why = { 0 };
     kd_scene_smooth(&scene);
     scene.image.width = width;
     scene.image.height = height;
@@ -33,25 +25,7 @@ static void show(int width, int height, double bloom, int rows, uint16_t *out)
         OK(kd_plan_make(&scene, &c, &plan, &error));
         assert_true(plan.bands > 1);
     }
-
-    struct kd_vk *vk = renderer->vk;
-    struct kd_vk_buffer *staging;
-    struct kd_frame frame = { .width = plan.width, .height = plan.height };
-    struct kd_frame_job job = { .r = renderer, .store = &renderer->store, .scene = &scene, .plan = &plan, .frame = &frame, .weight = 1,
-                                .lit = plan.height, .error = &why };
-    OK(kd_frame_add_layer(&frame, "rgb", 3, KD_LAYER_U16, &error));
-    OK(kd_store_frame(&renderer->store, &plan, 16, &error));
-    OK(kd_vk_buffer_create(vk, 12ull * plan.width * plan.height, KD_VK_UPLOAD, "light", &staging, &error));
-    memcpy(kd_vk_buffer_map(staging), light, 12ull * plan.width * plan.height);
-    for (uint32_t band = 0; band < plan.bands; band++)
-        OK(kd_vk_copy(vk, "upload", renderer->store.radiance.buffers[band], 0, staging, 12ull * plan.width * kd_frame_band_first(&job, band),
-                      12ull * plan.width * kd_frame_band_rows(&job, band), &error));
-    OK(kd_frame_expose(&job));
-    OK(kd_frame_bloom(&job));
-    OK(kd_frame_post(&job));
-    memcpy(out, kd_frame_pixels(&frame), 6ull * plan.width * plan.height);
-    kd_vk_buffer_destroy(vk, staging);
-    kd_frame_finish(&frame);
+    show_light(&scene, &plan, plan.height, out);
 }
 
 /* Dim light with bright places up to white, one of them in a corner. */

@@ -17,6 +17,26 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
                  (unsigned long long)report->followed, (unsigned long long)report->refined, (unsigned long long)report->between, report->pixel_sampled, report->pixel_error, report->pixel_error_worst);
 }
 
+void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst)
+{
+    kd_json_number(json, "undecided", (double)report->undecided);
+    kd_json_number(json, "sampled", report->sampled);
+    if (report->sampled) {
+        kd_json_number(json, "crossings", report->crossings);
+        kd_json_number(json, "differ", report->differ);
+        kd_json_number(json, median, report->median);
+        kd_json_number(json, worst, report->worst);
+    }
+    if (report->pixel_sampled) {
+        kd_json_number(json, "followed", (double)report->followed);
+        kd_json_number(json, "refined", (double)report->refined);
+        kd_json_number(json, "between", (double)report->between);
+        kd_json_number(json, "pixel_sampled", report->pixel_sampled);
+        kd_json_number(json, "pixel_error", report->pixel_error);
+        kd_json_number(json, "pixel_error_worst", report->pixel_error_worst);
+    }
+}
+
 /* One sentence a line, as a reader of the file's properties sees them. */
 static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_buffer *out)
 {

@@ -2,6 +2,7 @@
 #ifndef KD_RENDER_OUTPUT_NOTES_H
 #define KD_RENDER_OUTPUT_NOTES_H
 
+#include "base/json.h"
 #include "render/output/clock.h"
 #include "render/output/format.h"
 
@@ -9,6 +10,8 @@
  * worst=2.0e-05"; without the last four where nothing was sampled. */
 #define KD_ACCURACY_TEXT 320
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
+/* Writes the same as members of an object, but for the rays and what traced them. The names of the two errors of radii are the caller's. */
+void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst);
 
 struct kd_notes {
     struct kd_buffer scene;          /* canonical JSON */

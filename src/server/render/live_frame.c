@@ -60,22 +60,7 @@ static void add_accuracy(struct kd_json *json, const struct kd_accuracy_report *
     kd_json_object(json, "accuracy");
     kd_json_number(json, "rays", (double)plan->rays);
     kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
-    kd_json_number(json, "undecided", (double)report->undecided);
-    kd_json_number(json, "sampled", report->sampled);
-    if (report->sampled) {
-        kd_json_number(json, "crossings", report->crossings);
-        kd_json_number(json, "differ", report->differ);
-        kd_json_number(json, "median", report->median);
-        kd_json_number(json, "worst", report->worst);
-    }
-    if (report->pixel_sampled) {
-        kd_json_number(json, "followed", (double)report->followed);
-        kd_json_number(json, "refined", (double)report->refined);
-        kd_json_number(json, "between", (double)report->between);
-        kd_json_number(json, "pixel_sampled", report->pixel_sampled);
-        kd_json_number(json, "pixel_error", report->pixel_error);
-        kd_json_number(json, "pixel_error_worst", report->pixel_error_worst);
-    }
+    kd_accuracy_members(json, report, "median", "worst");
     kd_json_end(json);
 }
 
