@@ -144,7 +144,7 @@ done:
     return code ? failed(&file, code, error) : KD_OK;
 }
 
-enum kd_status kd_exr_text(const void *data, size_t size, const char *name, struct kd_buffer *out, struct kd_error *error)
+enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out, struct kd_error *error)
 {
     struct file file = { .data = data, .size = size };
     exr_context_initializer_t with = EXR_DEFAULT_CONTEXT_INITIALIZER;

@@ -27,6 +27,6 @@ struct kd_exr {
 enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, struct kd_error *error);
 
 /* Appends the string attribute of a file to *out. KD_EINVAL: no such attribute, or not a whole EXR file. */
-enum kd_status kd_exr_text(const void *data, size_t size, const char *name, struct kd_buffer *out, struct kd_error *error);
+enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out, struct kd_error *error);
 
 #endif

@@ -32,7 +32,7 @@ FOREIGN = {
     "vulkan/": {"vk"},
     "cjson/": {"scene", "orbit", "render", "server", "cli"},
     "microhttpd.h": {"server"},
-    "archive": {"server"},
+    "archive": {"image", "server"},
     "png.h": {"image"},
     "sndfile.h": {"quantity"},
     "libdeflate.h": {"image"},

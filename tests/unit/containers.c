@@ -151,13 +151,13 @@ static void exr_texts(void **state)
     struct kd_buffer file = { 0 }, got = { 0 };
     OK(kd_buffer_append(&file, "before", 6)); /* it is appended */
     OK(kd_exr_encode(&image, &file, &error));
-    OK(kd_exr_text(file.data + 6, file.size - 6, "kerrd:scene", &got, &error));
+    OK(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:scene", &got, &error));
     assert_true(got.size == 13 && !memcmp(got.data, "{\"version\":1}", 13));
-    assert_int_equal(kd_exr_text(file.data + 6, file.size - 6, "kerrd:none", &got, &error), KD_EINVAL);
+    assert_int_equal(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:none", &got, &error), KD_EINVAL);
     for (size_t size = 0; size < 300; size += 7) { /* in its header */
         uint8_t *cut = malloc(size + 1); /* of its own size, so that a sanitizer sees a byte too far */
         memcpy(cut, file.data + 6, size);
-        assert_int_equal(kd_exr_text(cut, size, "kerrd:scene", &got, &error), KD_EINVAL);
+        assert_int_equal(kd_exr_find_text(cut, size, "kerrd:scene", &got, &error), KD_EINVAL);
         assert_memory_equal(error.message, "EXR: ", 5);
         free(cut);
     }

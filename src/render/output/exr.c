@@ -69,7 +69,7 @@ done:
 static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *out, struct kd_error *error)
 {
     struct kd_buffer text = { 0 };
-    enum kd_status status = kd_exr_text(data, size, "kerrd:scene", &text, error);
+    enum kd_status status = kd_exr_find_text(data, size, "kerrd:scene", &text, error);
     if (!status)
         status = kd_notes_scene((const char *)text.data, text.size, out, error);
     kd_buffer_finish(&text);
