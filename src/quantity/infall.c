@@ -22,6 +22,8 @@
     O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds")                                                \
     O(velocity, .unit = "1", .help = "towards the hole past one of zero angular momentum, in units of that of light; null within the horizon") \
     O(g_behind, .unit = "1", .help = "frequency of starlight from straight behind, as it measures it, over that far away")  \
+    O(azimuth_to_end_deg, .unit = "degrees", .help = "how far it turns until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg")  \
+    O(time_to_end, .unit = "M", .help = "coordinate time until the end, of ingoing Kerr-Schild coordinates, which know no outer horizon") \
     O(energy, .unit = "1", .fixed = true, .help = "per mass")                                                          \
     O(end, .unit = "M", .fixed = true, .help = "radius where the model ends")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -63,6 +65,9 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->end = kd_kerr_inner_horizon(p->spin);
     o->energy = kd_observer_energy(&motion, &at);
     o->proper_time_to_end = kd_infall_proper_time(&motion, &at, o->end);
+    const struct kd_infall_way way = kd_infall_way(&motion, &at, o->end);
+    o->azimuth_to_end_deg = way.azimuth * (180 / M_PI);
+    o->time_to_end = way.time;
     o->proper_time_to_horizon = within ? NAN : kd_infall_proper_time(&motion, &at, horizon);
     o->proper_time_to_end_s = second * o->proper_time_to_end;
     o->proper_time_to_horizon_s = second * o->proper_time_to_horizon;
@@ -77,4 +82,4 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     return KD_OK;
 }
 
-KD_QUANTITY(infall, "infall", "free fall into the hole by its own clock, to the horizon and to the end", .point_us = 20)
+KD_QUANTITY(infall, "infall", "free fall into the hole by its own clock, to the horizon and to the end", .point_us = 60)

@@ -121,6 +121,19 @@ static void face_on(void **state)
 }
 
 /* sqrt(r^3/2) (eta + sin eta)/2 with r cos^2(eta/2) from rest at r (Misner, Thorne & Wheeler 1973, eq. 31.10): pi/2 sqrt(r^3/2) in all. */
+/* How far rain from r turns until the inner horizon: the azimuth of C. Doran 2000, eq. 16 and 18, stays, and differs from that of ingoing Kerr and Schild
+ * by the integral of -a/((r^2 + a^2) (1 + (2r/(r^2 + a^2))^(1/2))) dr; by Simpson's rule. */
+static double rain_turns(double a, double r)
+{
+    enum { PARTS = 2000 };
+    double low = 1 - sqrt(1 - a * a), step = (r - low) / PARTS, sum = 0;
+    for (int i = 0; i <= PARTS; i++) {
+        double x = low + i * step, w = x * x + a * a;
+        sum += (i == 0 || i == PARTS ? 1 : i % 2 ? 4 : 2) * a / (w * (1 + sqrt(2 * x / w)));
+    }
+    return -sum * step / 3;
+}
+
 static void fall(void **state)
 {
     (void)state;
@@ -134,6 +147,10 @@ static void fall(void **state)
     published("starlight behind rain", ASK("infall", "g_behind", "r=8"), 2.0 / 3, 1e-14);
     published("starlight behind rain at the horizon", ASK("infall", "g_behind", "r=2"), 0.5, 1e-14);
     published("starlight behind rain within", ASK("infall", "g_behind", "r=0.5"), 1.0 / 3, 1e-14);
+    /* t of ingoing Kerr-Schild coordinates is, without spin, that of Painleve and Gullstrand, rain's own, less 2 (2r)^(1/2) - 4 ln(1 + (r/2)^(1/2)). */
+    published("rain's coordinate time", ASK("infall", "time_to_end", "r=8"), 32.0 / 3 + 8 - 4 * log(3), 1e-10);
+    published("rain's turn", ASK("infall", "azimuth_to_end_deg", "spin=0.9", "r=10"), rain_turns(0.9, 10) * (180 / M_PI), 1e-7);
+    published("rain's turn on the axis", ASK("infall", "azimuth_to_end_deg", "spin=-0.5", "r=3", "inclination_deg=0"), rain_turns(-0.5, 3) * (180 / M_PI), 1e-7);
     published("seconds of Sgr A*", ASK("infall", "proper_time_to_end_s", "r=2", "mass_msun=4.3e6"), 4.0 / 3 * seconds, 1e-6);
     published("velocity", ASK("infall", "velocity", "r=8"), 0.5, 1e-14);
     for (int i = 0; i <= steps; i++) { /* Simpson's rule for r^2/sqrt(2r (r^2 + a^2)), in sqrt(r) */
