@@ -71,6 +71,12 @@ export function showAccuracy(frame, scene) {
   byId('approximations').replaceChildren(...frame.approximations.map(sentence => tell(el('li'), sentence)));
 }
 
+// Of an observer that falls by itself.
+function fallen({ r, proper_time_to_horizon: left }) {
+  const horizon = left == null ? t('within the horizon', 'dentro l’orizzonte') : t(`${number(left, 3)} M to the horizon`, `${number(left, 3)} M all’orizzonte`);
+  return `r = ${number(r, 3)} M, ${horizon}; `;
+}
+
 export function caption(frame) {
   const worst =
     frame.accuracy.sampled > 0
@@ -80,5 +86,5 @@ export function caption(frame) {
   const pace = frame.pace
     ? t(`, ${number(frame.pace, 2)} pictures a second`, `, ${number(frame.pace, 2)} immagini al secondo`)
     : '';
-  return `${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
+  return `${frame.clock && frame.pace ? fallen(frame.clock) : ''}${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${worst}`;
 }

@@ -1,5 +1,6 @@
 // The controls of a scene are made from the schema: a row a field, in the groups of the page.
 import { assetRow } from './asset.js';
+import { hint } from './choices.js';
 import { byId, el } from './dom.js';
 import { element, named, nature, number, section, t, tell, unit, word } from './i18n.js';
 import { beside_time, left_out, meansSomething } from './known.js';
@@ -100,7 +101,14 @@ function row(field, scene) {
   const make = { choice: choiceRow, words: choiceRow, switch: switchRow, asset: assetRow }[field.type] ?? numberRow;
   const control = make(field, scene, id, `${id}-help ${id}-nature`);
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
-  const fault = el('p', { class: 'fault', hidden: true });
+  const fault = el('p', { class: 'fault', hidden: true }),
+    about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
+  // Of a choice it is told what is chosen.
+  function show() {
+    control.show();
+    const told = hint(field.path, scene.get(field.path));
+    if (told) ((about.textContent = told), about.removeAttribute('lang'));
+  }
   const node = el(
     'div',
     { class: 'field', 'data-path': field.path },
@@ -111,12 +119,12 @@ function row(field, scene) {
       badge(field.nature, scene.natures[field.nature], `${id}-nature`),
     ),
     control.nodes,
-    el('p', { class: 'help', id: id + '-help', lang: helpLang }, help),
+    about,
     fault,
   );
   return {
     node,
-    show: control.show,
+    show,
     path: field.path,
     front: field.front,
     complain(text) {

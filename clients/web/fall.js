@@ -12,10 +12,12 @@ const patience_ms = 400; // it falls no further until a picture of it has come
 
 const numbers = ['infall_from', 'infall_energy', 'infall_momentum'];
 const velocities = ['velocity_r', 'velocity_theta', 'velocity_phi'];
+const rates = ['azimuth_rate_deg', 'time_rate', 'proper_time_rate'].map(name => 'motion.' + name);
 // It takes these from the scene, and gives them back.
-const taken = [...['r', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(name => 'camera.' + name), 'sky.model', 'motion.azimuth_rate_deg'];
+const taken = [...['r', 'azimuth_deg', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(name => 'camera.' + name), 'sky.model', 'time', ...rates];
 
 const angle = radians => `${number((radians * 180) / Math.PI, 3)}°`;
+const turn = degrees => Math.round((degrees - 360 * Math.round(degrees / 360)) * 1e3) / 1e3;
 const falls = scene => scene.get('camera.r') !== 'infinity' && scene.get('camera.observer') === 'infall';
 
 // Who falls: what falls already, as it does, else from rest at infinity.
@@ -45,12 +47,14 @@ async function wayOf(scene, from) {
     within: values.proper_time_to_end - (values.proper_time_to_horizon ?? 0), // of the time: that from the horizon on
     r: list('r'),
     left: list('proper_time_to_end'),
+    azimuth: list('azimuth_to_end_deg'),
+    time: list('time_to_end'),
     g: list('g_behind'),
   };
 }
 
 // Where it is when so much time is left: between two places of the way. Near the end time goes as r^1.5, everywhere nearly so.
-function placeAt({ r, left, within, g }, time) {
+function placeAt({ r, left, within, azimuth, time: then, g }, time) {
   const high = Math.max(1, left.findIndex((x, i) => x >= time || i === left.length - 1)),
     low = high - 1,
     share = Math.min(1, Math.max(0, (time - left[low]) / (left[high] - left[low]))),
@@ -60,6 +64,8 @@ function placeAt({ r, left, within, g }, time) {
     to_end: between(left[low], left[high]),
     to_horizon: time > within ? time - within : null,
     g: between(g[low], g[high]),
+    turned: azimuth.at(-1) - between(azimuth[low], azimuth[high]), // since it began, degrees
+    passed: then.at(-1) - between(then[low], then[high]), // M of coordinate time
   };
 }
 
@@ -107,7 +113,8 @@ export function buildFall(scene) {
     if (time <= last()) playing = false;
     const place = placeAt(way, time);
     r = Number(place.r.toPrecision(5));
-    if (scene.get('camera.r') !== r) scene.change({ 'camera.r': r });
+    if (scene.get('camera.r') !== r)
+      scene.change({ 'camera.r': r, 'camera.azimuth_deg': turn(before['camera.azimuth_deg'] + place.turned), time: Math.round((before.time + place.passed) * 1e3) / 1e3 });
     show(place);
   }
 
@@ -159,7 +166,7 @@ export function buildFall(scene) {
       ...(['equirectangular', 'fulldome'].includes(projection) ? {} : { 'camera.projection': null }),
       ...(far ? { 'camera.fov_deg': wide_deg, 'camera.yaw_deg': null, 'camera.pitch_deg': null } : {}),
       ...(scene.get('sky.model') === 'none' ? { 'sky.model': 'catalogue' } : {}),
-      'motion.azimuth_rate_deg': 0,
+      ...Object.fromEntries(rates.map(path => [path, 0])),
     });
     box.hidden = false;
     start.hidden = true;

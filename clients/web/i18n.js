@@ -118,7 +118,24 @@ export function nature(name, help) {
   const [word, text] = words?.natures[name] ?? [];
   return { word: word ?? name, text: text ?? helpOf(help).help, lang: words && !text ? 'en' : null };
 }
-export const word = value => words?.values[value] ?? value;
+// What a choice is called, where its word alone says too little.
+const choices = {
+  static: 'at rest',
+  zamo: 'zero angular momentum (ZAMO)',
+  keplerian: 'circular orbit (Keplerian)',
+  retrograde: 'circular orbit, retrograde',
+  infall: 'free fall',
+  velocity: 'a velocity of your choice',
+  grid: 'celestial grid',
+  stars: 'made-up stars',
+  catalogue: 'stars of Hipparcos',
+  image: 'picture of the sky',
+  sgra: 'towards Sgr A*',
+  m87: 'towards M87',
+  equirectangular: 'equirectangular (360°)',
+  fulldome: 'fulldome (180°)',
+};
+export const word = value => words?.values[value] ?? choices[value] ?? value;
 export const preset = (name, title) => words?.presets[name] ?? title;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');

@@ -84,9 +84,14 @@ export function openSource(scene, size, shown, failed) {
   function follow(document, now) {
     if (scene.goesOn()) return;
     const { time, camera } = now,
-      turned = scene.get('camera.azimuth_deg') === (document.camera?.azimuth_deg ?? 0); // and nobody has turned it since
-    scene.settle(turned ? { time, 'camera.azimuth_deg': camera.azimuth_deg } : { time });
-    if (turned) (document.camera ??= {}).azimuth_deg = camera.azimuth_deg;
+      moved = { time };
+    for (const [name, usual] of [['azimuth_deg', 0], ['r', 'infinity']]) {
+      const there = document.camera?.[name] ?? usual;
+      if (camera[name] === there || scene.get('camera.' + name) !== there) continue; // somebody has moved it since
+      moved['camera.' + name] = camera[name];
+      (document.camera ??= {})[name] = camera[name];
+    }
+    scene.settle(moved);
   }
 
   const headers = () => ({ 'Content-Type': 'application/json', ...(session ? { Authorization: `Bearer ${session.token}` } : {}) });
@@ -155,6 +160,7 @@ export function openSource(scene, size, shown, failed) {
       accuracy: figures(get('Kerrd-Accuracy')),
       approximations: sentences(get('Kerrd-Approximations')),
       passes: passes(get('Server-Timing')),
+      clock: get('Kerrd-Clock') && figures(get('Kerrd-Clock')),
     });
   }
 

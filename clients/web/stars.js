@@ -78,7 +78,7 @@ export function buildStars(stage, scene) {
 
   function point(event) {
     const box = stage.getBoundingClientRect();
-    pointer = event.target.closest('button, a, input, #fall') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
+    pointer = event.target.closest('button, a, input') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
     clearTimeout(timer);
     if (!pointer || event.buttons) return clear();
     timer = setTimeout(look, label.hidden ? rest_ms : 0);

@@ -25,8 +25,8 @@ function looker(scene) {
     button.setAttribute('aria-pressed', looks());
     const words = looks()
       ? t(
-          'Drag to look around, wheel or pinch to see less or more; on a keyboard arrows, + and −, 0 for the hole, L to go round it, F for the picture alone.',
-          'Trascina per guardarti attorno, rotella o due dita per vedere meno o più; da tastiera frecce, + e −, 0 per il buco, L per girargli attorno, F per la sola immagine.',
+          'Drag to look around, wheel or pinch to see less or more; arrows, + and −, 0 for the hole, L to go round it, F for the picture alone.',
+          'Trascina per guardarti attorno, rotella o due dita per vedere meno o più; frecce, + e −, 0 per il buco, L per girargli attorno, F per la sola immagine.',
         )
       : usual;
     if (how.textContent !== words) how.textContent = words;
@@ -115,7 +115,7 @@ export function handle(stage, scene) {
   }
 
   stage.addEventListener('pointerdown', event => {
-    if (event.button || event.target.closest('button, a, input, #fall')) return;
+    if (event.button || event.target.closest('button, a, input')) return;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     stage.setPointerCapture(event.pointerId);
     note();

@@ -87,6 +87,30 @@ class Panel(Browser):
         self.assertTrue(seen('image.pixel_error'))
         self.assertTrue(page.is_disabled('[data-path="image.samples"] input[type=range]'))
 
+    def test_a_sky_and_an_observer_have_their_own_fields(self):
+        """And a sentence that says what is chosen, in each language another one."""
+        page, told = self.open('lang=en&camera.r=30&sky.model=grid&pause=1'), {}
+        self.open_groups(page)
+        sky = {'grid': ['brightness', 'grid_deg'], 'stars': ['brightness', 'milky_way', 'image', 'limit_mag', 'seed', 'orientation', 'turn_deg', 'tilt_deg'], 'none': []}
+        sky['catalogue'], sky['image'] = sky['stars'], [name for name in sky['stars'] if name != 'limit_mag']
+        observer = {'static': [], 'zamo': [], 'keplerian': [], 'retrograde': [], 'infall': ['infall_from', 'infall_energy', 'infall_momentum'],
+                    'velocity': ['velocity_r', 'velocity_theta', 'velocity_phi']}
+        for path, own in (('sky.model', sky), ('camera.observer', observer)):
+            home = path.split('.')[0]
+            every = {name for names in own.values() for name in names}
+            select = page.locator(f'[data-path="{path}"] select')
+            self.assertEqual(select.locator('option').evaluate_all('all => all.map(o => o.value).sort()'), sorted(own))
+            for choice, names in own.items():
+                select.select_option(choice)
+                shown = {name for name in every if page.locator(f'[data-path="{home}.{name}"]').evaluate('node => !node.hidden')}
+                self.assertEqual(shown, set(names), choice)
+                told[choice] = page.inner_text(f'[data-path="{path}"] .help')
+        self.assertEqual(len(set(told.values())), len(told))
+        italian = self.open('lang=it&camera.r=30&sky.model=grid&camera.observer=zamo')
+        self.open_groups(italian)
+        for path, choice in (('sky.model', 'grid'), ('camera.observer', 'zamo')):
+            self.assertNotIn(italian.inner_text(f'[data-path="{path}"] .help'), ('', told[choice]))
+
     def test_each_pass_has_a_name(self):
         page = self.open('lang=it&pause=1&disk.gas.amplitude=1&style.bloom=0.3&spots.0.brightness=1')
         self.open_groups(page)

@@ -64,6 +64,22 @@ class Saving(Browser):
         job = self.jobs()[-1].response().json()
         self.assertTrue(daemon.eventually(lambda: self.daemon.get('/v1/jobs/' + job['id']).status == 404), 'the server keeps it no longer')
 
+    def test_as_large_as_the_window_it_is_what_is_seen(self):
+        """Gas, glare and automatic exposure included: to the pixel."""
+        page = self.open('lang=en&preset=gas&pause=1', FINE, viewport={'width': 700, 'height': 420})
+        seen = self.pixels(page)
+        self.choose(page, 'window')
+        self.save(page)
+        page.evaluate("""async () => {
+            const image = new Image();
+            image.src = document.getElementById('save-got').href;
+            await image.decode();
+            document.getElementById('picture').id = '';
+            image.id = 'picture';
+            document.body.append(image);
+        }""")
+        self.assertEqual(self.pixels(page), seen)
+
     def test_sizes(self):
         """What the choices ask for; the real pictures would take minutes."""
         page = self.open()
