@@ -203,12 +203,24 @@ async function flamm(scene, look) {
   };
 }
 
+async function names(scene) {
+  const { brightest, hasNames, nameOf } = await import('./stars.js');
+  if (!hasNames(scene)) throw new Error(t('of the stars of Hipparcos alone: choose them as the sky', 'solo delle stelle di Hipparcos: sceglile come cielo'));
+  const stars = await brightest(scene, byId('stage'), 16);
+  return {
+    lines: [],
+    labels: stars.map(({ x, y, ...star }) => ({ x, y, text: star.name || star.designation })),
+    words: stars.map(nameOf).join(', '),
+  };
+}
+
 const overlays = [
   ['shadow', shadow, 'Edge of the shadow', 'Bordo dell’ombra'],
   ['photons', photons, 'Circular photon orbits', 'Orbite circolari dei fotoni'],
   ['isco', isco, 'ISCO, innermost stable orbit', 'ISCO, ultima orbita stabile'],
   ['ergosphere', ergosphere, 'Ergosphere', 'Ergosfera'],
   ['orders', orders, 'Image orders 0 and 1', 'Ordini d’immagine 0 e 1'],
+  ['names', names, 'Names of the brightest stars', 'Nomi delle stelle più brillanti'],
   ['flamm', flamm, 'Curved space (Flamm) and its twist', 'Spazio curvo (Flamm) e sua torsione'],
 ];
 
@@ -227,12 +239,13 @@ export function buildOverlays(root, stage, scene) {
       if (!chosen.has(name)) continue;
       try {
         if (scene.get('camera.projection') === 'ring') throw new Error(t('not in this projection', 'non in questa proiezione'));
-        const { lines, words } = await make(scene, look);
+        const { lines, labels = [], words } = await make(scene, look);
         groups.push(
           svg(
             'g',
             { class: 'over-' + name },
             lines.map(d => svg('path', { d })),
+            labels.map(({ x, y, text }) => svg('text', { x: x + 7, y: y - 5 }, text)),
           ),
         );
         notes.get(name).textContent = words;

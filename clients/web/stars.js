@@ -35,6 +35,13 @@ export function starsIn(scene, stage) {
   return kept.answer;
 }
 
+// The brightest, each once, with their places: of several images of a star that of most light.
+export async function brightest(scene, stage, most) {
+  const { images } = await starsIn(scene, stage),
+    seen = new Set();
+  return images.filter(image => !seen.has(nameOf(image)) && seen.add(nameOf(image))).slice(0, most);
+}
+
 function told(image, others) {
   const parts = [t(`magnitude ${number(image.magnitude, 3)}`, `magnitudine ${number(image.magnitude, 3)}`)];
   if (image.seen_magnitude != null) parts.push(t(`seen as ${number(image.seen_magnitude, 3)}`, `vista come ${number(image.seen_magnitude, 3)}`));
@@ -81,7 +88,7 @@ export function buildStars(stage, scene) {
     pointer = event.target.closest('button, a, input') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
     clearTimeout(timer);
     if (!pointer || event.buttons) return clear();
-    timer = setTimeout(look, label.hidden ? rest_ms : 0);
+    timer = setTimeout(look, kept.key === sceneOf(scene, stage) ? 0 : rest_ms);
   }
   stage.addEventListener('pointermove', point);
   stage.addEventListener('pointerup', point);

@@ -97,6 +97,11 @@ class Falling(Browser):
         page.hover('#reset')
         self.assertTrue(daemon.eventually(lambda: page.is_hidden('#star')))
         self.assertEqual(len([r for r in self.requests if r.url.endswith('/v1/render')]), asked, 'once is enough')
+        self.open_groups(page)
+        page.check('#over-names')  # for who has no pointer
+        self.assertTrue(daemon.eventually(lambda: page.locator('#overlay text').count() == 16))
+        words = page.inner_text('#over-names-words')
+        self.assertTrue(words.startswith(images[0]['name']) and at['designation'] in words, words)
         self.shot(page, 'stars')
 
 
