@@ -45,6 +45,7 @@ class Falling(Browser):
         self.assertTrue(daemon.eventually(lambda: self.told(page, 'disk') not in ('', '–')))
         self.assertEqual(page.inner_text('#fall-play'), 'Go on', 'who wants no motion has none')
         self.assertAlmostEqual(value(self.told(page, 'disk').split('°')[0]), 2 * 42.1, delta=0.15)
+        self.assertEqual(self.told(page, 'where'), 'Falling freely')
         page.focus('#fall-at')
         page.keyboard.press('ArrowRight')
         self.assertEqual(self.told(page, 'where'), 'Within the horizon')
