@@ -29,6 +29,7 @@ export const values = {
   ring: 'anello',
   equirectangular: 'equirettangolare (360°)',
   fulldome: 'cupola (180°)',
+  pair: 'coppia',
   none: 'nessuno',
   isco: 'all’ISCO',
   peak: 'di picco',
@@ -115,6 +116,11 @@ export const fields = {
     'Rollio',
     'Ruota la camera in senso orario attorno al suo asse; nella proiezione ad anello, l’angolo al centro dell’immagine',
   ],
+  'camera.stereo': [
+    'Stereo',
+    'Coppia: due immagini affiancate, quella dell’occhio sinistro a sinistra, ciascuna della larghezza data e stenopeica. Nessuna: un occhio solo',
+  ],
+  'camera.eye_distance': ['Distanza degli occhi', 'Distanza fra gli occhi, di traverso rispetto a dove guarda la camera (coppia)'],
   'camera.ring_decades_max': [
     'Decadi, massimo',
     'log₁₀ della distanza dalla curva critica, in suoi raggi, ai bordi superiore e inferiore (anello)',
@@ -364,6 +370,14 @@ const refusals = [
     '{} è {}, con cui l’osservatore torna indietro fuori da camera.r {}; ammessi sono quelli più vicini a 0',
   ],
   [
+    '{} is {}, allowed is {} but from a finite camera.r in pinhole projection',
+    '{} è {}, ammesso è {} salvo da un camera.r finito nella proiezione stenopeica',
+  ],
+  [
+    '{} is {}, with which an eye would be where camera.observer cannot be; allowed are smaller ones',
+    '{} è {}, con cui un occhio starebbe dove camera.observer non può stare; ammessi sono valori minori',
+  ],
+  [
     '{} is {}, allowed is 0 unless camera.observer stays, goes round in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
     '{} è {}, ammesso è 0 salvo che camera.observer stia fermo, giri nel piano equatoriale o cada senza lasciare la sua latitudine, da un camera.r finito',
   ],
@@ -437,6 +451,8 @@ export function refusal(text) {
 }
 
 export const sentences = {
+  'camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space':
+    'camera: ogni occhio di una coppia è un osservatore a sé, dello stesso tipo, accanto al mezzo secondo il primo ordine di camera.eye_distance nel riferimento locale, allo stesso tempo; i loro assi sono paralleli come nello spazio piatto',
   'thin disk': 'disco sottile',
   particles: 'particelle',
   'plunging gas': 'gas in caduta',

@@ -66,6 +66,9 @@
     REAL(camera, pitch_deg, LOOK, REST, 0.0, -90.0, 90.0, "degrees", "look above the hole (from a finite radius)")                \
     REAL(camera, roll_deg, LOOK, REST, 0.0, -360.0, 360.0, "degrees", "turn the camera clockwise about its axis; ring: the angle " \
          "in the middle of the picture, 0 at alpha > 0, rising to the right")                                        \
+    ENUM(camera, stereo, LOOK, REST, KD_STEREO_NONE,                                                                 \
+         "pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection; none: one eye", "none|pair") \
+    REAL(camera, eye_distance, LOOK, REST, 0.5, 1e-6, 1e6, "M", "distance of the eyes, across the way the camera looks (stereo: pair)") \
     REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades",                                           \
          "log10 of the distance to the critical curve, over its radius, at the upper and lower edge (ring)")         \
     REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades",                                        \
@@ -278,6 +281,7 @@
     SPAN("camera.centre_alpha", -50, 50)                                                                             \
     SPAN("camera.centre_beta", -50, 50)                                                                              \
     SPAN("camera.roll_deg", -180, 180)                                                                               \
+    WITH("camera.eye_distance", "stereo", KD_STEREO_PAIR) SPAN("camera.eye_distance", 0.01, 10)                     \
     SPAN("camera.infall_from", 2.1, 1000) FIRST("camera.infall_from", 100)                                           \
     SPAN("camera.infall_energy", 0, 10) FIRST("camera.infall_energy", 1)                                             \
     SPAN("camera.infall_momentum", -5, 5)                                                                            \
@@ -320,6 +324,7 @@
 
 enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINHOLE, KD_PROJECTION_RING,
                      KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME };
+enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };

@@ -197,6 +197,25 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
                           show(time ? m->time_rate : m->azimuth_rate_deg).text, show(m->proper_time_rate).text);
 }
 
+static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_camera *camera = &scene->camera;
+    double bound;
+    if (camera->stereo == KD_STEREO_NONE)
+        return KD_OK;
+    if (!isfinite(camera->r) || (camera->projection != KD_PROJECTION_AUTO && camera->projection != KD_PROJECTION_PINHOLE))
+        return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" but from a finite camera.r in pinhole projection");
+    for (int side = -1; side <= 1; side += 2) {
+        const struct kd_scene eye = kd_scene_eye(scene, side);
+        const struct kd_vantage at = kd_scene_vantage(&eye);
+        const struct kd_observer_motion m = kd_scene_observer(&eye);
+        if (!(camera->eye_distance < camera->r && kd_observer_exists(m.observer, &at) && at.r >= 0.01 && at.r <= 1e7 && kd_observer_check(&m, &at, &bound) == KD_OBSERVER_SOUND))
+            return kd_error_field(error, "/camera/eye_distance", "camera.eye_distance is %s M, with which an eye would be where camera.observer cannot be; allowed are "
+                                  "smaller ones", show(camera->eye_distance).text);
+    }
+    return KD_OK;
+}
+
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
 {
     double least = kd_kerr_isco(scene->spacetime.spin);
@@ -297,6 +316,8 @@ const struct kd_rule kd_rules[] = {
       "without leaving its latitude: without spin, in that plane, on the axis, or from rest at infinity; `motion.time_rate` and "
       "`motion.azimuth_rate_deg` are 0 then.",
       path },
+    { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection, and `camera.observer` exists where each eye is, less than `camera.r` from the other.",
+      stereo },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

@@ -109,6 +109,11 @@ bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out);
 /* Says whether areas of the picture are to scale: it is of the plane or the pinhole projection. */
 bool kd_scene_is_flat(const struct kd_scene *scene);
 
+/* Makes the scene of one eye, -1 the left one, 1 the right one, of a valid scene at a finite radius whose camera.stereo is "pair": a camera of the same
+ * observer half of camera.eye_distance to the side, along a leg of its local frame by the first order, with its axis and its up as they would be in flat space,
+ * at the same time. camera.stereo is "none" in it. */
+struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
+
 /* Say where the observer is, and how it moves. */
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene);

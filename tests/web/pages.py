@@ -29,7 +29,7 @@ class Pages(Browser):
                  'style.ringdown=1&spacetime.spin=0.99995', 'camera.observer=static&camera.r=1.8&spacetime.spin=0.9', 'camera.observer=keplerian&camera.r=2.5&spacetime.spin=0',
                  'camera.observer=velocity&camera.r=9&camera.velocity_r=0.8&camera.velocity_phi=0.8', 'camera.observer=infall&camera.r=9&camera.infall_from=8',
                  'camera.observer=infall&camera.r=9&camera.infall_from=10&camera.infall_energy=1', 'camera.observer=infall&camera.r=3&camera.infall_momentum=5',
-                 'camera.observer=infall&camera.r=9&camera.infall_energy=0.1', 'camera.observer=infall&camera.r=0.2&spacetime.spin=0.9', 'camera.velocity_phi=0.1', 'camera.infall_from=10', 'motion.proper_time_rate=1', 'camera.r=9&motion.proper_time_rate=1&motion.time_rate=2',
+                 'camera.observer=infall&camera.r=9&camera.infall_energy=0.1', 'camera.observer=infall&camera.r=0.2&spacetime.spin=0.9', 'camera.velocity_phi=0.1', 'camera.infall_from=10', 'motion.proper_time_rate=1', 'camera.stereo=pair', 'camera.stereo=pair&camera.r=9&camera.eye_distance=9', 'camera.r=9&motion.proper_time_rate=1&motion.time_rate=2',
                  'accuracy.steps=7', 'style.beam_uas=20&camera.projection=ring', 'style.beam_uas=1e9', 'style.colour_bar=true',
                  'disk.mdot_edd=1e9&disk.colour=accretion', 'camera.inclination_deg=200', 'spacetime.mass_msun=0')
         answers = []

@@ -1,5 +1,6 @@
 /* This finds where a frame is rendered: in the renderer's own buffers, or aside, in some that it shares with no other. */
 #include "render/frame/job.h"
+#include "render/frame/pair.h"
 
 /* An aside that nobody is in and that has the plan's lens map; NULL: none. */
 static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *plan)
@@ -13,6 +14,8 @@ static struct kd_aside *aside_with(struct kd_renderer *r, const struct kd_plan *
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error)
 {
+    if (plan->eyes == 2)
+        return kd_frame_pair(&(struct kd_pair) { renderer, scene, plan, false, progress, user }, out, error);
     struct kd_aside *found = kd_store_has(&renderer->store, plan) ? NULL : aside_with(renderer, plan);
     struct kd_frame_job job = {
         .r = renderer, .store = found ? &found->store : &renderer->store,
@@ -63,6 +66,8 @@ enum kd_status kd_render_aside(struct kd_renderer *renderer, const struct kd_sce
                                kd_progress_fn progress, const struct kd_glance *glance, void *user, struct kd_frame *out,
                                struct kd_error *error)
 {
+    if (plan->eyes == 2)
+        return kd_frame_pair(&(struct kd_pair) { renderer, scene, plan, true, progress, user }, out, error);
     struct kd_aside *a = enter_aside(renderer, plan);
     if (!a)
         return kd_error_set(error, KD_EBUSY, "%u pictures are being rendered beside others, as many as can be", KD_ASIDES);

@@ -26,7 +26,7 @@ struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
                                             [KD_SIGHT_DOME] = { "CLON-ARC", "CLAT-ARC" } };
     const double width = scene->image.width, height = scene->image.height;
     const uint32_t sight = kd_camera_sight(scene);
-    if (scene->camera.projection == KD_PROJECTION_RING)
+    if (scene->camera.projection == KD_PROJECTION_RING || scene->camera.stereo == KD_STEREO_PAIR) /* two pictures have two */
         return (struct kd_wcs) { 0 };
     if (sight == KD_SIGHT_PLANE)
         return plane(scene);

@@ -63,6 +63,8 @@ enum kd_status kd_plan_to_json(const struct kd_plan *plan, struct kd_buffer *out
     kd_json_number(json, "critical_pixels", (double)plan->critical_pixels);
     kd_json_number(json, "critical_rays", (double)(kd_plan_rays(plan) - plan->rays));
     kd_json_number(json, "width", plan->width);
+    if (plan->eyes)
+        kd_json_number(json, "eyes", plan->eyes);
     kd_json_number(json, "height", plan->height);
     add_passes(json, plan);
     add_constants(json, plan);

@@ -37,6 +37,7 @@ WHEN(projected, plan->ring)
 WHEN(rounded, !plan->ring && !kd_scene_is_flat(scene))
 WHEN(single, plan->setting.precision == KD_PRECISION_F32)
 WHEN(twice, plan->setting.precision == KD_PRECISION_F64)
+WHEN(paired, plan->eyes == 2 && scene->camera.stereo)
 WHEN(compared, plan->setting.engine >= KD_ENGINE_KS_EULER)
 
 static const struct sentence {
@@ -60,6 +61,7 @@ static const struct sentence {
     { "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers", coloured },
     { "projection: distances to the critical curve on a logarithmic scale; no eye sees it so, and areas are not to scale", projected },
     { "projection: angles as distances, over half the sky or all of it; areas are not to scale", rounded },
+    { "camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space", paired },
     { "arithmetic: 32-bit; rays closer than about 1e-5 to the critical curve may be given the wrong fate", single },
     { "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md says how much that costs", compared },
@@ -419,11 +421,53 @@ done:
     return status;
 }
 
+/* Adds what another picture takes that is made after this one. */
+static void add(struct kd_plan *plan, const struct kd_plan *next)
+{
+    for (size_t i = 0; i < next->n_passes; i++) {
+        const struct kd_plan_pass *pass = &next->passes[i];
+        size_t k = 0;
+        while (k < plan->n_passes && strcmp(plan->passes[k].name, pass->name))
+            k++;
+        if (k == plan->n_passes)
+            plan->passes[plan->n_passes++] = (struct kd_plan_pass) { pass->name, pass->kernel, 0, 0, pass->figure };
+        plan->passes[k].invocations += pass->invocations;
+        plan->passes[k].estimate_ms += pass->estimate_ms;
+    }
+    plan->estimate_ms += next->estimate_ms;
+    plan->host_bytes = 2 * (plan->host_bytes + next->host_bytes); /* of each, and of both together */
+    plan->device_bytes = plan->device_bytes > next->device_bytes ? plan->device_bytes : next->device_bytes;
+    plan->cacheable = plan->cacheable && next->cacheable;
+}
+
+static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_needs *needs, const struct kd_capacity *capacity, struct kd_plan *out,
+                                struct kd_error *error)
+{
+    const struct kd_scene left = kd_scene_eye(scene, -1), right = kd_scene_eye(scene, 1);
+    struct kd_plan plan, next;
+    enum kd_status status;
+    if (needs->light && needs->unseen)
+        KD_TRY(kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where light is measured: there is one flux for each eye"));
+    KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
+    KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
+    add(&plan, &next);
+    plan.eyes = 2;
+    plan.n_approximations = 0;
+    approximations(&plan, scene);
+    if (lens_key(&plan, scene))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene"));
+    *out = plan;
+done:
+    return status;
+}
+
 enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_needs *needs,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {
     struct kd_plan plan;
     enum kd_status status;
+    if (scene->camera.stereo == KD_STEREO_PAIR)
+        return make_pair(scene, needs, capacity, out, error);
     KD_TRY(outline(scene, needs, capacity, &plan, error)); /* limits first: a list of what is too large takes long */
     KD_TRY(critical(&plan, scene, capacity, error));
     if (plan.critical)
@@ -457,5 +501,6 @@ enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capac
 {
     struct kd_plan plan;
     const struct kd_needs needs = kd_needs_of(scene);
-    return outline(scene, &needs, capacity, &plan, error);
+    const struct kd_scene first = scene->camera.stereo == KD_STEREO_PAIR ? kd_scene_eye(scene, -1) : *scene;
+    return outline(&first, &needs, capacity, &plan, error);
 }

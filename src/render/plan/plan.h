@@ -47,6 +47,8 @@ struct kd_plan_pass {
 struct kd_plan {
     uint32_t width, height, side;   /* pixels; rays along each side of a pixel */
     uint64_t rays;                  /* of the grid */
+    uint32_t eyes;                  /* 2: there is such a picture for each eye, side by side; passes, times and host_bytes are of both then, device_bytes of
+                                     * the larger one, and all else is the left one's. 0: one */
     uint32_t critical;              /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as of any other */
     uint32_t critical_dense;        /* where one is not enough (frame/refine.c); 0: all there have as many */
     uint64_t critical_pixels;       /* how many they are */
