@@ -173,6 +173,7 @@ static void marks_and_stars(void **state)
             continue;
         const struct place mark = centre(&picture, want.x, want.y, 6), star = centre(&points, want.x, want.y, 6);
         const double across = cos(b);
+        assert_true(mark.light > 1 && star.light > 1);
         seen++;
         together = fmax(together, hypot(across * (mark.x - star.x), mark.y - star.y));
         alone = fmax(alone, hypot(across * (mark.x - want.x), mark.y - want.y));
