@@ -295,9 +295,60 @@ static void dark_disk(void **state)
     assert_int_equal(bad, 0);
 }
 
+/* What rain sees of the whole sky at a radius: of each ray cos(theta) and azimuth where it ends, and its fate. */
+static void look_around(double spin, double inclination, double r, float ends[FACES][3 * RAYS])
+{
+    static float planes[(ORDERS + 3) * RAYS];
+    const struct seer rain = { "rain", spin, inclination, r, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 };
+    struct kd_capacity capacity;
+    kd_renderer_capacity(renderer, &capacity);
+    for (int face = 0; face < FACES; face++) {
+        const struct kd_scene scene = scene_of(&rain, face);
+        struct kd_plan plan;
+        OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_SKY }, &capacity, &plan, &error));
+        assert_int_equal(plan.planes, ORDERS + 3);
+        OK(kd_render_lens(renderer, &scene, &plan, planes, NULL, &error));
+        for (int k = 0; k < ORDERS * RAYS; k++)
+            assert_true(isfinite(planes[k]));
+        memcpy(ends[face], planes + ORDERS * RAYS, sizeof ends[face]);
+    }
+}
+
+/* On both sides of the horizon, and on it, one sees the same, in all directions, on the axis too: no ray is given up, none ends nowhere, and none
+ * elsewhere than it does a millionth of the radius away. */
+static void no_seam_at_the_horizon(void **state)
+{
+    (void)state;
+    static float ends[2][FACES][3 * RAYS];
+    static const double spins[] = { 0, 0.9, 0.9 }, inclinations[] = { 0, 0, 75 }, off[] = { -1e-3, -1e-6, 0, 1e-6, 1e-3 };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 5; k++) {
+            const double r = (spins[i] == 0 ? 2 : HORIZON) * (1 + off[k]), apart = k ? off[k] - off[k - 1] : 0;
+            size_t turned = 0, sky = 0;
+            look_around(spins[i], inclinations[i], r, ends[k % 2]);
+            for (int face = 0; face < FACES; face++)
+                for (int ray = 0; ray < RAYS; ray++) {
+                    const float *end = ends[k % 2][face] + ray, *before = ends[1 - k % 2][face] + ray;
+                    const bool here = end[2 * RAYS] == (float)KD_FATE_ESCAPED, there = before[2 * RAYS] == (float)KD_FATE_ESCAPED;
+                    assert_true(end[2 * RAYS] != (float)KD_FATE_UNDECIDED);
+                    assert_true(!here || (isfinite(end[0]) && isfinite(end[RAYS]) && fabsf(end[0]) <= 1));
+                    if (!k || !(here && there)) {
+                        turned += k && here != there;
+                        continue;
+                    }
+                    sky++;
+                    const double s = sqrt(1 - end[0] * end[0]), moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
+                    turned += moved > 1e-4 + 100 * apart;
+                }
+            /* What is within 0.01 of the critical curve is moved by 100 times as much: some rays in a hundred. */
+            if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
+                fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i], inclinations[i], r, turned, sky);
+        }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps), cmocka_unit_test(dark_disk) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(whole_sky), cmocka_unit_test(maps), cmocka_unit_test(dark_disk), cmocka_unit_test(no_seam_at_the_horizon) };
     int skip = open_renderer();
     return skip ? skip : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }
