@@ -77,7 +77,8 @@ export function buildFall(scene) {
     playing = false,
     r = 0, // that the camera was given
     since = 0,
-    seen = 0; // when a picture of the fall came last
+    seen = 0, // when a picture of the fall came last
+    revision = Infinity; // of the first one
 
   const first = () => way.left.at(-1),
     last = () => way.left[0];
@@ -173,6 +174,7 @@ export function buildFall(scene) {
     play.focus();
     time = first();
     seen = 0;
+    revision = Infinity;
     run(!still.matches);
   });
 
@@ -190,6 +192,9 @@ export function buildFall(scene) {
   return {
     begin,
     halt: () => way && playing && run(false),
-    shown: ({ shows }) => shows?.camera?.observer === 'infall' && (seen = performance.now()),
+    shown(frame) {
+      if (frame.shows?.camera?.observer === 'infall') revision = Math.min(revision, frame.revision);
+      if (frame.revision >= revision) seen = performance.now();
+    },
   };
 }

@@ -146,7 +146,8 @@ export function openSource(scene, size, shown, failed) {
     if (answer.status === 204) return;
     const get = name => answer.headers.get(name),
       quality = figures(get('Kerrd-Quality'));
-    const current = Number(get('Kerrd-Revision')) >= from.revision,
+    const revision = Number(get('Kerrd-Revision')),
+      current = revision >= from.revision,
       final = quality.final === 1 && current;
     if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final);
     from.frame = Number(get('Kerrd-Frame'));
@@ -155,7 +156,8 @@ export function openSource(scene, size, shown, failed) {
       picture: await answer.blob(),
       ...quality,
       final,
-      shows: current ? from.document : null,
+      revision,
+      shows: current ? from.document : null, // as far as is known
       pace: scene.goesOn() && recent.length > 2 && recent.length / 2,
       accuracy: figures(get('Kerrd-Accuracy')),
       approximations: sentences(get('Kerrd-Approximations')),
