@@ -97,7 +97,10 @@ const patience_ms = 1000;
 // The picture first: what else there is takes a tenth of a second to build, and would keep it from being shown.
 async function watch(scene) {
   const stage = byId('stage'),
-    size = () => windowSize(stage);
+    size = () => {
+      const { width, height } = windowSize(stage);
+      return { width: scene.get('camera.stereo') === 'pair' ? width / 2 : width, height }; // of a pair each eye has half of the window
+    };
   let old = '',
     picture = byId('picture'),
     built,

@@ -238,7 +238,7 @@ export function buildOverlays(root, stage, scene) {
       tell(notes.get(name), '');
       if (!chosen.has(name)) continue;
       try {
-        if (scene.get('camera.projection') === 'ring') throw new Error(t('not in this projection', 'non in questa proiezione'));
+        if (scene.get('camera.projection') === 'ring' || scene.get('camera.stereo') === 'pair') throw new Error(t('not in this projection', 'non in questa proiezione'));
         const { lines, labels = [], words } = await make(scene, look);
         groups.push(
           svg(

@@ -8,7 +8,7 @@ const near_px = 16;
 const rest_ms = 250; // that a camera has been still
 const hidden = 0.02; // through which part of a disk a star shows
 
-export const hasNames = scene => scene.get('sky.model') === 'catalogue' && scene.get('camera.projection') !== 'ring';
+export const hasNames = scene => scene.get('sky.model') === 'catalogue' && scene.get('camera.projection') !== 'ring' && scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
 
 // What decides where they are, as a key; the clock does not.

@@ -86,7 +86,7 @@ export function handle(stage, scene) {
     const { clientWidth: width, clientHeight: height } = stage;
     if (get('projection') === 'equirectangular') return 360 / width;
     if (get('projection') === 'fulldome') return 180 / Math.min(width, height);
-    return (2 * Math.tan((get('fov_deg') / 2) * radians)) / width / radians;
+    return (2 * Math.tan((get('fov_deg') / 2) * radians)) / (get('stereo') === 'pair' ? width / 2 : width) / radians;
   }
 
   // What lies under the pointer comes along.

@@ -424,7 +424,8 @@ class Kerrd(unittest.TestCase):
         self.assertIsNone(next(s for s in opaque['images'] if s['through'] == 0)['seen_magnitude'])
         far = self.daemon.post('/v1/render', {'sky': sky, 'image': {'width': 200, 'height': 120}}, Accept=ask).json()
         self.assertEqual({s['magnification'] for s in far['images']}, {None}, 'parallel rays have no solid angle')
-        for scene, at in (({}, '/sky/model'), ({'sky': {'model': 'stars'}}, '/sky/model'), ({'sky': sky, 'camera': {'projection': 'ring'}}, '/camera/projection')):
+        for scene, at in (({}, '/sky/model'), ({'sky': {'model': 'stars'}}, '/sky/model'), ({'sky': sky, 'camera': {'projection': 'ring'}}, '/camera/projection'),
+                          ({'sky': sky, 'camera': {'r': 30, 'stereo': 'pair'}}, '/camera/stereo')):
             refused = self.daemon.post('/v1/render', scene, Accept=ask)
             self.assertEqual((refused.status, refused.json()['pointer']), (422, at))
 

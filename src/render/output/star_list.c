@@ -38,6 +38,8 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
         return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", which has no stars to name: allowed are the others");
     if (scene->camera.stereo == KD_STEREO_PAIR)
         return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", allowed is \"none\" where stars are named: places in a picture are those of one eye");
+    if (scene->camera.stereo != KD_STEREO_NONE)
+        return kd_error_field(error, "/camera/stereo", "camera.stereo is \"pair\", whose stars are not named: allowed is \"none\"");
     scene->image.samples = 1;
     scene->image.critical_factor = 1;
     scene->image.layers = (struct kd_words) { 2, { { KD_LAYER_sky_theta, -1 }, { KD_LAYER_sky_phi, -1 } } };
