@@ -21,7 +21,7 @@ struct arguments {
 };
 
 static const struct argp_option table[] = {
-    { "output", 'o', "FILE", 0, "the PNG file to write, - for standard output (required)", 0 },
+    { "output", 'o', "FILE", 0, "the file to write, by its end a PNG, FITS, EXR, NPZ or NPY; - for standard output, a PNG (required)", 0 },
     KD_CLI_MEMORY,
     { "stats", 't', NULL, 0, "print times and accuracy as one line of JSON on standard error", 0 },
     { 0 },
@@ -163,7 +163,7 @@ int kd_cli_render(int argc, char **argv)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc = "Render a scene to a PNG file. Without a scene, the default one.\v"
+        .doc = "Render a scene to a picture, or to a file of numbers. Without a scene, the default one.\v"
                "Merged in this order: defaults or --preset; SCENE.json, or the scene of --from; every --set. "
                "The picture carries its scene: --from renders it again.",
         .children = kd_scene_device_children,

@@ -1,6 +1,7 @@
 #include "image/exr.h"
 
 #include <openexr.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@ struct file {
     size_t from; /* of the buffer: what was in it before */
     const uint8_t *data;
     size_t size;
+    bool no_memory;
     char message[160];
 };
 
@@ -23,6 +25,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
         static const uint8_t zeros[4096];
         size_t more = end - f->out->size;
         if (kd_buffer_append(f->out, zeros, more < sizeof zeros ? more : sizeof zeros)) {
+            f->no_memory = true;
             fail(context, EXR_ERR_OUT_OF_MEMORY, "out of memory");
             return -1;
         }
@@ -58,7 +61,7 @@ static void keep_message(exr_const_context_t context, exr_result_t code, const c
 
 static enum kd_status failed(const struct file *f, exr_result_t code, struct kd_error *error)
 {
-    return code == EXR_ERR_OUT_OF_MEMORY ? kd_error_set(error, KD_ENOMEM, "out of memory for an EXR file")
+    return f->no_memory || code == EXR_ERR_OUT_OF_MEMORY ? kd_error_set(error, KD_ENOMEM, "out of memory for an EXR file")
                                          : kd_error_set(error, KD_EINVAL, "EXR: %s", *f->message ? f->message : exr_get_default_error_message(code));
 }
 

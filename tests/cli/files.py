@@ -76,6 +76,14 @@ class Files(support.Case):
         self.good("render", *SCENE, "-o", self.path("c.png"))
         self.good("render", "--from", self.files["fits"], "--set", "image.layers=rgb", "-o", self.path("b.png"))
         self.assertEqual(self.read("b.png"), self.read("c.png"))
+        whole = self.read("a.npz")
+        self.write("torn.npz", whole[:900] + bytes(len(whole) - 900))
+        self.bad(2, "no notes.json", "render", "--from", self.path("torn.npz"), "-o", self.path("d.png"))
+        torn = bytearray(self.read("a.fits"))
+        at = torn.index(b"CONTINUE", torn.index(b"KDSCENE"))
+        torn[at:at + 80] = b" " * 80
+        self.write("torn.fits", bytes(torn))
+        self.bad(2, "no whole card KDSCENE", "render", "--from", self.path("torn.fits"), "-o", self.path("d.png"))
         for end, head, words in (("fits", 2880, "no whole card KDSCENE"), ("exr", 400, "EXR: "), ("npz", 900, "no notes.json")):
             self.write("cut." + end, self.read("a." + end)[:head])
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
@@ -105,6 +113,14 @@ class Files(support.Case):
         east, north = WCS(header).pixel_to_world_values(0, 35)
         self.assertAlmostEqual(float(east) * 3.6e9 / (11.75 * M_UAS), 1, delta=1e-6)
         self.assertAlmostEqual(float(north) * 3.6e9 / (8.75 * M_UAS), 1, delta=1e-6)
+        rolled = ["--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", "--set", "camera.roll_deg=90"]
+        header = self.opened(self.shot("e.fits", *rolled, layers=["r"]))[0].header
+        alpha, beta = WCS(header, key="A").pixel_to_world_values(0, 35)  # 15.75 left of the middle and 8.75 above: what is up looks along alpha
+        self.assertAlmostEqual(float(alpha), 4 + 8.75, places=9)
+        self.assertAlmostEqual(float(beta), 15.75, places=9)
+        east, north = WCS(header).pixel_to_world_values(0, 35)
+        self.assertAlmostEqual((float(east) - 360) * 3.6e9 / (-12.75 * M_UAS), 1, delta=1e-6)
+        self.assertAlmostEqual(float(north) * 3.6e9 / (15.75 * M_UAS), 1, delta=1e-6)
         near = ["--set", "camera.r=20", "--set", "camera.fov_deg=90", "--set", "accuracy.orders=2"]
         header = self.opened(self.shot("b.fits", *near, layers=["r"]))[0].header
         right, up = WCS(header).pixel_to_world_values(63, 17.5)

@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static enum kd_status put_axes(struct kd_buffer *cards, const struct kd_wcs_axis axes[2], const char *alternate)
+static enum kd_status put_axes(struct kd_buffer *cards, const struct kd_wcs *wcs, const struct kd_wcs_axis axes[2], const char *alternate)
 {
     static const char *const names[] = { "CTYPE", "CRPIX", "CRVAL", "CDELT", "CUNIT" };
     enum kd_status status;
@@ -30,6 +30,10 @@ static enum kd_status put_axes(struct kd_buffer *cards, const struct kd_wcs_axis
                 KD_TRY(kd_fits_real(cards, key, numbers[k], NULL));
             }
         }
+        for (int j = 0; j < 2 && wcs->turn[0][0] != 1; j++) {
+            snprintf(key, sizeof key, "PC%d_%d%s", i + 1, j + 1, alternate);
+            KD_TRY(kd_fits_real(cards, key, wcs->turn[i][j], NULL));
+        }
     }
     return KD_OK;
 done:
@@ -40,13 +44,13 @@ static enum kd_status put_world(struct kd_buffer *cards, const struct kd_wcs *wc
 {
     enum kd_status status = KD_OK;
     if (!wcs->known)
-        return kd_fits_comment(cards, "no world coordinates: columns are angles, rows decades of distance");
-    KD_TRY(put_axes(cards, wcs->at, ""));
+        return kd_fits_comment(cards, "no world coordinates: a ring, or two pictures side by side");
+    KD_TRY(put_axes(cards, wcs, wcs->at, ""));
     if (!wcs->far) {
         KD_TRY(kd_fits_text(cards, "WCSNAME", "camera", "to the right of its axis, and above it"));
         return KD_OK;
     }
-    KD_TRY(put_axes(cards, wcs->impact, "A"));
+    KD_TRY(put_axes(cards, wcs, wcs->impact, "A"));
     KD_TRY(kd_fits_text(cards, "WCSNAMEA", "impact parameters", "M"));
 done:
     return status;

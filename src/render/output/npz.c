@@ -90,8 +90,11 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
     cJSON *notes = status ? NULL : cJSON_ParseWithLength((const char *)text.data, text.size);
     cJSON *scene = cJSON_GetObjectItemCaseSensitive(notes, "scene");
     char *printed = scene ? cJSON_PrintUnformatted(scene) : NULL;
-    status = printed ? kd_notes_scene(printed, strlen(printed), out, error)
-                     : kd_error_set(error, KD_EINVAL, "the NPZ file holds no scene: it has no notes.json with one");
+    if (status == KD_ENOMEM)
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the notes of an NPZ file");
+    else
+        status = printed ? kd_notes_scene(printed, strlen(printed), out, error)
+                         : kd_error_set(error, KD_EINVAL, "the NPZ file holds no scene: it has no notes.json with one");
     cJSON_free(printed);
     cJSON_Delete(notes);
     kd_buffer_finish(&text);

@@ -6,11 +6,12 @@
 
 static const struct kd_series pictures = { .name = "pictures", .noun = "picture", .each = "pictures", .frame = &kd_format_png };
 static const struct kd_series layers = { .name = "layers", .noun = "array", .each = "arrays of numbers", .frame = &kd_format_npy };
+static const struct kd_series npy = { .name = "npy", .noun = "array", .each = "arrays of numbers", .frame = &kd_format_npy }; /* another name of layers */
 static const struct kd_series npz = { .name = "npz", .noun = "NPZ file", .each = "NPZ files", .frame = &kd_format_npz };
 static const struct kd_series fits = { .name = "fits", .noun = "FITS file", .each = "FITS files", .frame = &kd_format_fits };
 static const struct kd_series exr = { .name = "exr", .noun = "EXR file", .each = "EXR files", .frame = &kd_format_exr };
 
-const struct kd_series *const kd_series_all[] = { &pictures, &layers, &npz, &fits, &exr, &kd_light_curve };
+const struct kd_series *const kd_series_all[] = { &pictures, &layers, &npy, &npz, &fits, &exr, &kd_light_curve };
 const size_t kd_n_series = sizeof kd_series_all / sizeof *kd_series_all;
 
 const struct kd_series *kd_series_named(const char *name)

@@ -1,5 +1,6 @@
 #include "render/output/wcs.h"
 
+#include "physics/angle.h"
 #include "physics/scale.h"
 #include "render/view/camera.h"
 
@@ -8,15 +9,20 @@
 #define DEGREE (M_PI / 180)
 #define MICROARCSECOND (1 / 3.6e9) /* degrees */
 
+/* Of a place (x, y) right of and above the middle, in pixels, alpha - centre_alpha = step (cos x + sin y), beta - centre_beta = step (cos y - sin x): the
+ * camera rolls clockwise. The pixel of reference is where both are 0. */
 static struct kd_wcs plane(const struct kd_scene *scene)
 {
     const struct kd_camera *c = &scene->camera;
     double step = kd_camera_pixel(scene), angle = step * kd_scale_microarcseconds(scene->spacetime.mass_msun, scene->spacetime.distance_pc) * MICROARCSECOND;
-    double x = 0.5 * (scene->image.width + 1) - c->centre_alpha / step, y = 0.5 * (scene->image.height + 1) - c->centre_beta / step;
+    double cr = kd_cos_deg(c->roll_deg), sr = kd_sin_deg(c->roll_deg);
+    double x = 0.5 * (scene->image.width + 1) - (cr * c->centre_alpha - sr * c->centre_beta) / step;
+    double y = 0.5 * (scene->image.height + 1) - (sr * c->centre_alpha + cr * c->centre_beta) / step;
     return (struct kd_wcs) {
         .known = true, .far = true,
         .at = { { "RA---SIN", "deg", x, 0, -angle }, { "DEC--SIN", "deg", y, 0, angle } },
         .impact = { { "ALPHA", "", x, 0, step }, { "BETA", "", y, 0, step } },
+        .turn = { { cr, sr }, { -sr, cr } },
     };
 }
 
@@ -32,7 +38,7 @@ struct kd_wcs kd_wcs_of(const struct kd_scene *scene)
         return plane(scene);
     double step = sight == KD_SIGHT_SPHERE ? 360 / width : sight == KD_SIGHT_DOME ? 180 / fmin(width, height) : kd_camera_pixel(scene) / DEGREE;
     return (struct kd_wcs) {
-        .known = true,
+        .known = true, .turn = { { 1, 0 }, { 0, 1 } },
         .at = { { types[sight][0], "deg", 0.5 * (width + 1), 0, step },
                 { types[sight][1], "deg", 0.5 * (height + 1), 0, sight == KD_SIGHT_SPHERE ? 180 / height : step } },
     };

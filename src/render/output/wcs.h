@@ -13,10 +13,11 @@ struct kd_wcs_axis {
 };
 
 struct kd_wcs {
-    bool known;               /* false: the projection has no linear axes, or there are two pictures */
+    bool known;               /* false: the projection has no linear axes, or the file has two pictures side by side, or there are two pictures */
     struct kd_wcs_axis at[2]; /* far away, east to the left, by mass and distance of the hole; near, right of and above the camera's axis */
     bool far;                 /* then the same places are */
     struct kd_wcs_axis impact[2]; /* impact parameters alpha and beta, M */
+    double turn[2][2]; /* PCi_j of both: how steps of the axes are made of pixels, where the camera rolls */
 };
 
 /* The scene must be valid. */
