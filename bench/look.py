@@ -40,7 +40,7 @@ def frames(bench, scene, repeat):
 
 
 def least(runs, kind):
-    """Of each pass, and of the whole frame, by itself."""
+    """The least time of each pass, and of the whole frame, by itself."""
     names = {name: None for r in runs for f in r[kind] for name, value in f.items() if isinstance(value, float) and not name.startswith("encode")}
     return {name: min(f[name] for r in runs for f in r[kind] if name in f) for name in names}
 

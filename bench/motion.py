@@ -53,7 +53,7 @@ def film(port, samples, inclination):
 
 
 def figures(light, truth):
-    """Of what an eye sees, so that bright gas does not outweigh all else: the square root of light."""
+    """This is of what an eye sees, so that bright gas does not outweigh all else: the square root of light."""
     light, truth = numpy.sqrt(light), numpy.sqrt(truth)
     lit = truth.mean(0) > 0.02
     step = lambda x: numpy.square(numpy.diff(x, axis=0)).mean(0)

@@ -33,7 +33,7 @@ def galactic(ra, dec):
 
 
 def centre(light, left, b, radius):
-    """Of the upper part of the light in a circle, as an offset in degrees; left: degrees from the middle column to the left."""
+    """Where the upper part of the light in a circle has its centre, as an offset in degrees; left: degrees from the middle column to the left."""
     height, width = light.shape
     scale = width / 360
     x, y, c = (180 - left) % 360 * scale, (90 - b) * scale, np.cos(np.radians(b))

@@ -71,7 +71,7 @@ export function showAccuracy(frame, scene) {
   byId('approximations').replaceChildren(...frame.approximations.map(sentence => tell(el('li'), sentence)));
 }
 
-// Of an observer that falls by itself.
+// What is said of an observer that falls by itself.
 function fallen({ r, proper_time_to_horizon: left }) {
   const horizon = left == null ? t('within the horizon', 'dentro l’orizzonte') : t(`${number(left, 3)} M to the horizon`, `${number(left, 3)} M all’orizzonte`);
   return `r = ${number(r, 3)} M, ${horizon}; `;

@@ -103,7 +103,7 @@ function row(field, scene) {
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true }),
     about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
-  // Of a choice it is told what is chosen.
+  // The help of a choice tells what is chosen.
   function show() {
     control.show();
     const told = hint(field.path, scene.get(field.path));

@@ -44,7 +44,7 @@ function mergePatch(before, after) {
 
 const least_samples = 2;
 
-// Of a picture at rest; what is saved has as many.
+// A picture at rest has so many; what is saved has as many.
 export const samples = scene => (scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples));
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));

@@ -81,16 +81,16 @@ kd_point runge_kutta(kd_point y, float h)
 }
 
 /* Tao's method holds two copies of the phase space. */
-struct kd_pair { kd_point a, b; };
+struct kd_copies { kd_point a, b; };
 
-kd_pair drift_a(kd_pair y, float h)
+kd_copies drift_a(kd_copies y, float h)
 {
     kd_point k = flow(y.a.x, y.b.p);
     y.a.p += h * k.p;
     y.b.x += h * k.x;
     return y;
 }
-kd_pair drift_b(kd_pair y, float h)
+kd_copies drift_b(kd_copies y, float h)
 {
     kd_point k = flow(y.b.x, y.a.p);
     y.b.p += h * k.p;
@@ -98,7 +98,7 @@ kd_pair drift_b(kd_pair y, float h)
     return y;
 }
 /* A rotation binds the copies: (x - x', p - p') turns by 2 omega h, whose cosine and sine are t. */
-kd_pair bind(kd_pair y, kd_phasor t)
+kd_copies bind(kd_copies y, kd_phasor t)
 {
     vec3 sx = 0.5 * (y.a.x + y.b.x), sp = 0.5 * (y.a.p + y.b.p), dx = 0.5 * (y.a.x - y.b.x), dp = 0.5 * (y.a.p - y.b.p);
     vec3 rx = t.c * dx + t.s * dp, rp = t.c * dp - t.s * dx;
@@ -108,7 +108,7 @@ kd_pair bind(kd_pair y, kd_phasor t)
     y.b.p = sp - rp;
     return y;
 }
-kd_pair tao_2(kd_pair y, float h, kd_phasor t)
+kd_copies tao_2(kd_copies y, float h, kd_phasor t)
 {
     y = drift_a(y, 0.5 * h);
     y = drift_b(y, 0.5 * h);
@@ -118,7 +118,7 @@ kd_pair tao_2(kd_pair y, float h, kd_phasor t)
 }
 const float YOSHIDA[4] = float[4](0.784513610477560, 0.235573213359357, -1.17767998417887, 1.315186320683906);
 
-kd_pair tao_6(kd_pair y, float h, kd_phasor turns[4])
+kd_copies tao_6(kd_copies y, float h, kd_phasor turns[4])
 {
     for (int i = 0; i < 7; i++) {
         int k = i < 4 ? i : 6 - i;
@@ -161,7 +161,7 @@ void main()
     if (gl_GlobalInvocationID.x >= push.count)
         return;
     uint i = push.first + gl_GlobalInvocationID.x, in_ = 8 * i, o = (3 * ORDERS + 4) * i;
-    kd_pair y;
+    kd_copies y;
     y.a.x = vec3(rays.list[in_], rays.list[in_ + 1], rays.list[in_ + 2]);
     y.a.p = vec3(rays.list[in_ + 3], rays.list[in_ + 4], rays.list[in_ + 5]);
     y.b = y.a;

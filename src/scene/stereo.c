@@ -1,4 +1,4 @@
-/* The eyes of a pair. */
+/* This says where the eyes of a pair are. */
 #include "scene/scene.h"
 
 #include "physics/angle.h"

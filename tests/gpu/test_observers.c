@@ -207,7 +207,7 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
         if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_kerr_horizon(seer->spin))))
             continue;
         o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
-        /* Of what turns outside and comes back towards the horizon the azimuth diverges, and its quadrature with it. */
+        /* The azimuth of what turns outside and comes back towards the horizon diverges, and its quadrature with it. */
         bool back = !want.falls[order] && want.r[order] < 1.9 * kd_kerr_horizon(seer->spin);
         if (w > 0 && has)
             o->errors[o->n++] = (fabs(1 / w / want.r[order] - 1) + (back ? 0 : fabs(turn(phi - want.phi[order])))) /

@@ -236,7 +236,7 @@ static void same_light(const struct shown *shown)
     kd_frame_finish(&frame);
 }
 
-/* Of turbulence, order 0 of a fine ring: elsewhere a pixel of the ring stands for many cells, and shows their mean. */
+/* Turbulence is compared at order 0 of a fine ring: elsewhere a pixel of the ring stands for many cells, and shows their mean. */
 static void light_is_that_of_a_plane_picture(void **state)
 {
     (void)state;

@@ -19,7 +19,7 @@ def chunk(kind, data):
 
 
 def png(width=8, height=4, seed=0, depth=8, colour=2, pixels=None, before=b''):
-    """Of noise, which nothing compresses: about 3 bytes a pixel."""
+    """A picture of noise, which nothing compresses, has about 3 bytes a pixel."""
     row = {0: 1, 2: 3, 3: 1, 6: 4}[colour] * width * depth // 8
     noise = b''.join(hashlib.sha256(b'%d %d' % (seed, i)).digest() for i in range((row + 1) * height // 32 + 1)) if pixels is None else pixels
     rows = b''.join(b'\0' + noise[i * row:(i + 1) * row] for i in range(height))
@@ -135,7 +135,7 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{'Sec-Fetch-Site': 'cross-site'}), 403, 'cross-site')
 
     def test_many_at_once(self):
-        """Of the same bytes one is told that it was the first; the others wait or are told that it is there."""
+        """One who puts the same bytes as others is told that it was the first; the others wait or are told that they are there."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:

@@ -23,7 +23,7 @@ SCENE = {'image': IMAGE, 'time': 5}
 SLOW = {'image': IMAGE, 'time': 30000}
 
 
-# Of test_smooth, by scipy.interpolate:
+# test_smooth expects these, by scipy.interpolate:
 #   x, y = [0, 10, 15, 40, 50], [10, 20, 80, 75, 75]; d = PchipInterpolator(x, y).derivative()(x); d[0] = d[-1] = 0; CubicHermiteSpline(x, y, d)
 SMOOTH = {0: 10, 4: 11.56377358490566, 9: 18.06943396226415, 10: 20, 12: 42.587169811320756, 15: 80, 30: 76.76, 45: 75, 50: 75}
 

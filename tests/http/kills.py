@@ -21,7 +21,7 @@ SEED = int(os.environ.get('KD_SEED', time.time_ns() & 0xffffffff))
 
 
 def request(n):
-    """Of 1 to 6 frames, some 10 to 60 ms each; no two alike."""
+    """A job has 1 to 6 frames, some 10 to 60 ms each; no two alike."""
     scene = {'image': {'width': 32 + n % 7, 'height': 18}, 'style': {'exposure': 1}, 'camera': {'inclination_deg': 10 + n % 70}}
     return {'scenes': [{**scene, 'time': 10 + 10 * ((n + i) % 6) + n * 1e-3} for i in range(1 + n % 6)]}
 

@@ -76,7 +76,7 @@ class Orbits(daemon.Case):
         self.assertEqual(lines[-1]['result'], whole['result'])
 
     def test_numbers(self):
-        """Of the orbit itself, from what is known of it."""
+        """Numbers of the orbit itself follow from what is known of it."""
         answer = strict(self.good({'orbit': {'p': 8, 'e': 0.5}, 'duration': {'periods': 1000}, 'steps': 320, 'samples': 1001}).body)
         self.assertAlmostEqual(answer['constants']['energy'], math.sqrt((36 - 1) / (8 * (8 - 3 - 0.25))), delta=1e-14)
         self.assertAlmostEqual(answer['constants']['angular_momentum'], 8 / math.sqrt(8 - 3 - 0.25), delta=1e-14)

@@ -242,7 +242,7 @@ class Held(daemon.Case):
 
 
 def slice_ns(thread):
-    """Of a thread's turns, that it has asked the scheduler for; None: this kernel does not say (it does from Linux 6.12 on)."""
+    """How long turns a thread has asked the scheduler for; None: this kernel does not say (it does from Linux 6.12 on)."""
     attributes = ctypes.create_string_buffer(48)
     known = {'x86_64': 315, 'aarch64': 275}.get(os.uname().machine)  # sched_getattr
     if not known or ctypes.CDLL(None).syscall(known, thread, attributes, 48, 0):

@@ -80,7 +80,7 @@ class Sessions(daemon.Owned):
         self.assertProblem(self.patch(session, '{}', **{'Content-Type': 'text/plain'}), 415)
 
     def test_what_varies(self):
-        """Of each emitter that is there, whether time goes on or not."""
+        """It is said of each emitter that is there, whether time goes on or not."""
         session = self.open()
         self.assertEqual(self.status(session)['varies'], [])
         for patch, varies in (({'sky': {'model': 'grid'}}, ['moves_with_azimuth']),
@@ -599,7 +599,7 @@ class Sessions(daemon.Owned):
                 self.assertAlmostEqual(event['simulation']['ringdown'], wave, delta=1e-3)
 
     def exposures(self, s, n):
-        """Of the next n events of a stream."""
+        """Exposures that the next n events of a stream tell."""
         text = b''
         while text.count(b'\n\n') < n:
             text += s.recv(65536)

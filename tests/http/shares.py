@@ -256,13 +256,13 @@ class Connections(Case):
         return answer.status == 429
 
     def test_a_client_that_has_all_its_connections_shuts_nobody_else_out(self):
-        """Of connections that have begun a request, and of those that are kept alive after one."""
+        """This holds for connections that have begun a request, and for those that are kept alive after one."""
         for begin in (b'GET /v1/presets HTTP/1.1\r\nHost: loc', b'GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n'):
             with self.subTest(begin):
                 before = self.daemon.open_files()
                 self.hold(begin)
                 self.assertEqual({self.ask('127.0.0.2', 'GET', '/v1/presets').status for _ in range(20)}, {200})
-                # Of 200 at once some are turned away as one too many before they count as his: he asks until he has all that he may have.
+                # Some of 200 at once are turned away as one too many before they count as his: he asks until he has all that he may have.
                 self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.refused()))
                 self.doCleanups()
                 self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))

@@ -112,7 +112,7 @@ def infinity(a, m, omega, lam, r, terms):
     p2, p1, p0, nu = p2[::-1], [0] + p1[::-1], p0[::-1], 2j * omega - 1 - 2 * S
 
     def factor(i, k):
-        """Of r^(4 - i) in what the equation makes of the k-th term."""
+        """The factor of r^(4 - i) in what the equation makes of the k-th term."""
         mu, get = nu - k, lambda p, n: p[n] if 0 <= n < len(p) else 0
         return get(p2, i) * -omega**2 + get(p2, i - 1) * 2j * omega * mu + get(p2, i - 2) * mu * (mu - 1) + \
             get(p1, i) * 1j * omega + get(p1, i - 1) * mu + get(p0, i)

@@ -39,7 +39,7 @@ def whirl(a, energy):
 
 
 def rates(a, energy, l, w):
-    """Of Mino time, proper time, t, phi."""
+    """These are of Mino time, proper time, t, phi."""
     r = 1 / w
     delta, past = r * r - 2 * r + a * a, energy * (r * r + a * a) - a * l
     return 1, r * r, (r * r + a * a) * past / delta + a * (l - a * energy), l - a * energy + a * past / delta

@@ -29,7 +29,7 @@ FLAGS = ['--no-sandbox', '--disable-gpu', '--disable-3d-apis', '--disable-quic',
 
 
 def value(cell):
-    """Of a number as the page writes it in English: 1,234.5 or 6.3 × 10⁻⁵."""
+    """The value of a number as the page writes it in English: 1,234.5 or 6.3 × 10⁻⁵."""
     superscripts = str.maketrans('⁰¹²³⁴⁵⁶⁷⁸⁹⁻', '0123456789-')
     return float(cell.replace(',', '').replace('−', '-').replace(' × 10', 'e').translate(superscripts))
 

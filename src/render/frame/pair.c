@@ -1,4 +1,4 @@
-/* A pair of pictures, one for each eye, side by side. */
+/* This renders a pair of pictures, one for each eye, side by side. */
 #include "render/frame/pair.h"
 
 #include <math.h>
