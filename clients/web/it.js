@@ -370,6 +370,10 @@ const refusals = [
     '{} è {}, con cui l’osservatore torna indietro fuori da camera.r {}; ammessi sono quelli più vicini a 0',
   ],
   [
+    '{} is {}, allowed is {} with motion.proper_time_rate {} of one who falls: the way leads into the ergosphere, where there is none',
+    '{} è {}, ammesso è {} con motion.proper_time_rate {} di chi cade: il cammino porta nell’ergosfera, dove non c’è',
+  ],
+  [
     '{} is {}, allowed is {} but from a finite camera.r in pinhole projection',
     '{} è {}, ammesso è {} salvo da un camera.r finito nella proiezione stenopeica',
   ],

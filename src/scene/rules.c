@@ -189,6 +189,9 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
     if (!kd_worldline_is_known(&motion, &at))
         return kd_error_field(error, "/motion/proper_time_rate", "motion.proper_time_rate is %s, allowed is 0 unless camera.observer stays, goes round in "
                               "the equatorial plane or falls without leaving its latitude, from a finite camera.r", show(m->proper_time_rate).text);
+    if (scene->disk.slow_light && scene->camera.observer == KD_OBSERVER_INFALL)
+        return kd_error_field(error, "/disk/slow_light", "disk.slow_light is true, allowed is false with motion.proper_time_rate %s of one who falls: the way leads "
+                              "into the ergosphere, where there is none", show(m->proper_time_rate).text);
     if (m->time_rate == 0 && m->azimuth_rate_deg == 0)
         return KD_OK;
     const bool time = m->time_rate != 0;
@@ -314,7 +317,7 @@ const struct kd_rule kd_rules[] = {
       idle_motion },
     { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), goes round in the equatorial plane, or falls "
       "without leaving its latitude: without spin, in that plane, on the axis, or from rest at infinity; `motion.time_rate` and "
-      "`motion.azimuth_rate_deg` are 0 then.",
+      "`motion.azimuth_rate_deg` are 0 then, and `disk.slow_light` is false for one who falls.",
       path },
     { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection, and `camera.observer` exists where each eye is, less than `camera.r` from the other.",
       stereo },

@@ -27,6 +27,8 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
 {
     unsigned frame = 0;
     char allowed[80];
+    if (!first && last(r)->at >= r->form->most)
+        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, the last place that there may be", pointer + 1, r->form->most);
     if (r->form->whole) {
         enum kd_status status = kd_member_whole(item, pointer, first ? 0 : (unsigned)last(r)->at + 1, (unsigned)r->form->most, &frame, r->error);
         *out = frame;
@@ -83,7 +85,7 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
 {
     const cJSON *place = NULL, *scene = NULL, *proper_time = NULL;
     char pointer[40], at[60];
-    double where;
+    double where = 0;
     enum kd_status status;
     snprintf(pointer, sizeof pointer, "/keyframes/%zu", index);
     if (!cJSON_IsObject(item)) {

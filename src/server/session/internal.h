@@ -16,7 +16,8 @@ struct kd_session {
     unsigned references;
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     struct kd_scene scene; /* as at since_ms */
-    struct kd_timeline path; /* what it goes along since then instead, if it has keys */
+    struct kd_timeline path; /* what it goes along since then instead, if it has keys; */
+    struct kd_scene on_path; /* the latest valid scene of which */
     double since_ms, used_ms;
     char lens_key[65]; /* of the scene as asked */
     struct kd_governor governor;

@@ -281,7 +281,7 @@ static enum MHD_Result follow(struct kd_request *request, struct kd_session *ses
 enum MHD_Result kd_handle_session_path(struct kd_request *request)
 {
     enum MHD_Result result;
-    struct kd_session_state state;
+    struct kd_error error = { 0 };
     struct kd_session *session = kd_session_of(request, &result);
     if (!session)
         return result;
@@ -290,8 +290,7 @@ enum MHD_Result kd_handle_session_path(struct kd_request *request)
     } else if (strcmp(request->method, "DELETE")) {
         result = follow(request, session);
     } else {
-        kd_session_stop(session, &state);
-        result = kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+        result = kd_session_stop(session, &error) ? kd_reply_error(request, &error) : kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
     }
     kd_session_release(session);
     return result;

@@ -87,6 +87,7 @@ void kd_session_pump(struct kd_session *s)
         fail(s, &error);
         return;
     }
+    s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
     if (moves || s->moved) /* what has come to rest since the latest frame differs from it too */
         kd_governor_changed(&s->governor, now, &scene, flies || s->flew);

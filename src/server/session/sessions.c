@@ -66,12 +66,12 @@ enum kd_status kd_session_scene(const struct kd_session *s, double now, struct k
     return status;
 }
 
-/* The scene as far as it is known: where a path is no valid scene, what it began with. */
+/* The scene as far as it is known: where a path is no valid scene, the latest that was one. */
 static struct kd_scene scene_now(const struct kd_session *s, double now)
 {
     struct kd_scene scene;
     struct kd_error error = { 0 };
-    return kd_session_scene(s, now, &scene, &error) ? s->scene : scene;
+    return kd_session_scene(s, now, &scene, &error) ? s->on_path : scene;
 }
 
 /* From here on functions take the lock themselves. */
@@ -230,7 +230,7 @@ done:
     return status;
 }
 
-#define PATH_LOOKS 100
+#define PATH_LOOKS 30 /* of up to a quarter of a millisecond */
 
 /* Whether all of it is possible, as far as some looks can tell. Frames on the way are planned anew. */
 static enum kd_status check_path(const struct kd_session *s, const struct kd_timeline *path, struct kd_error *error)
@@ -262,13 +262,14 @@ done:
 enum kd_status kd_session_follow(struct kd_session *s, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error)
 {
     struct kd_plan plan;
-    const double now = kd_clock_ms();
     enum kd_status status;
     KD_TRY(check_path(s, path, error));
     KD_TRY(make_plan(s->all, &path->keys[0].scene, &plan, error));
+    const double now = kd_clock_ms();
     pthread_mutex_lock(&s->all->lock);
     kd_timeline_finish(&s->path);
     s->path = *path;
+    s->on_path = path->keys[0].scene;
     *path = (struct kd_timeline) { 0 };
     change(s, now, &s->path.keys[0].scene, &plan);
     state(s, out);
@@ -277,20 +278,24 @@ done:
     return status;
 }
 
-void kd_session_stop(struct kd_session *s, struct kd_session_state *out)
+enum kd_status kd_session_stop(struct kd_session *s, struct kd_error *error)
 {
-    pthread_mutex_lock(&s->all->lock);
+    struct kd_plan plan;
     const double now = kd_clock_ms();
-    if (s->path.n_keys) {
-        s->scene = scene_now(s, now);
-        s->since_ms = now;
-        s->revision++;
-        kd_timeline_finish(&s->path);
-        kd_governor_changed(&s->governor, now, &s->scene, true);
-        kd_session_pump(s);
-    }
-    state(s, out);
+    pthread_mutex_lock(&s->all->lock);
+    const bool goes = s->path.n_keys;
+    const struct kd_scene scene = scene_now(s, now);
+    pthread_mutex_unlock(&s->all->lock); /* only the HTTP thread changes what that is */
+    enum kd_status status = KD_OK;
+    if (!goes)
+        return status;
+    KD_TRY(make_plan(s->all, &scene, &plan, error));
+    pthread_mutex_lock(&s->all->lock);
+    kd_timeline_finish(&s->path);
+    change(s, now, &scene, &plan);
     pthread_mutex_unlock(&s->all->lock);
+done:
+    return status;
 }
 
 void kd_session_end(struct kd_session *s)

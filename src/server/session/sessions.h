@@ -56,9 +56,9 @@ enum kd_status kd_session_patch(struct kd_session *session, const char *text, si
                                 struct kd_error *error);
 #define KD_SESSION_PATH_S 3600 /* a path may take so long */
 /* Lets the session go along a path from now on, which begins with the scene as it is; takes it over. A patch ends it where it is then, and so does
- * kd_session_stop. KD_EINVAL at /keyframes where something between them is no valid scene, by a look at every hundredth of it. */
+ * kd_session_stop. KD_EINVAL at /keyframes where something between them is no valid scene, by looks at thirty places. */
 enum kd_status kd_session_follow(struct kd_session *session, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error);
-void kd_session_stop(struct kd_session *session, struct kd_session_state *out);
+enum kd_status kd_session_stop(struct kd_session *session, struct kd_error *error);
 /* Ends the session, and tells all who watch. */
 void kd_session_end(struct kd_session *session);
 
