@@ -532,8 +532,12 @@ export const sentences = {
     'cielo: stelle del catalogo Hipparcos, tutte all’infinito; quasi completo solo fino alla magnitudine 8, e senza quelle che gli mancano',
   'sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over some 1.2 pixels':
     'cielo: le stelle brillano come corpi neri della temperatura che il loro colore indica, e ogni immagine è sparsa su circa 1,2 pixel',
-  'sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out, and those next to the critical curve, in pixels whose rays stand for more than 0.15 rad of the sky':
-    'cielo: sono tralasciate le immagini di stelle che illuminerebbero il loro pixel per meno di 0,03 di sky.brightness, e quelle accanto alla curva critica, in pixel i cui raggi stanno per più di 0,15 rad di cielo',
+  'sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out':
+    'cielo: sono tralasciate le immagini di stelle che illuminerebbero il loro pixel per meno di 0,03 di sky.brightness',
+  'sky: images of stars nearer to the critical curve than 3e-5 of its radius are left out':
+    'cielo: sono tralasciate le immagini di stelle più vicine alla curva critica di 3e-5 del suo raggio',
+  'sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad of the sky':
+    'cielo: sono tralasciate le immagini di stelle accanto alla curva critica, in pixel i cui raggi stanno per più di 0,15 rad di cielo',
   'sky: images of stars are cut at the edges of the bands that a picture of this size is made in':
     'cielo: le immagini delle stelle sono tagliate ai bordi delle fasce in cui un’immagine di queste dimensioni è fatta',
   'sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky':

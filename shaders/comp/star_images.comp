@@ -10,6 +10,8 @@
  * the sky that the map takes a pixel to at the star's place, |det J|/cos(angle to the ray), and the picture's own drops out. It is spread
  * as a quadratic B-spline, of standard deviation half a pixel, over 3 x 3: the weights add up to 1, and their centre is the place.
  *
+ * Rays of the rim (ray/rim.glsl) are taken likewise, with steps of its own, and what those are in the picture.
+ *
  * Light is added up in 64-bit fixed point, so that the sum does not depend on the order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -23,6 +25,7 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_CAMERA_BINDING 5
 #define KD_CAMERA_ONLY
 #include "ray/camera.glsl"
+#include "ray/rim.glsl"
 layout(set = 0, binding = 6) buffer PointLight { uint point_light[]; };
 
 #define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
@@ -37,6 +40,7 @@ struct kd_neighbour { vec2 f; bool there; };
 kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
 {
     int px = int(x) + dx, py = int(y) + dy;
+    px += AT_RIM ? (px < 0 ? int(push.width) : px >= int(push.width) ? -int(push.width) : 0) : 0; /* it goes round */
     bool inside = px >= 0 && px < int(push.width) && py >= 0 && py < int(push.rows);
     uint there = inside ? uint(py) * push.width + uint(px) : at;
     vec3 n = kd_sky_from(there);
@@ -86,7 +90,8 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
         o.a = ((ne.f - nw.f) + (e.f - w.f) + (se.f - sw.f)) * (1.0 / 6.0);
         o.b = ((sw.f - nw.f) + (s.f - n.f) + (se.f - ne.f)) * (1.0 / 6.0);
         o.ab = 0.25 * (se.f - sw.f - ne.f + nw.f);
-        refine(c, at, x, y, o);
+        if (!AT_RIM) /* whose steps are long */
+            refine(c, at, x, y, o);
     }
     return o;
 }
@@ -154,6 +159,28 @@ void spread(vec2 place, vec3 light)
  * places, and none is lost or counted twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
+/* A place p in a ray's cell: in the picture, in its steps; how many of them, squared, there are to a step of the ray, squared; the share that the ray's
+ * image there has, beside those by the rim or by the grid; and, over what is measured as 1, the energy at infinity. */
+struct kd_spot { vec2 place; float steps, share, energy; };
+
+kd_spot spot_at(uint x, uint y, vec2 p)
+{
+    kd_spot o = kd_spot(vec2(x, y) + p, 1.0, 1.0, 1.0);
+    if (AT_RIM) {
+        kd_rim_cell cell = kd_rim_cell_at(x, y, p);
+        kd_seen seen = kd_camera_seen(cell.d);
+        o.place = seen.place;
+        o.steps = cell.area * seen.steps;
+        o.share = kd_rim_share(cell.place);
+        o.energy = cam.e_t - (cam.e_r * cell.d.x + cam.e_theta * cell.d.y + cam.e_phi * cell.d.z) * inversesqrt(dot(cell.d, cell.d));
+        return o;
+    }
+    o.energy = kd_camera_ray(x, y + push.row0).e;
+    if (RIM == 1u)
+        o.share = 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y + push.row0) + p)));
+    return o;
+}
+
 void images(uint at, uint k)
 {
     uint y = at / push.width, x = at - y * push.width;
@@ -165,8 +192,6 @@ void images(uint at, uint k)
     vec2 q = vec2(dot(c.e1, star), dot(c.e2, star));
     kd_patch m = patch_about(c, at, x, y);
     float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
-    float g = FINITE ? 1.0 / kd_camera_ray(x, y + push.row0).e : 1.0;
-    vec3 flux = emission.sky.brightness * stars[4u * k + 3u] * kd_sky_shifted(stars[4u * push.stars + k], g, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
     vec2 found[4];
     uint fresh = 0u; /* bits of those that count */
     int starts = is_plain(m) ? 1 : 4;
@@ -181,9 +206,12 @@ void images(uint at, uint k)
     for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, for it alone skips work */
         vec2 p = (fresh & 1u) != 0u ? found[0] : (fresh & 2u) != 0u ? found[1] : (fresh & 4u) != 0u ? found[2] : found[3];
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
-        if (stars[4u * k + 3u] * cosine < KD_STAR_LEAST * det * float(SIDE * SIDE))
+        kd_spot spot = spot_at(x, y, p);
+        float magnified = stars[4u * k + 3u] * cosine * spot.steps / (det * float(SIDE * SIDE));
+        if (magnified < KD_STAR_LEAST)
             continue;
-        spread((vec2(x, y) + p + 0.5) / float(SIDE) - 0.5, flux * (share(p.x) * share(p.y) * cosine / (det * float(SIDE * SIDE))));
+        vec3 colour = kd_sky_shifted(stars[4u * push.stars + k], FINITE ? 1.0 / spot.energy : 1.0, VISIBLE ? KD_TRAIT_VISIBLE : 0u);
+        spread((spot.place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * share(p.x) * share(p.y) * spot.share * colour);
     }
 }
 

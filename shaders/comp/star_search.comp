@@ -14,32 +14,53 @@
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
+#include "ray/kerr_ray.glsl"
 #include "ray/sky_map.glsl"
 #include "ray/star_list.glsl"
+#define KD_CAMERA_BINDING 8
+#define KD_CAMERA_ONLY
+#include "ray/camera.glsl"
+#include "ray/rim.glsl"
 
 #define KD_STAR_ROOM 0.8
 #define KD_STAR_MARGIN 0.0025 /* e */
 
 /* To a neighbour, along an axis of the picture; 0 if neither escapes. */
-vec3 slope(vec3 n, uint at, uint place, uint places, uint step_)
+vec3 slope(vec3 n, uint at, uint after_, uint before_, bool has_after, bool has_before)
 {
-    bool last = place + 1u >= places;
-    bool after = !last && kd_sky_escapes(last ? at : at + step_), before = place > 0u && kd_sky_escapes(place > 0u ? at - step_ : at);
-    vec3 other = kd_sky_from(after ? at + step_ : before ? at - step_ : at);
+    bool after = has_after && kd_sky_escapes(after_), before = has_before && kd_sky_escapes(before_);
+    vec3 other = kd_sky_from(after ? after_ : before ? before_ : at);
     return after ? other - n : n - other;
 }
+
+vec3 across(vec3 n, uint at, uint x)
+{
+    bool first = x == 0u, last = x + 1u == push.width;
+    if (AT_RIM) /* it goes round */
+        return slope(n, at, last ? at + 1u - push.width : at + 1u, first ? at + push.width - 1u : at - 1u, true, true);
+    return slope(n, at, last ? at : at + 1u, first ? at : at - 1u, !last, !first);
+}
+
+vec3 down(vec3 n, uint at, uint y)
+{
+    bool first = y == 0u, last = y + 1u == push.rows;
+    return slope(n, at, last ? at : at + push.width, first ? at : at - push.width, !last, !first);
+}
+
+/* Whether the rim has all images there. */
+bool is_left_out(uint x, uint y) { return RIM == 1u && kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y + push.row0)))) >= 1.0; }
 
 void search(uint at)
 {
     uint y = at / push.width, x = at - y * push.width;
-    float size = kd_sky_number(KD_LENS_SKY_FOOTPRINT, at);
-    vec3 own = kd_sky_from(at), i = slope(own, at, x, push.width, 1u), j = slope(own, at, y, push.rows, push.width);
+    vec3 own = kd_sky_from(at), i = across(own, at, x), j = down(own, at, y);
     vec3 n = kd_sky_galactic(own), a = kd_sky_galactic(i), b = kd_sky_galactic(j);
     float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), more = KD_STAR_MARGIN * (aa + bb);
     float det = (aa + more) * (bb + more) - ab * ab, unit = 1.0 / max(det, 1e-30);
-    float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)) * float(SIDE * SIDE), least = 0.5 * KD_STAR_LEAST * patch_;
+    float size = AT_RIM ? sqrt(aa + bb) : kd_sky_number(KD_LENS_SKY_FOOTPRINT, at), steps = kd_steps_of(x, y);
+    float patch_ = sqrt(max(aa * bb - ab * ab, 0.0)), least = 0.5 * KD_STAR_LEAST * float(SIDE * SIDE) * patch_ / max(steps, 1e-30);
     float reach = 0.75 * size;
-    bool looks = kd_sky_escapes(at) && size < KD_STAR_PATCH && aa > 0.0 && bb > 0.0;
+    bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 && !is_left_out(x, y);
     /* What x is made of; so that a star is tested by two products. */
     vec3 to_x = ((bb + more) * a - ab * b) * unit, to_y = ((aa + more) * b - ab * a) * unit;
     float far = 1.3 * reach * reach;
@@ -48,7 +69,7 @@ void search(uint at)
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
     vec2 room = abs(kd_face_place(face.number, n + a) - middle) + abs(kd_face_place(face.number, n + b) - middle) + 0.1 * all;
-    room = patch_ < 0.1 * float(SIDE * SIDE) * (aa + bb) ? all : min(1.1 * KD_STAR_ROOM * room, all);
+    room = patch_ < 0.1 * (aa + bb) ? all : min(1.1 * KD_STAR_ROOM * room, all);
     kd_cells cells = kd_cells_of(face.number, middle - room, middle + room);
     kd_star_walk walk = kd_star_walk_from(cells, looks);
     /* lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop goes from star to star, and from cell
@@ -79,6 +100,7 @@ void search(uint at)
 void main()
 {
     kd_sky_map_read();
+    cam = camera_;
     uint n = listed[1], all = gl_NumWorkGroups.x * KD_GROUP_SIZE;
     for (uint i = gl_GlobalInvocationID.x; i < n; i += all)
         search(listed[2u + push.tiles + i]);

@@ -15,13 +15,18 @@
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
+#include "ray/kerr_ray.glsl"
 #include "ray/sky_map.glsl"
 #include "ray/star_list.glsl"
+#define KD_CAMERA_BINDING 8
+#define KD_CAMERA_ONLY
+#include "ray/camera.glsl"
+#include "ray/rim.glsl"
 
 #define KD_STAR_TILE_BENT 0.7
 #define KD_STAR_TILE_OFF 0.2
 const int HALF = int(TILE) / 2;
-const float NEAR = TILE == KD_STAR_TILE ? 0.72 : 0.65; /* rays that a star may be off the one that it is paired with: images are sought to 0.6 */
+const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65; /* rays that a star may be off the one that it is paired with: images are sought to 0.6 */
 
 /* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2, u and v from -1 to 1 from its first rays to its last ones. In units of a and b
  * for aa, ab and bb. */
@@ -71,8 +76,9 @@ kd_tile tile_about(uint at, bool whole)
     t.cells = kd_cells_of(face, low - room, high + room);
     escape = escape && most(low - room) < KD_FACE_EDGE && most(high + room) < KD_FACE_EDGE;
     t.bent = 2.0 * (most(t.aa) + most(t.ab) + most(t.bb));
+    bool fine = AT_RIM || kd_sky_number(KD_LENS_SKY_FOOTPRINT, at) < (RIM == 1u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH);
     float off = (most(solve(t, corners)) + most(solve(t, sides))) * float(HALF);
-    t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && kd_sky_number(KD_LENS_SKY_FOOTPRINT, at) < KD_STAR_PATCH;
+    t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
     return t;
 }
 
@@ -125,6 +131,19 @@ void list(uint first, uint x, uint y)
     }
 }
 
+/* Whether the rim has all images that a tile's rays have: it has those of its corners, and its edge is not hollow. */
+bool is_left_out(uint x, uint y)
+{
+    if (RIM != 1u)
+        return false;
+    float least = 1.0;
+    for (int k = 0; k < 4; k++) {
+        vec2 corner = vec2(x, y + push.row0) - 0.6 + (float(TILE) + 0.2) * vec2(k & 1, k >> 1);
+        least = min(least, kd_rim_share(kd_rim_place(kd_camera_look(corner))));
+    }
+    return least >= 1.0;
+}
+
 /* The tile whose first ray is at (x, y). */
 void seek(uint x, uint y)
 {
@@ -135,8 +154,10 @@ void seek(uint x, uint y)
     /* u and v of a star are these products; of one in a cell of the tile, by the linear map, at most so large. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
     float most_ = (1.0 + NEAR / float(HALF)) * (1.0 + 0.5 * t.bent) + 0.05;
-    float sharp = 1.0 - t.bent, least = sharp * sharp * KD_STAR_LEAST * abs(t.det) * (float(SIDE * SIDE) / float(HALF * HALF)); /* where it is brightest */
-    kd_star_walk walk = kd_star_walk_from(t.cells, t.simple);
+    float unit = KD_STAR_LEAST * float(SIDE * SIDE) / (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* of the rim's rays the last stand for a little less */
+    float sharp = 1.0 - t.bent, least = sharp * sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* where it is brightest */
+    bool left_out = is_left_out(x, y);
+    kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {
         bool near = false;
         vec2 place = vec2(0.0);
@@ -155,16 +176,17 @@ void seek(uint x, uint y)
         if (walk.done)
             break;
         place = place_of(t, place);
-        note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * KD_STAR_LEAST * float(SIDE * SIDE) * area(t, place));
+        note(at, place * float(HALF), walk.k - 1u, star.w > 0.8 * unit * area(t, place));
     }
-    if (!t.simple)
+    if (!t.simple && !left_out)
         list(first, x, y);
 }
 
 void main()
 {
     kd_sky_map_read();
-    if (TILE == KD_STAR_TILE) {
+    cam = camera_;
+    if (TILE == KD_STAR_TILE || AT_RIM) {
         uint x = gl_GlobalInvocationID.x * TILE;
         if (x < push.width)
             seek(x, push.first + gl_WorkGroupID.y * TILE);

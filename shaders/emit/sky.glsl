@@ -87,7 +87,7 @@ vec3 kd_sky_spread(vec3 n, float footprint)
     return mix(kd_sky_level(at, k), kd_sky_level(at, min(k + 1u, uint(coarsest))), level - float(k));
 }
 
-vec3 kd_sky_stars(uint pixel)
+vec3 kd_sky_points(uint pixel)
 {
     uint o = KD_STAR_LIGHT * pixel;
     return vec3(point_light[o], point_light[o + 2u], point_light[o + 4u]) * (1.0 / KD_STAR_UNIT) +
@@ -119,8 +119,6 @@ vec3 kd_sky_end(kd_end end)
         vec3 spread = emission.sky.spread * kd_sky_spread(kd_sky_galactic(vec3(s * phi.c, s * phi.s, end.u)), end.footprint);
         light += FINITE ? spread * kd_sky_shifted(KD_SKY_KELVIN, 1.0 / end.energy, TRAITS_sky) / kd_colour_of(kd_colour_at(KD_SKY_KELVIN)) : spread;
     }
-    if ((TRAITS_sky & KD_TRAIT_POINTS) != 0u)
-        light += kd_sky_stars(end.pixel);
     return light;
 }
 #endif

@@ -6,8 +6,8 @@
 /* This is one place on a ray. ago: how long before that which shows the scene's time its light left it; energy, momentum, q: E, L and Carter's Q,
  * by the energy that the observer measures; footprint, shape: of this ray there, 0 where no emitter needs it (shared/lens.h). */
 struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint, shape; uint order; };
-/* It ends there, if it escapes; its footprint in radians; its energy by that which the observer measures; its pixel in the band. */
-struct kd_end { float u, phi, footprint, energy; uint pixel; };
+/* It ends there, if it escapes; its footprint in radians; its energy by that which the observer measures. */
+struct kd_end { float u, phi, footprint, energy; };
 /* One emitter adds this at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
 struct kd_glow { vec3 light; float alpha, apart; };
 /* A ray on its way: the light so far, and what all in front lets pass. */
@@ -51,6 +51,13 @@ void kd_beam_end(inout kd_beam beam, kd_end end)
 {
 #define KD_END_(number, name) if (KD_HAS(name)) beam.light += beam.through * kd_##name##_end(end);
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_)
+}
+
+/* Points of light are spread over pixels, whatever becomes of a pixel's own rays. */
+void kd_beam_points(inout kd_beam beam, uint pixel)
+{
+#define KD_POINTS_(number, name) if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) beam.light += beam.through * kd_##name##_points(pixel);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_)
 }
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */

@@ -86,7 +86,8 @@ float light(uvec2 place, uint at, uint pixel)
         float fate = quantity(KD_LENS_FATE, at);
         given_up = given_up || fate == KD_FATE_UNDECIDED;
         if (fate == KD_FATE_ESCAPED)
-            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e, pixel));
+            kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), ray.e));
+        kd_beam_points(beam, pixel);
     }
     return given_up ? KD_NOTHING : dot(beam.light, vec3(0.2126, 0.7152, 0.0722));
 }
@@ -119,7 +120,7 @@ float of_crossing(uvec2 place, uint at)
 float of_end(uint at)
 {
     float fate = quantity(KD_LENS_FATE, at);
-    kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), 1.0, 0u);
+    kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), 1.0);
     KD_LAYERS(NOT_LIGHT_, NOT_, VALUE_)
     return KD_NOTHING;
 }

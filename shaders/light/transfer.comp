@@ -35,7 +35,9 @@ vec3 background(uvec2 place, uint at, uint pixel)
     if (fate == KD_FATE_UNDECIDED)
         kd_beam_given_up(beam);
     if (fate == KD_FATE_ESCAPED)
-        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), kd_camera_ray(place.x, place.y).e, pixel));
+        kd_beam_end(beam, kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), kd_camera_ray(place.x, place.y).e));
+    if (ENDS && fate != KD_FATE_UNDECIDED)
+        kd_beam_points(beam, pixel);
     return beam.light;
 }
 

@@ -4,7 +4,7 @@
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
  *   PART          nothing of its own: another emitter calls its functions, so that what both compute is computed once
  *   OVER          kd_name_over(sample): a factor of all light of a crossing
- *   AT_END        kd_name_end(end): what a ray sees that has come through
+ *   AT_END        kd_name_end(end): what a ray sees that has come through; kd_name_points(pixel): of those with points of light, what a pixel has of them
  *
  * An emitter called name has its GLSL in emit/name.glsl, which says
  *

@@ -113,11 +113,11 @@ static struct vec3 from(const struct kd_scene *scene, double x, double y, double
 }
 
 /* The solid angle of the sky that a pixel is mapped to there: central differences of the oracle's rays, extrapolated. */
-static double patch(const struct kd_scene *scene, double x, double y)
+static double patch(const struct kd_scene *scene, double x, double y, double step_)
 {
     double g, area[2];
     for (int k = 0; k < 2; k++) {
-        double h = k ? 0.02 : 0.04;
+        double h = k ? step_ : 2 * step_;
         struct vec3 a = from(scene, x + h, y, &g), b = from(scene, x - h, y, &g), c = from(scene, x, y + h, &g), d = from(scene, x, y - h, &g), n = from(scene, x, y, &g);
         struct vec3 i = { a.x - b.x, a.y - b.y, a.z - b.z }, j = { c.x - d.x, c.y - d.y, c.z - d.z };
         area[k] = fabs(dot(n, cross(i, j))) / (4 * h * h);
@@ -139,7 +139,7 @@ static void by_rays(double spin, double inclination, double *worst_light, double
             continue;
         struct kd_frame frame = seen(&scene);
         const struct blob b = blob_at(&frame, x, y, 2);
-        double want = flux * g * g * g * g / patch(&scene, x, y), light = fabs(b.light / want - 1), place = hypot(b.x - x, b.y - y);
+        double want = flux * g * g * g * g / patch(&scene, x, y, 0.02), light = fabs(b.light / want - 1), place = hypot(b.x - x, b.y - y);
         if (light > 0.01 || place > 0.01)
             printf("spin %g: at %.2f, %.2f light %.5f of %.5g, place off by %.3f pixels\n", spin, x, y, b.light / want, want, place);
         *worst_light = fmax(*worst_light, light);
@@ -185,7 +185,7 @@ static double swept(double b)
 /* The angle from the hole of a ray that sweeps so much. */
 static double looking(double azimuth)
 {
-    double low = asin(5.2 * sqrt(1 - 2 / RADIUS) / RADIUS), high = 1.2;
+    double low = asin(sqrt(27) * (1 + 1e-7) * sqrt(1 - 2 / RADIUS) / RADIUS), high = 1.2;
     for (int i = 0; i < 60; i++) {
         double theta = 0.5 * (low + high);
         *(swept(RADIUS * sin(theta) / sqrt(1 - 2 / RADIUS)) > azimuth ? &low : &high) = theta;
@@ -223,6 +223,78 @@ static void behind_the_hole(void **state)
         assert_true(fabs(is / (flux * pow(g, 4)) / want - 1) < 0.01);
         kd_frame_finish(&frame);
     }
+}
+
+/* The images that go round the hole once more, next to the curve, of stars anywhere. */
+static void round_the_hole(void **state)
+{
+    (void)state;
+    static const double behind[] = { 2, 1, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3 };
+    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS);
+    double worst = 0;
+    for (size_t i = 0; i < sizeof behind / sizeof *behind; i++) {
+        struct kd_scene scene = scene_of(0, 90);
+        double beta = behind[i], all = 0, is = 0;
+        assert_true(aim(&scene, (struct vec3) { -cos(beta), sin(beta), 0 }));
+        struct kd_frame frame = seen(&scene);
+        for (int side = 0; side < 2; side++) {
+            double azimuth = side ? 3 * M_PI + beta : 3 * M_PI - beta, theta = looking(azimuth), h = 1e-3;
+            double slope = (looking(azimuth + h) - looking(azimuth - h)) / (2 * h), x = 0.5 * (WIDTH - 1) + (side ? -1 : 1) * tan(theta) / step;
+            double want = flux * pow(g, 4) * sin(theta) * fabs(slope) / sin(beta) / (step * step * pow(cos(theta), 3));
+            const struct blob b = blob_at(&frame, x, 0.5 * (HEIGHT - 1), 2);
+            printf("beta %g, round once more: at %.4f pixels, off by %.4f, %.4f; light %.5g: %+.5f\n", beta, x, b.x - x, b.y - 0.5 * (HEIGHT - 1), want, b.light / want - 1);
+            if (want < 0.05) /* next to the least that is shown */
+                continue;
+            assert_true(fabs(b.x - x) < 0.01 && fabs(b.y - 0.5 * (HEIGHT - 1)) < 0.01);
+            all += want;
+            is += b.light;
+        }
+        printf("beta %g, round once more: both off by %+.5f\n", beta, is / all - 1);
+        worst = fmax(worst, fabs(is / all - 1));
+        kd_frame_finish(&frame);
+    }
+    assert_true(worst < 0.01);
+}
+
+/* The distance from the middle of the picture at which rays begin to escape, by the oracle. */
+static double edge(const struct kd_scene *scene, double angle)
+{
+    double low = 0, high = 0.5 * HEIGHT, g;
+    for (int i = 0; i < 50; i++) {
+        double rho = 0.5 * (low + high);
+        from(scene, 0.5 * (WIDTH - 1) + rho * cos(angle), 0.5 * (HEIGHT - 1) - rho * sin(angle), &g);
+        *(g > 0 ? &high : &low) = rho;
+    }
+    return high;
+}
+
+/* Ever nearer to the curve of a hole that spins, where images of ever higher orders are, and over the border of what the picture's own rays find. */
+static void next_to_the_curve(void **state)
+{
+    (void)state;
+    static const double offs[] = { 0.2, 0.16, 0.14, 0.1, 0.03, 0.01, 3e-3, 1e-3 };
+    const double flux = kd_star_flux(kd_catalogue_star(0).magnitude);
+    struct kd_scene scene = scene_of(0.9, 70);
+    double worst = 0, off_most = 0;
+    int n = 0;
+    for (int k = 0; k < 3 * (int)(sizeof offs / sizeof *offs); k++) {
+        double angle = 2.399963 * k, off = offs[k / 3], rho = edge(&scene, angle), g;
+        double x = 0.5 * (WIDTH - 1) + rho * (1 + off) * cos(angle), y = 0.5 * (HEIGHT - 1) - rho * (1 + off) * sin(angle);
+        struct vec3 from_ = from(&scene, x, y, &g);
+        if (!aim(&scene, from_))
+            continue;
+        double want = flux * g * g * g * g / patch(&scene, x, y, fmin(0.02, 0.03 * off * rho));
+        struct kd_frame frame = seen(&scene);
+        const struct blob b = blob_at(&frame, x, y, 2);
+        printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle, want, b.light / want - 1, hypot(b.x - x, b.y - y));
+        if (want > 0.1) { /* a twentieth of it is still seen */
+            worst = fmax(worst, fabs(b.light / want - 1));
+            off_most = fmax(off_most, hypot(b.x - x, b.y - y));
+            n++;
+        }
+        kd_frame_finish(&frame);
+    }
+    assert_true(n > 12 && worst < 0.01 && off_most < 0.02);
 }
 
 /* All stars: the picture is the same to the byte each time, and the same but for their edges in bands. */
@@ -293,7 +365,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kept_and_made_anew),
-        cmocka_unit_test(behind_the_hole), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
+        cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
     };
     int skip = open_renderer();
     if (skip)

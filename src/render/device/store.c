@@ -37,9 +37,18 @@ done:
 }
 
 static uint64_t bytes_of_bands(const struct kd_bands *bands) { return bands->count * bands->band_bytes; }
+static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
 static uint64_t bytes_of_map(const struct kd_lens_map *map)
 {
-    return bytes_of_bands(&map->bands) + bytes_of_bands(&map->critical) + bytes_of_bands(&map->star_light);
+    return bytes_of_bands(&map->bands) + bytes_of_bands(&map->critical) + bytes_of_bands(&map->star_light) + bytes_of(map->rim_lens);
+}
+
+/* The light of stars, and the rim that has some of them. */
+static void forget_stars(struct kd_lens_map *map)
+{
+    map->star_key.lens[0] = 0;
+    map->rim_known = map->rim_traced = false;
+    map->rim.rows = 0;
 }
 
 static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
@@ -48,8 +57,10 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
     bands_finish(&map->critical, vk);
     bands_finish(&map->star_light, vk);
     kd_critical_pixels_finish(&map->pixels);
+    kd_vk_buffer_destroy(vk, map->rim_lens);
+    map->rim_lens = NULL;
+    forget_stars(map);
     map->key[0] = 0;
-    map->star_key.lens[0] = 0;
     map->used = 0;
 }
 
@@ -122,7 +133,7 @@ enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *p
     }
     make_room(store, plan, oldest);
     oldest->key[0] = 0;
-    oldest->star_key.lens[0] = 0;
+    forget_stars(oldest);
     oldest->used = ++store->clock;
     *out = oldest;
     enum kd_status status;
@@ -287,10 +298,9 @@ void kd_store_give_up(struct kd_store *store)
     store->sent_whole = false;
     store->cameras_sent = false;
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
-        store->maps[i].star_key.lens[0] = 0;
+        forget_stars(&store->maps[i]);
 }
 
-static uint64_t bytes_of(const struct kd_vk_buffer *buffer) { return buffer ? kd_vk_buffer_size(buffer) : 0; }
 
 uint64_t kd_store_bytes(const struct kd_store *store)
 {

@@ -6,6 +6,7 @@
 #include "render/sky/frame.h"
 #include "render/sky/panorama.h"
 #include "render/sky/star.h"
+#include "render/view/rim.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -67,10 +68,18 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
+static bool has_rim(const struct kd_scene *scene)
+{
+    struct kd_rim rim;
+    return kd_rim_of(scene, &rim);
+}
+
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(drawn, is_grid(scene))
 WHEN(starry, has_stars(scene))
+WHEN(rimmed, has_stars(scene) && has_rim(scene))
+WHEN(rimless, has_stars(scene) && !has_rim(scene))
 WHEN(made_up, scene->sky.model == KD_SKY_STARS)
 WHEN(listed, scene->sky.model == KD_SKY_CATALOGUE)
 WHEN(milky, is_spread(scene) && !is_picture(scene))
@@ -88,8 +97,9 @@ static const struct kd_sentence sentences[] = {
     { "sky: stars are made up, as many of each magnitude as there are in truth", made_up },
     { "sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those that it lacks", listed },
     { "sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over some 1.2 pixels", starry },
-    { "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out, and those next to the critical "
-      "curve, in pixels whose rays stand for more than 0.15 rad of the sky", starry },
+    { "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out", starry },
+    { "sky: images of stars nearer to the critical curve than 3e-5 of its radius are left out", rimmed },
+    { "sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad of the sky", rimless },
     { "sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky", milky },
     { "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it", stands_in },
     { "sky: the light between the stars is a picture, photographic and not calibrated: its white is taken for 21 magnitudes a square arcsecond, and "

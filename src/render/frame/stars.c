@@ -9,20 +9,39 @@
 #define LIST_GROUPS 128 /* of kernels whose invocations share a list out */
 #define SPILL 2u        /* rows of pixels that an image may reach into the next band */
 
-static enum kd_status kernel(struct kd_frame_job *j, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
+/* Stars are sought on this: rays of a lens map, a few rows of them. */
+struct part {
+    struct kd_vk_buffer *lens;
+    bool rim; /* all of the rim, or rays of the picture */
+    struct kd_stars_push push;
+    struct kd_vk_buffer *light;
+};
+
+static enum kd_status kernel(struct kd_frame_job *j, const struct part *part, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_stars spec = {
-        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .SIGHT = kd_camera_sight(j->scene),
-        .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile,
+        .QUANTITIES = part->rim ? KD_RIM_QUANTITIES : p->quantities, .ORDERS = part->rim ? 1 : p->orders, .SIDE = p->side,
+        .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = part->rim ? 2 : j->lens->rim.rows ? 1 : 0,
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-static uint32_t tiles_along(uint32_t rays) { return (rays + KD_STAR_TILE - 1) / KD_STAR_TILE; }
+static struct kd_vk_binding camera(const struct kd_frame_job *j)
+{
+    return (struct kd_vk_binding) { j->store->cameras, (uint64_t)KD_CAMERA_GRID * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false };
+}
 
-/* Pairs of the rays at hand and stars: of large tiles, then of small ones and of rays that are listed. */
-static enum kd_status search(struct kd_frame_job *j, struct kd_vk_buffer *lens, const struct kd_stars_push *push)
+/* Something must be bound where there is none. */
+static struct kd_vk_binding rim(const struct kd_frame_job *j)
+{
+    return (struct kd_vk_binding) { j->lens->rim.rows ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
+}
+
+static uint32_t along(uint32_t rays, uint32_t tile) { return (rays + tile - 1) / tile; }
+
+/* Pairs of rays and stars: of large tiles, then of small ones and of rays that are listed; on the rim of small tiles and of rays. */
+static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
@@ -30,49 +49,56 @@ static enum kd_status search(struct kd_frame_job *j, struct kd_vk_buffer *lens, 
     const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES;
     struct kd_vk_dispatch d = {
         kd_passes[KD_PASS_STARS].name, NULL,
-        { { lens, 0, 0, false },
+        { { part->lens, 0, 0, false },
           { s->transfer, 0, sizeof(struct kd_emission), false },
           { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { s->star_pairs, 0, 0, true },
           { sky->stars, 0, 16ull * (sky->n + 1), false },
           { sky->cells, 0, 0, false },
-          { s->star_rays, 0, 0, true } },
-        push, { kd_frame_groups(tiles_along(push->width)), tiles_along(push->end - push->first) },
+          { s->star_rays, 0, 0, true },
+          rim(j),
+          camera(j) },
+        &part->push, { LIST_GROUPS },
     };
+    const uint32_t tile = part->rim ? 3 : KD_STAR_TILE;
+    struct kd_vk_dispatch first = d;
+    first.groups[0] = kd_frame_groups(along(part->push.width, tile));
+    first.groups[1] = along(part->push.end - part->push.first, tile);
     enum kd_status status;
     KD_TRY(kd_vk_fill(j->r->vk, d.pass, s->star_pairs, 0, 8, 0, j->error));
     KD_TRY(kd_vk_fill(j->r->vk, d.pass, s->star_rays, 0, 8, 0, j->error));
-    KD_TRY(kernel(j, tiles, KD_STAR_TILE, &d.pipeline));
-    KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
-    d.groups[0] = LIST_GROUPS;
-    d.groups[1] = 0;
-    KD_TRY(kernel(j, tiles, 3, &d.pipeline));
-    KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
-    KD_TRY(kernel(j, texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH, 0, &d.pipeline));
+    KD_TRY(kernel(j, part, tiles, tile, &first.pipeline));
+    KD_TRY(kd_vk_dispatch(j->r->vk, &first, j->error));
+    if (!part->rim) {
+        KD_TRY(kernel(j, part, tiles, 3, &d.pipeline));
+        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+    }
+    KD_TRY(kernel(j, part, texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH, 0, &d.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
 done:
     return status;
 }
 
-/* The stars that the rays at hand see. */
-static enum kd_status slice(struct kd_frame_job *j, struct kd_vk_buffer *lens, const struct kd_stars_push *push, struct kd_vk_buffer *light)
+/* The stars that the rays of a part see. */
+static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     struct kd_vk_dispatch images = {
         kd_passes[KD_PASS_STARS].name, NULL,
-        { { lens, 0, 0, false },
+        { { part->lens, 0, 0, false },
           { s->transfer, 0, sizeof(struct kd_emission), false },
           { s->transfer, offsetof(struct kd_emit_data, tables), sizeof(struct kd_emit_tables), false },
           { s->star_pairs, 0, 0, false },
           { sky->stars, 0, 0, false },
-          { s->cameras, (uint64_t)KD_CAMERA_GRID * KD_CAMERA_BYTES, KD_CAMERA_BYTES, false },
-          { light, 0, 0, true } },
-        push, { LIST_GROUPS },
+          camera(j),
+          { part->light, 0, 0, true },
+          rim(j) },
+        &part->push, { LIST_GROUPS },
     };
     enum kd_status status;
-    KD_TRY(search(j, lens, push));
-    KD_TRY(kernel(j, KD_KERNEL_STAR_IMAGES, 0, &images.pipeline));
+    KD_TRY(search(j, part));
+    KD_TRY(kernel(j, part, KD_KERNEL_STAR_IMAGES, 0, &images.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &images, j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_frame_report(j, 0));
@@ -80,26 +106,56 @@ done:
     return status;
 }
 
+/* What the kernels are told of the rim; of the rays at hand nothing yet. */
+static struct kd_stars_push push_of(const struct kd_frame_job *j)
+{
+    const struct kd_rim *r = &j->lens->rim;
+    const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
+    return (struct kd_stars_push) {
+        .room = KD_PLAN_PAIRS, .tiles = kd_plan_star_tiles(j->plan), .stars = sky->n,
+        .rim = kd_rim_rays(r) * (kd_lens_planes(KD_RIM_QUANTITIES, 1) + 2),
+        .far = (float)r->far, .fall = (float)r->fall, .none = (float)r->none, .full = (float)r->full,
+        .ahead_x = (float)r->ahead[0], .ahead_y = (float)r->ahead[1], .ahead_z = (float)r->ahead[2],
+        .right_x = (float)r->right[0], .right_y = (float)r->right[1], .right_z = (float)r->right[2],
+        .up_x = (float)r->up[0], .up_y = (float)r->up[1], .up_z = (float)r->up[2],
+    };
+}
+
 /* Rows of pixels of a band, first to end of it, to the light of another or of the same. */
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
     const uint32_t width = p->width * p->side;
-    const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
-    struct kd_stars_push push = {
-        .width = width, .rows = kd_frame_band_rows(j, from) * p->side, .stride = width * p->band_rows * p->side,
-        .row0 = kd_frame_band_first(j, from) * p->side, .room = KD_PLAN_PAIRS, .tiles = kd_plan_star_tiles(p), .stars = sky->n, .pixels_y = kd_frame_band_rows(j, to),
-        .up = kd_frame_band_first(j, from) - kd_frame_band_first(j, to),
-    };
+    struct part part = { .lens = kd_frame_band_lens(j, from), .push = push_of(j), .light = j->lens->star_light.buffers[to] };
+    part.push.width = width;
+    part.push.rows = kd_frame_band_rows(j, from) * p->side;
+    part.push.stride = width * p->band_rows * p->side;
+    part.push.row0 = kd_frame_band_first(j, from) * p->side;
+    part.push.pixels_y = kd_frame_band_rows(j, to);
+    part.push.up = kd_frame_band_first(j, from) - kd_frame_band_first(j, to);
     uint32_t step = KD_PLAN_STAR_RAYS / width;
     step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* in whole tiles */
     enum kd_status status = KD_OK;
     for (uint32_t row = first * p->side; row < end * p->side && !status; row += step) {
-        push.first = row;
-        push.end = end * p->side - row < step ? end * p->side : row + step;
-        status = slice(j, kd_frame_band_lens(j, from), &push, j->lens->star_light.buffers[to]);
+        part.push.first = row;
+        part.push.end = end * p->side - row < step ? end * p->side : row + step;
+        status = stars_of(j, &part);
     }
     return status;
+}
+
+/* Images next to the critical curve, to the light of a band. */
+static enum kd_status rim_of(struct kd_frame_job *j, uint32_t to)
+{
+    struct part part = { .lens = j->lens->rim_lens, .rim = true, .push = push_of(j), .light = j->lens->star_light.buffers[to] };
+    if (!j->lens->rim.rows)
+        return KD_OK;
+    part.push.width = KD_RIM_ANGLES;
+    part.push.rows = part.push.end = j->lens->rim.rows;
+    part.push.stride = kd_rim_rays(&j->lens->rim);
+    part.push.pixels_y = kd_frame_band_rows(j, to);
+    part.push.up = 0u - kd_frame_band_first(j, to);
+    return stars_of(j, &part);
 }
 
 static enum kd_status spread_over(struct kd_frame_job *j, uint32_t band)
@@ -108,6 +164,8 @@ static enum kd_status spread_over(struct kd_frame_job *j, uint32_t band)
     const uint32_t rows = kd_frame_band_rows(j, band);
     enum kd_status status;
     KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_STARS].name, j->lens->star_light.buffers[band], 0, 24ull * p->width * rows, 0, j->error));
+    KD_TRY(kd_frame_trace_rim(j));
+    KD_TRY(rim_of(j, band));
     KD_TRY(rows_of(j, band, 0, rows, band));
     if (p->cacheable && band > 0)
         KD_TRY(rows_of(j, band - 1, kd_frame_band_rows(j, band - 1) > SPILL ? kd_frame_band_rows(j, band - 1) - SPILL : 0, kd_frame_band_rows(j, band - 1), band));

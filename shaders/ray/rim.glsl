@@ -1,0 +1,92 @@
+/* The rim of the shadow, a grid of rays next to the critical curve (src/render/view/rim.h), where images of stars of all orders are found. Binding 7. Needs
+ * sky_map.glsl and camera.glsl, and the specialisation constant RIM: 0: there is none; 1: the rays at hand are the picture's, and leave images next to the
+ * curve to the rim; 2: they are the rim's. */
+#ifndef KD_RIM_GLSL
+#define KD_RIM_GLSL
+
+layout(set = 0, binding = 7) readonly buffer Rim { float rim[]; }; /* from push.rim on: points of the curve, x and y; then how far it is from the middle, by the angle */
+
+const bool AT_RIM = RIM == 2u;
+
+/* Where a camera looks at a place of the picture; at infinity alpha and beta. */
+vec3 kd_camera_look(vec2 place)
+{
+    float x = place.x - cam.middle_x, y = cam.middle_y - place.y, ahead = kd_camera_ahead(x, y);
+    return ahead * vec3(cam.c0x, cam.c0y, cam.c0z) + x * vec3(cam.cxx, cam.cxy, cam.cxz) + y * vec3(cam.cyx, cam.cyy, cam.cyz);
+}
+
+/* And the place that it sees a direction at, and how many steps of the picture, squared, there are to a unit of the area about `ahead` of the direction's
+ * plane. None behind a pinhole. */
+struct kd_seen { vec2 place; float steps; };
+
+kd_seen kd_camera_seen(vec3 d)
+{
+    vec3 c0 = vec3(cam.c0x, cam.c0y, cam.c0z), cx = vec3(cam.cxx, cam.cxy, cam.cxz), cy = vec3(cam.cyx, cam.cyy, cam.cyz);
+    vec2 middle = vec2(cam.middle_x, cam.middle_y);
+    if (SIGHT == KD_SIGHT_PLANE)
+        return kd_seen(middle + vec2(dot(d - c0, cx), -dot(d - c0, cy)) / dot(cx, cx), 1.0 / dot(cx, cx));
+    float depth = dot(d, c0), right = dot(d, cx), up = dot(d, cy), length2 = dot(d, d), all = sqrt(length2), solid = 1.0 / (length2 * all);
+    if (SIGHT == KD_SIGHT_PINHOLE) {
+        float ahead = max(depth, 1e-6), c = ahead / all;
+        return kd_seen(depth > 1e-6 ? middle + vec2(right, -up) / (ahead * dot(cx, cx)) : vec2(-1e6), solid / (dot(cx, cx) * c * c * c));
+    }
+    float quarter = 0.5 * KD_PI;
+    if (SIGHT == KD_SIGHT_SPHERE) {
+        float level = sqrt(right * right + depth * depth);
+        vec2 angles = vec2(kd_atan2(right, depth), -kd_atan2(up, level));
+        return kd_seen(middle + angles / (quarter * vec2(cam.turn_x, cam.turn_y)), solid * all / (quarter * quarter * cam.turn_x * cam.turn_y * max(level, 1e-6)));
+    }
+    float aside = sqrt(right * right + up * up), off = kd_atan2(aside, depth), unit = off / (quarter * cam.turn_x);
+    vec2 towards = aside > 0.0 ? vec2(right, -up) / aside : vec2(0.0);
+    return kd_seen(middle + unit * towards, solid * off * all / (quarter * quarter * cam.turn_x * cam.turn_x * max(aside, 1e-6)));
+}
+
+vec3 kd_rim_ahead() { return vec3(push.ahead_x, push.ahead_y, push.ahead_z); }
+vec3 kd_rim_right() { return vec3(push.right_x, push.right_y, push.right_z); }
+vec3 kd_rim_up() { return vec3(push.up_x, push.up_y, push.up_z); }
+
+/* A direction's place on the rim's plane. */
+vec2 kd_rim_place(vec3 d)
+{
+    float depth = dot(d, kd_rim_ahead());
+    if (SIGHT == KD_SIGHT_PLANE)
+        return d.xy - kd_rim_ahead().xy;
+    return depth > 1e-6 ? vec2(dot(d, kd_rim_right()), dot(d, kd_rim_up())) / depth : vec2(1e6);
+}
+
+/* The share that the rim has of an image there. */
+float kd_rim_share(vec2 place)
+{
+    float angle = kd_atan2(place.y, place.x) * (float(KD_RIM_EDGES) / (2.0 * KD_PI)), low = floor(angle);
+    uint i = uint(int(low) + KD_RIM_EDGES) % KD_RIM_EDGES, edges = push.rim + 2u * KD_RIM_ANGLES;
+    float edge = mix(rim[edges + i], rim[edges + (i + 1u) % KD_RIM_EDGES], angle - low), off = length(place) / edge - 1.0;
+    return clamp((push.none - off) / (push.none - push.full), 0.0, 1.0);
+}
+
+/* A place p in the rim's cell (x, y): on the plane, as the direction, and the area of the plane that the cell has there. */
+struct kd_rim_cell { vec2 place; vec3 d; float area; };
+
+vec2 kd_rim_curve(uint k) { return vec2(rim[push.rim + 2u * k], rim[push.rim + 2u * k + 1u]); }
+
+kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
+{
+    vec2 own = kd_rim_curve(x), before = kd_rim_curve((x + KD_RIM_ANGLES - 1u) % KD_RIM_ANGLES), after = kd_rim_curve((x + 1u) % KD_RIM_ANGLES);
+    vec2 slope = 0.5 * (after - before), bend = 0.5 * (after + before) - own, at = own + p.x * (slope + p.x * bend), along = slope + 2.0 * p.x * bend;
+    float off = push.far * exp(-push.fall * (float(y) + p.y));
+    kd_rim_cell o;
+    o.place = (1.0 + off) * at;
+    o.area = abs(along.x * at.y - along.y * at.x) * (1.0 + off) * push.fall * off;
+    o.d = SIGHT == KD_SIGHT_PLANE ? kd_rim_ahead() + vec3(o.place, 0.0) : kd_rim_ahead() + o.place.x * kd_rim_right() + o.place.y * kd_rim_up();
+    return o;
+}
+
+/* The steps of the picture, squared, that a ray stands for: in the map at hand the one at (x, y). */
+float kd_steps_of(uint x, uint y)
+{
+    if (!AT_RIM)
+        return 1.0;
+    kd_rim_cell cell = kd_rim_cell_at(x, y, vec2(0.0));
+    return cell.area * kd_camera_seen(cell.d).steps;
+}
+
+#endif
