@@ -19,7 +19,7 @@ static enum kd_status put_axes(struct kd_buffer *cards, const struct kd_wcs *wcs
     enum kd_status status;
     for (int i = 0; i < 2; i++) {
         const double numbers[] = { 0, axes[i].pixel, axes[i].value, axes[i].step };
-        char key[9];
+        char key[16];
         for (int k = 0; k < 5; k++) {
             snprintf(key, sizeof key, "%s%d%s", names[k], i + 1, alternate);
             if (k == 0 || k == 4) {
@@ -107,7 +107,7 @@ static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_picture
     KD_TRY(kd_fits_text(cards, "KDDEVICE", picture->device, NULL));
     KD_TRY(kd_fits_text(cards, "KDACCUR", notes->accuracy, NULL));
     for (size_t i = 0; i < picture->plan->n_approximations; i++) {
-        char key[16];
+        char key[32];
         snprintf(key, sizeof key, "KDAPPR%zu", i + 1);
         KD_TRY(kd_fits_text(cards, key, picture->plan->approximations[i], NULL));
     }
