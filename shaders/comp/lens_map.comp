@@ -59,6 +59,7 @@ void main()
     float way = 0.0, fallen = 0.0;
     bool returns = false;
     if (INGOING && (PHI || SKY)) {
+        barrier = kd_barrier_beside(m, barrier, y, ray.e, cam.horizon);
         returns = !kd_flies_out(barrier, y);
         way = returns && y.dw > 0.0 ? 1.0 : -1.0;
         fallen = way > 0.0 ? -2.0 * cam.twist : 0.0;

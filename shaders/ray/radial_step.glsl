@@ -104,6 +104,19 @@ kd_barrier kd_barrier_of(kd_geodesic m, kd_ray ray, float a, float u, float hori
     return o;
 }
 
+/* The same from a place beside it, for an observer next to the orbits of light: R is w'^2 there, and between the two places it changes by
+ * x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), x being the way, since R' vanishes at the barrier. Of w' next to 0 its square has more digits than R. */
+kd_barrier kd_barrier_beside(kd_geodesic m, kd_barrier b, kd_state y, float e, float horizon)
+{
+    float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w), hump = x * x * (c2 + x * (2.0 * m.k - 4.0 * m.d * b.w - x * m.d));
+    float noise = 16.0 * (abs(y.dw) * (abs(e) + sqrt(m.k) * y.w) + abs(x * c2) * b.w + abs(hump));
+    if (b.w < horizon && noise < b.noise) {
+        b.r = y.dw * y.dw - hump;
+        b.noise = noise;
+    }
+    return b;
+}
+
 /* Says whether a ray goes into the horizon from where it is now, without turning. */
 bool kd_falls_in(kd_barrier b, kd_state y)
 {

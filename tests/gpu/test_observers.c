@@ -265,7 +265,7 @@ static void dark_disk(void **state)
     (void)state;
     enum { ROW = 64 };
     static float planes[(3 + 3) * ROW];
-    static const double radii[] = { 20, 6, 4, 3.1, 2.9, 2.5, 2.1, 2.000002, 2, 1.999998, 1.9, 1.5, 1, 0.3, 0.1, 0.03 };
+    static const double radii[] = { 20, 6, 4, 3.1, 3.01, 3.0001, 3, 2.9999, 2.99, 2.9, 2.5, 2.1, 2.000002, 2, 1.999998, 1.9, 1.5, 1, 0.3, 0.1, 0.03 };
     struct kd_capacity capacity;
     int bad = 0;
     kd_renderer_capacity(renderer, &capacity);
