@@ -16,7 +16,7 @@ enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 2048, ROWS = 1024, MARKS = 12 };
 /* Pictures that are kept here, by hashes that are none: nobody computes them anew. */
 static struct keeper {
     struct { char hash[KD_ASSET_NAME]; struct kd_buffer png; } at[6];
-    size_t n, held;
+    size_t n, held, taken;
 } keeper;
 
 static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
@@ -26,6 +26,7 @@ static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
         if (!strcmp(k->at[i].hash, hash)) {
             *out = (struct kd_asset_bytes) { k->at[i].png.data, k->at[i].png.size, k };
             k->held++;
+            k->taken++;
             return true;
         }
     return false;
@@ -266,8 +267,14 @@ static void here_and_gone(void **state)
     const char *damaged = keep(32, 16, pixels, "");
     keeper.at[keeper.n - 1].png.data[keeper.at[keeper.n - 1].png.size - 20] ^= 1;
     none = scene_of(KD_SKY_IMAGE, damaged);
-    assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
-    assert_string_equal(why.pointer, "/sky/image");
+    size_t taken = keeper.taken + 1;
+    for (int k = 0; k < 2; k++) { /* it is looked at once */
+        memset(&why, 0, sizeof why);
+        assert_int_equal(kd_render(renderer, &none, &plan, NULL, NULL, &frame, &why), KD_EINVAL);
+        assert_string_equal(why.pointer, "/sky/image");
+        assert_non_null(strstr(why.message, "damaged PNG file"));
+        assert_int_equal(keeper.taken, taken);
+    }
     for (int k = 0; k < 3; k++) { /* others between */
         pixels[3 * 40 + k] = 255;
         struct kd_scene other = scene_of(KD_SKY_IMAGE, k < 2 ? keep(32, 16, pixels, "") : "");
@@ -280,6 +287,25 @@ static void here_and_gone(void **state)
     assert_int_equal(keeper.held, 0);
     kd_frame_finish(&first);
     kd_frame_finish(&again);
+}
+
+/* A plan counts what it takes to read a picture, whose size no scene says. */
+static void memory(void **state)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_error why;
+    struct kd_scene made_up = scene_of(KD_SKY_IMAGE, ""), scene = scene_of(KD_SKY_IMAGE, *state), none = scene_of(KD_SKY_GRID, *state);
+    kd_renderer_capacity(renderer, &c);
+    c.memory_bytes = 300u << 20;
+    OK(kd_plan_make(&made_up, &c, &plan, &error));
+    assert_true(plan.making_bytes == 12ull * 2048 * 1024);
+    assert_int_equal(kd_plan_make(&scene, &c, &plan, &why), KD_ETOOBIG);
+    OK(kd_plan_make(&none, &c, &plan, &error));
+    assert_int_equal(plan.making_bytes, 0);
+    c.memory_bytes = 600u << 20;
+    OK(kd_plan_make(&scene, &c, &plan, &error));
+    assert_true(plan.making_bytes == 12ull * 4096 * 2048 + 6ull * 8192 * 4096);
 }
 
 /* The file of a picture names those whose work is in it, and no other file does. */
@@ -313,7 +339,7 @@ int main(void)
     void *image = (void *)marked();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(marks_and_stars, image), cmocka_unit_test(white), cmocka_unit_test_prestate(stars_over_pictures, image),
-        cmocka_unit_test_prestate(here_and_gone, image), cmocka_unit_test_prestate(credit_in_files, image),
+        cmocka_unit_test_prestate(here_and_gone, image), cmocka_unit_test_prestate(credit_in_files, image), cmocka_unit_test_prestate(memory, image),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     for (size_t i = 0; i < keeper.n; i++)

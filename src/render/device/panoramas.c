@@ -4,16 +4,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-static enum kd_status read_image(const struct kd_assets *assets, const char *hash, struct kd_sky_picture *out, char credit[KD_SKY_CREDIT],
-                                 struct kd_error *error)
+/* Looks for the bytes of an asset. */
+static enum kd_status take(const struct kd_assets *assets, const char *hash, struct kd_asset_bytes *out, struct kd_error *error)
 {
-    struct kd_asset_bytes bytes;
-    if (!assets || !assets->take(assets->user, hash, &bytes))
-        return kd_error_field(error, "/sky/image", "sky.image is \"%s\", and the bytes of this asset are not here; allowed are %s", hash,
-                              assets ? assets->allowed : "none where there are no assets");
-    enum kd_status status = kd_sky_image(bytes.data, bytes.size, out, credit, error);
-    assets->give_back(assets->user, &bytes);
-    return status;
+    if (assets && assets->take(assets->user, hash, out))
+        return KD_OK;
+    return kd_error_field(error, "/sky/image", "sky.image is \"%s\", and the bytes of this asset are not here; allowed are %s", hash,
+                          assets ? assets->allowed : "none where there are no assets");
+}
+
+/* Bytes of a hash never change: what is no sound picture never will be one. */
+static enum kd_status refuse(struct kd_panoramas *all, const char *hash, const struct kd_error *why, struct kd_error *error)
+{
+    if (why->status == KD_EINVAL) {
+        memcpy(all->broken, hash, sizeof all->broken);
+        all->why = *why;
+    }
+    if (error)
+        *error = *why;
+    return why->status;
 }
 
 static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture, struct kd_error *error)
@@ -36,31 +45,68 @@ static struct kd_panorama *room(struct kd_panoramas *all)
     return oldest;
 }
 
-enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error)
+static const struct kd_panorama *kept(struct kd_panoramas *all, const char *of)
 {
-    char of[KD_ASSET_NAME];
-    struct kd_sky_picture picture = { 0 };
-    struct kd_panorama made = { .used = ++all->used };
-    enum kd_status status;
-    snprintf(of, sizeof of, "%s", scene->sky.image);
-    if (!*of)
-        snprintf(of, sizeof of, "seed %d", scene->sky.seed);
     for (int i = 0; i < KD_PANORAMAS; i++)
         if (!strcmp(all->at[i].of, of)) {
-            all->at[i].used = all->used;
-            *out = &all->at[i];
-            return KD_OK;
+            all->at[i].used = ++all->used;
+            return &all->at[i];
         }
-    struct kd_panorama *place = room(all); /* before there is another one: memory for four is not for three */
-    KD_TRY(*scene->sky.image ? read_image(all->assets, of, &picture, made.credit, error) : kd_milky_way(scene->sky.seed, &picture, error));
-    KD_TRY(fill(&made, &picture, error));
-    memcpy(made.of, of, sizeof of);
+    return NULL;
+}
+
+/* Puts a panorama of this picture into a place that is empty. */
+static enum kd_status keep(struct kd_panoramas *all, const char *of, const char *credit, struct kd_sky_picture *picture, struct kd_panorama *place,
+                           struct kd_error *error)
+{
+    struct kd_panorama made = { .used = ++all->used };
+    enum kd_status status = fill(&made, picture, error);
+    if (status) {
+        free(made.words);
+        return status;
+    }
+    snprintf(made.of, sizeof made.of, "%s", of);
+    snprintf(made.credit, sizeof made.credit, "%s", credit);
     *place = made;
-    made.words = NULL;
-    *out = place;
-done:
-    free(made.words);
+    return KD_OK;
+}
+
+/* Place is made for it before it is there: memory for four is not for three. */
+static enum kd_status of_image(struct kd_panoramas *all, const char *hash, const struct kd_panorama **out, struct kd_error *error)
+{
+    struct kd_asset_bytes bytes;
+    struct kd_sky_picture picture;
+    struct kd_error why = { 0 };
+    char credit[KD_SKY_CREDIT] = "";
+    if (!strcmp(all->broken, hash))
+        return refuse(all, hash, &all->why, error);
+    enum kd_status status = take(all->assets, hash, &bytes, error);
+    if (status)
+        return status;
+    struct kd_panorama *place = room(all);
+    status = kd_sky_image(bytes.data, bytes.size, &picture, credit, &why);
+    all->assets->give_back(all->assets->user, &bytes);
+    status = status ? refuse(all, hash, &why, error) : keep(all, hash, credit, &picture, place, error);
     kd_sky_picture_finish(&picture);
+    *out = place;
+    return status;
+}
+
+enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error)
+{
+    char seed[KD_ASSET_NAME];
+    struct kd_sky_picture picture = { 0 };
+    snprintf(seed, sizeof seed, "seed %d", scene->sky.seed);
+    if ((*out = kept(all, *scene->sky.image ? scene->sky.image : seed)))
+        return KD_OK;
+    if (*scene->sky.image)
+        return of_image(all, scene->sky.image, out, error);
+    struct kd_panorama *place = room(all);
+    enum kd_status status = kd_milky_way(scene->sky.seed, &picture, error);
+    if (!status)
+        status = keep(all, seed, "", &picture, place, error);
+    kd_sky_picture_finish(&picture);
+    *out = place;
     return status;
 }
 

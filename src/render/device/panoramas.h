@@ -18,6 +18,8 @@ enum { KD_PANORAMAS = 3 };
 struct kd_panoramas {
     struct kd_panorama at[KD_PANORAMAS];
     uint64_t used;
+    char broken[KD_ASSET_NAME]; /* the last asset that was no sound picture, which is not looked at again; "": none was */
+    struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
 };
 

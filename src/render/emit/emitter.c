@@ -85,6 +85,15 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene)
     return sum;
 }
 
+uint64_t kd_emit_making_bytes(const struct kd_scene *scene)
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emitters[i]->making_bytes && kd_emitters[i]->present(scene))
+            sum += kd_emitters[i]->making_bytes(scene);
+    return sum;
+}
+
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number)
 {
     const struct kd_emitter *e = kd_emitters[number];

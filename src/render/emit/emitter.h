@@ -43,6 +43,7 @@ struct kd_emitter {
      * of its GLSL file. NULL: none; the last alone: the host fills them. */
     const struct kd_own *own;
     uint64_t (*device_bytes)(const struct kd_scene *scene);
+    uint64_t (*making_bytes)(const struct kd_scene *scene); /* on the host, at most, while they are made; NULL: little */
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
@@ -77,6 +78,8 @@ bool kd_emit_apart(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);
 /* Counts the bytes of all buffers that the scene's emitters have on the device. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
+/* And those that the host needs, at most, while it makes what is in them. */
+uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass there; 0: it has none, or the scene has not the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
 /* Call take(user, text) for each approximation that is in force. */

@@ -5,6 +5,7 @@
 #include "render/emit/sky_noise.h"
 #include "render/sky/frame.h"
 #include "render/sky/panorama.h"
+#include "scene/asset.h"
 #include "render/sky/star.h"
 #include "render/view/rim.h"
 
@@ -53,6 +54,13 @@ static uint64_t device_bytes(const struct kd_scene *scene)
     const uint32_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT; /* at most */
     return (is_spread(scene) ? 4ull * kd_panorama_words(2 * rows, rows) : 0) +
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
+}
+
+/* Light of the panorama before it is packed; and before that all pixels of a picture, of which the scene does not say how many they are. */
+static uint64_t making_bytes(const struct kd_scene *scene)
+{
+    const uint64_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT, most = KD_PANORAMA_MOST;
+    return is_spread(scene) ? 12 * 2 * rows * rows + (is_picture(scene) ? 6 * 2 * most * most : 0) : 0;
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -118,6 +126,7 @@ const struct kd_emitter kd_emit_sky = {
     .varies = varies,
     .own = &kd_own_sky,
     .device_bytes = device_bytes,
+    .making_bytes = making_bytes,
     .fill = fill,
     .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots) },
     .sentences = sentences,

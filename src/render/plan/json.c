@@ -51,7 +51,7 @@ static void add_bytes(struct kd_json *json, const struct kd_plan *plan)
     kd_json_object(json, "bytes");
     kd_json_number(json, "lens_map", (double)plan->lens_bytes);
     kd_json_number(json, "device", (double)plan->device_bytes);
-    kd_json_number(json, "host", (double)plan->host_bytes);
+    kd_json_number(json, "host", (double)(plan->host_bytes + plan->making_bytes));
     kd_json_end(json);
 }
 

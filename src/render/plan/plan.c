@@ -152,7 +152,7 @@ static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capac
 static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c, struct kd_error *error)
 {
     const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
-    uint64_t host = 2 * plan->host_bytes, bytes = c->host_memory ? fixed + host : fixed, most = c->memory_bytes;
+    uint64_t host = 2 * plan->host_bytes + plan->making_bytes, bytes = c->host_memory ? fixed + host : fixed, most = c->memory_bytes;
     plan->cacheable = bytes + plan->lens_bytes <= most;
     plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
     bytes += plan->device_bytes - fixed;
@@ -211,6 +211,7 @@ static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, 
     plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
     uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
     plan->lens_bytes = row_lens * plan->height + at_curve;
+    plan->making_bytes = kd_emit_making_bytes(scene);
     plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
     uint64_t fixed = plan->listed_bytes + kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) + (1 << 20) +
                      plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +

@@ -83,6 +83,7 @@ struct kd_plan {
     bool cacheable;                 /* the whole lens map fits in memory and can be kept */
     uint32_t audit;                 /* rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
     uint64_t lens_bytes, device_bytes, host_bytes;
+    uint64_t making_bytes;          /* beside host_bytes, while a renderer makes what emitters have on the device, once for all pictures */
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
     double estimate_ms, trace_ns;     /* of all; of one ray */
