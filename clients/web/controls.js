@@ -203,8 +203,8 @@ export function buildControls(scene, living_root) {
     showParts();
   }
   for (const event of ['change', 'settle']) scene.addEventListener(event, show);
-  const time = rows.find(r => r.path === 'time');
-  scene.addEventListener('tick', () => time.node.contains(document.activeElement) || time.show());
+  const moved = rows.filter(r => ['time', 'camera.r', 'camera.azimuth_deg'].includes(r.path));
+  scene.addEventListener('tick', () => moved.forEach(r => r.node.contains(document.activeElement) || r.show()));
   show();
 
   // A refusal of the server stands beside the field that it points at; whether there is such a field.

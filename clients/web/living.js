@@ -34,8 +34,9 @@ export function buildLiving(stage, scene, source) {
     fault = byId('strike-fault');
   let second = 0; // M as a time, of the hole's mass
 
-  const moves = () => showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
-  const rate = () => ({ 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
+  const goesItself = () => scene.get('motion.proper_time_rate') !== 0; // the observer, by its own clock, which takes time and azimuth along
+  const moves = () => goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
+  const rate = () => (goesItself() ? {} : { 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
   const buttons = withButton(scene)
     .reverse() // each is put before those that are there
     .map(field => buildButton(scene, field, rate));
@@ -43,7 +44,7 @@ export function buildLiving(stage, scene, source) {
   function toggle() {
     if (!moves()) return;
     const standing = !scene.goesOn();
-    if (standing && scene.get('motion.azimuth_rate_deg') === 0) scene.change(rate());
+    if (standing && !goesItself() && scene.get('motion.azimuth_rate_deg') === 0) scene.change(rate());
     scene.hold(!standing);
   }
 
@@ -76,7 +77,7 @@ export function buildLiving(stage, scene, source) {
   seed.addEventListener('click', () => scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))));
   // Only in time that goes on does it ring.
   strike.addEventListener('click', () => {
-    if (scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });
+    if (!goesItself() && scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });
     if (scene.held) scene.hold(false);
     source.strike(sentence => tell(fault, sentence));
   });

@@ -282,5 +282,6 @@ export function buildOverlays(root, stage, scene) {
     );
   }
   scene.addEventListener('change', () => layer.classList.add('late')); // until the picture has come to rest
+  scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren()); // of another place
   return draw;
 }

@@ -62,6 +62,7 @@ export class Scene extends EventTarget {
   #values = new Map();
   #styles = {}; // what each style sets, by path
   #now = null; // of the newest picture while time goes on
+  #moved = new Map(); // likewise, by path, what else the server moves: the place of an observer that falls
   #timer = 0;
   #clock = null; // that goes without pictures
   #linked = 0; // when the address last kept up
@@ -70,6 +71,7 @@ export class Scene extends EventTarget {
   emitters = []; // what shines in it, likewise
   unknown = []; // what of the link means nothing here
   jumps = 0; // how often somebody set the time
+  jumped = new Set(); // paths of what was moved, and has been set by somebody since
 
   static async load() {
     const schema = await getJson('v1/schema'),
@@ -129,13 +131,26 @@ export class Scene extends EventTarget {
 
   get(path) {
     if (path === 'time' && this.#now != null) return this.#now;
+    if (this.#moved.has(path)) return this.#moved.get(path);
     return this.#values.get(path) ?? this.fields.get(path)?.default;
+  }
+
+  // Where the server began to move it from.
+  begun(path) {
+    return this.#values.get(path) ?? this.fields.get(path).default;
+  }
+
+  // What was moved stays where it is seen.
+  land() {
+    for (const [path, value] of this.#moved) this.#put(path, value);
+    this.#moved.clear();
   }
 
   // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the changes.
   change(values) {
     if ('time' in values) (this.jumps++, (this.#now = null));
     const all = { ...this.#styles[values['style.name']], ...values };
+    for (const path of this.#moved.keys()) if (path in all) (this.#moved.delete(path), this.jumped.add(path));
     for (const [path, value] of this.#styleFirst(Object.entries(all))) this.#put(path, value);
     this.#changed();
   }
@@ -172,7 +187,7 @@ export class Scene extends EventTarget {
   settle(values) {
     this.#stop();
     if ('time' in values) this.#now = null;
-    for (const [path, value] of Object.entries(values)) this.#put(path, value);
+    for (const [path, value] of Object.entries(values)) (this.#moved.delete(path), this.#put(path, value));
     this.dispatchEvent(new Event('settle'));
   }
 
@@ -184,8 +199,9 @@ export class Scene extends EventTarget {
   }
 
   // After a picture of full quality the next one comes soon, or nothing that is seen moves.
-  tick(time, fine) {
+  tick(time, fine, moved = {}) {
     this.#stop();
+    for (const [path, value] of Object.entries(moved)) this.jumped.has(path) || this.#moved.set(path, value);
     const since = performance.now(),
       rate = this.get('motion.time_rate'),
       now = () => this.#tell(time + (rate * (performance.now() - since)) / 1000);
@@ -199,6 +215,7 @@ export class Scene extends EventTarget {
     if (performance.now() > this.#linked + link_ms) {
       this.#linked = performance.now();
       link.set('time', Math.ceil(time * 100) / 100 || null);
+      for (const [path, value] of this.#moved) link.set(path, value);
     }
     this.dispatchEvent(new Event('tick'));
   }
@@ -211,14 +228,15 @@ export class Scene extends EventTarget {
     this.change({ ...values, 'image.width': null, 'image.height': null });
   }
 
-  #with(other) {
-    return new Map([...this.#values, ...(this.#now == null ? [] : [['time', this.#now]]), ...Object.entries(other)]);
+  #with(other, moved) {
+    return new Map([...this.#values, ...moved, ...(this.#now == null ? [] : [['time', this.#now]]), ...Object.entries(other)]);
   }
 
-  // As JSON, with what differs only; other: values that go over those of the page. Elements at their defaults before others are {}.
-  document(other = {}) {
+  // As JSON, with what differs only; other: values that go over those of the page; begun: with what is moved where it began. Elements at their defaults
+  // before others are {}.
+  document(other = {}, begun = false) {
     const out = {};
-    for (const [path, value] of this.#with(other)) {
+    for (const [path, value] of this.#with(other, begun ? [] : this.#moved)) {
       const names = path.split('.'),
         last = names.pop();
       names.reduce((inside, name) => (inside[name] ??= {}), out)[last] = this.fields.get(path)?.type === 'words' ? value.split(',') : value;

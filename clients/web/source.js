@@ -63,20 +63,22 @@ export function openSource(scene, size, shown, failed) {
 
   function wanted() {
     const { width, height } = size();
-    return scene.document({
+    const over = {
       'image.width': width,
       'image.height': height,
       'image.samples': samples(scene),
       ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 } : {}),
-    });
+    };
+    return scene.document(over, true);
   }
 
-  // What differs from what the session has. It knows best how late it is, unless somebody has set the time.
+  // What differs from what the session has. It knows best how late it is and where an observer that falls has come to, unless somebody has set that.
   function difference(document) {
     const { time: then, ...before } = session.document,
       { time, ...after } = document;
     const patch = mergePatch(before, after);
     if (session.jumps !== scene.jumps) patch.time = time ?? null;
+    for (const name of ['r', 'azimuth_deg']) if (scene.jumped.has('camera.' + name)) (patch.camera ??= {})[name] = document.camera?.[name] ?? null;
     return patch;
   }
 
@@ -87,7 +89,7 @@ export function openSource(scene, size, shown, failed) {
       moved = { time };
     for (const [name, usual] of [['azimuth_deg', 0], ['r', 'infinity']]) {
       const there = document.camera?.[name] ?? usual;
-      if (camera[name] === there || scene.get('camera.' + name) !== there) continue; // somebody has moved it since
+      if (scene.begun('camera.' + name) !== there) continue; // somebody has moved it since
       moved['camera.' + name] = camera[name];
       (document.camera ??= {})[name] = camera[name];
     }
@@ -115,10 +117,12 @@ export function openSource(scene, size, shown, failed) {
   // A session that has ended is opened anew: it lives for a minute without anybody who watches. A window that is not seen has no size.
   async function send() {
     await seen('lensing');
+    if (!session) scene.land();
     const document = wanted(),
       jumps = scene.jumps;
     try {
       const patch = session && difference(document);
+      scene.jumped.clear();
       if (patch && !Object.keys(patch).length) return striking && (await struck(session.document));
       const answer = await ask(session?.url ?? 'v1/sessions', {
         method: session ? 'PATCH' : 'POST',
@@ -149,7 +153,8 @@ export function openSource(scene, size, shown, failed) {
     const revision = Number(get('Kerrd-Revision')),
       current = revision >= from.revision,
       final = quality.final === 1 && current;
-    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final);
+    const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock'));
+    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final, clock && current && scene.get('motion.proper_time_rate') ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg } : {});
     from.frame = Number(get('Kerrd-Frame'));
     recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
     await shown({
@@ -162,7 +167,7 @@ export function openSource(scene, size, shown, failed) {
       accuracy: figures(get('Kerrd-Accuracy')),
       approximations: sentences(get('Kerrd-Approximations')),
       passes: passes(get('Server-Timing')),
-      clock: get('Kerrd-Clock') && figures(get('Kerrd-Clock')),
+      clock,
     });
   }
 

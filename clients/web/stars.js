@@ -78,7 +78,7 @@ export function buildStars(stage, scene) {
   }
 
   const look = latest(async () => {
-    if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.azimuth_rate_deg'))) return clear();
+    if (!pointer || !hasNames(scene) || (scene.goesOn() && (scene.get('motion.azimuth_rate_deg') || scene.get('motion.proper_time_rate')))) return clear();
     const list = await starsIn(scene, stage).catch(() => null); // without them the picture is as good
     if (list && pointer) name(list);
   });

@@ -54,6 +54,27 @@ class Falling(Browser):
         page.select_option('[data-path="camera.observer"] select', 'static')
         self.assertFalse(page.is_visible('#fall'), 'who changes the observer has the camera')
 
+    def test_a_fall_that_the_server_goes_on_with(self):
+        """It stands and goes on by the button; what is said, linked and saved is of the place that is seen."""
+        page = self.open('lang=en&preset=infall', '#stage[data-final]', viewport={'width': 400, 'height': 400})
+        page.wait_for_selector('#play:has-text("Pause")')
+        self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < 19, 20))
+        self.assertIn('to the horizon', page.inner_text('#status'))
+        page.click('#play')
+        page.wait_for_selector(AT_REST)
+        r = self.camera_r(page)
+        frame = [q for q in self.requests if '/frame.png' in q.url][-2].response()  # one is still awaited
+        self.assertAlmostEqual(float(frame.headers['kerrd-clock'].split()[0][2:]) / r, 1, delta=1e-6)
+        self.assertTrue(daemon.eventually(lambda: f'camera.r={r:.3f}'[:12] in page.evaluate('location.hash')))
+        page.click('#play')
+        self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < r - 0.5, 20), 'it goes on from there')
+        self.assertGreater(self.camera_r(page), r - 12)
+        self.assertFalse(page.evaluate('document.getElementById("status").dataset.wrong'))
+        self.open_groups(page)
+        page.fill('[data-path="camera.r"] input[type=number]', '20')
+        page.keyboard.press('Enter')
+        self.assertTrue(daemon.eventually(lambda: 15 < self.camera_r(page) <= 20, 10), 'and from where it is put')
+
     def test_a_near_camera_looks_around(self):
         page = self.open(SKY + '&camera.r=8', viewport={'width': 640, 'height': 480})
         camera = lambda: [float(self.field(page, 'camera.' + name)) for name in ('yaw_deg', 'pitch_deg', 'azimuth_deg', 'inclination_deg')]
