@@ -110,7 +110,7 @@ const charts = [
     name: 'kerr',
     title: t('Orbits against spin', 'Orbite e rotazione'),
     inputs: [],
-    query: { spin: '0:0.999:112' },
+    query: { spin: '0:0.999:75' },
     equation:
       '<msub><mi>r</mi><mi>ph</mi></msub><mo>=</mo><mn>2</mn><mi>M</mi><mrow><mo>[</mo><mn>1</mn><mo>+</mo><mi>cos</mi><mrow><mo>(</mo><mfrac><mn>2</mn><mn>3</mn></mfrac><mi>arccos</mi><mrow><mo>(</mo><mo>∓</mo><mi>a</mi><mo>/</mo><mi>M</mi><mo>)</mo></mrow><mo>)</mo></mrow><mo>]</mo></mrow>',
     show: (v, p) => ({
