@@ -51,7 +51,8 @@ enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *s
                               struct kd_plan *out, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    if (!(format->carries & KD_CARRIES_PICTURE) && !format->scene && isinf(scene->style.exposure))
+    const bool told = format->carries & shows && format->scene; /* in the file, as it was asked for */
+    if (!(format->carries & KD_CARRIES_PICTURE) && !told && isinf(scene->style.exposure))
         scene->style.exposure = 0;
     if (!(format->carries & shows))
         scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
