@@ -323,6 +323,66 @@ static void whole_skies(void **state)
     kd_frame_finish(&bands);
 }
 
+/* Another picture, by the renderer itself, whenever the one aside lets others have the device. */
+struct other {
+    struct kd_scene scene;
+    struct kd_plan plan;
+    int times;
+};
+
+static bool render_other(void *user, double fraction)
+{
+    (void)fraction;
+    struct other *o = user;
+    struct kd_frame frame;
+    OK(kd_render(renderer, &o->scene, &o->plan, NULL, NULL, &frame, &error));
+    kd_frame_finish(&frame);
+    o->times++;
+    return true;
+}
+
+static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capacity *c)
+{
+    struct kd_needs needs = kd_needs_of(scene);
+    struct kd_plan plan;
+    needs.radiance = true;
+    OK(kd_plan_make_for(scene, &needs, c, &plan, &error));
+    return plan;
+}
+
+/* The light of a picture in bands that is made aside, while others under another sky are made, is not taken for light of theirs: that sky, by the same
+ * lens map, is then the same as by a map of its own. */
+static void another_sky_meanwhile(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0.9, 75), turned;
+    struct kd_capacity c;
+    struct kd_frame first, again;
+    struct other o = { 0 };
+    kd_renderer_capacity(renderer, &c);
+    c.max_binding_bytes = 3 << 20;
+    scene.sky.limit_mag = 8;
+    scene.camera.fov_deg = 20;
+    scene.camera.yaw_deg = 40; /* the curve is out of sight, and how many rays it has changes no pixel */
+    scene.image.critical_factor = 3;
+    turned = scene;
+    turned.camera.azimuth_deg = 40;
+    o.scene = turned;
+    o.scene.image.critical_factor = 2; /* has a map of its own */
+    o.plan = plan_of(&o.scene, &c);
+    const struct kd_plan plan = plan_of(&scene, &c), plan_turned = plan_of(&turned, &c);
+    assert_true(plan.bands > 1 && plan.cacheable);
+    OK(kd_render_aside(renderer, &scene, &plan, render_other, NULL, &o, &first, &error));
+    OK(kd_render_aside(renderer, &turned, &plan_turned, NULL, NULL, NULL, &again, &error));
+    struct kd_frame want = shot(&o.scene, &c);
+    assert_true(o.times > 1 && again.lens_reused);
+    assert_memory_equal(again.layers[1].data, want.layers[1].data, 12ull * WIDTH * HEIGHT);
+    assert_memory_not_equal(again.layers[1].data, first.layers[1].data, 12ull * WIDTH * HEIGHT);
+    kd_frame_finish(&first);
+    kd_frame_finish(&again);
+    kd_frame_finish(&want);
+}
+
 static bool was_run(const struct kd_frame *frame, const char *pass)
 {
     for (size_t i = 0; i < frame->n_timings; i++)
@@ -364,7 +424,7 @@ static void kept_and_made_anew(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kept_and_made_anew),
+        cmocka_unit_test(kept_and_made_anew), cmocka_unit_test(another_sky_meanwhile),
         cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
     };
     int skip = open_renderer();

@@ -19,8 +19,10 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
     kd_emit_update(r->emit, j->scene, j->plan->width * j->plan->band_rows);
     KD_TRY(kd_prepare_tell(r, j->scene, j->plan, &r->emit->data.emission, j->frame->credit, KD_CREDIT, j->error));
     KD_TRY(kd_store_send(j->store, &r->emit->data, j->error));
-    if (j->plan->points)
+    if (j->plan->points) {
+        kd_frame_begin_stars(j);
         kd_frame_find_rim(j);
+    }
     KD_TRY(kd_frame_send_cameras(j));
 done:
     atomic_store(&r->held, kd_vk_allocated(r->vk));

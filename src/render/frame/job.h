@@ -18,6 +18,8 @@ struct kd_frame_job {
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     struct kd_lens_map *lens;
+    struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
+    bool stars_kept;             /* and whether it is there already */
     uint64_t undecided;  /* listed rays that an engine gave up */
     double listed_ms, audit_ms; /* the host's time for them, and for the audit */
     kd_progress_fn progress;
@@ -96,6 +98,8 @@ enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_foot
 /* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels; nothing where
  * that light is there from the frame before. Its map must be whole. The bands of a frame from the first to the last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
+/* Whether that light is there: to be told as soon as the emitters are. */
+void kd_frame_begin_stars(struct kd_frame_job *job);
 /* Where the rim of the job's lens map is, if it has one (view/rim.h); and its rays, if they were not followed before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);

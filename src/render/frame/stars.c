@@ -175,7 +175,7 @@ done:
     return status;
 }
 
-/* What the light of stars is made of now. */
+/* What the light of stars is made of now, before others have the device and tell the renderer of another sky. */
 static struct kd_star_key key_of(const struct kd_frame_job *j)
 {
     struct kd_star_key key;
@@ -187,16 +187,18 @@ static struct kd_star_key key_of(const struct kd_frame_job *j)
     return key;
 }
 
+void kd_frame_begin_stars(struct kd_frame_job *j)
+{
+    j->star_key = key_of(j);
+    j->stars_kept = !memcmp(&j->lens->star_key, &j->star_key, sizeof j->star_key);
+    if (!j->stars_kept)
+        j->lens->star_key.lens[0] = 0;
+}
+
 enum kd_status kd_frame_stars(struct kd_frame_job *j, uint32_t band)
 {
-    struct kd_star_key *key = &j->lens->star_key;
-    const struct kd_star_key now = key_of(j);
-    enum kd_status status;
-    if (!memcmp(key, &now, sizeof now))
-        return KD_OK;
-    KD_TRY(spread_over(j, band));
-    if (band + 1 == j->plan->bands)
-        memcpy(key, &now, sizeof now);
-done:
+    enum kd_status status = j->stars_kept ? KD_OK : spread_over(j, band);
+    if (!status && !j->stars_kept && band + 1 == j->plan->bands)
+        memcpy(&j->lens->star_key, &j->star_key, sizeof j->star_key);
     return status;
 }
