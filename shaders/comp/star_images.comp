@@ -161,11 +161,11 @@ float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
 /* A place p in a ray's cell: in the picture, in its steps; how many of them, squared, there are to a step of the ray, squared; the share that the ray's
  * image there has, beside those by the rim or by the grid; and, over what is measured as 1, the energy at infinity. */
-struct kd_spot { vec2 place; float steps, share, energy; };
+struct kd_star_pixel { vec2 place; float steps, share, energy; };
 
-kd_spot spot_at(uint x, uint y, vec2 p)
+kd_star_pixel spot_at(uint x, uint y, vec2 p)
 {
-    kd_spot o = kd_spot(vec2(x, y) + p, 1.0, 1.0, 1.0);
+    kd_star_pixel o = kd_star_pixel(vec2(x, y) + p, 1.0, 1.0, 1.0);
     if (AT_RIM) {
         kd_rim_cell cell = kd_rim_cell_at(x, y, p);
         kd_seen seen = kd_camera_seen(cell.d);
@@ -206,7 +206,7 @@ void images(uint at, uint k)
     for (; fresh != 0u; fresh &= fresh - 1u) { /* a loop, for it alone skips work */
         vec2 p = (fresh & 1u) != 0u ? found[0] : (fresh & 2u) != 0u ? found[1] : (fresh & 4u) != 0u ? found[2] : found[3];
         float det = max(abs(determinant_of(derivative(m, p))), 1e-6 * size);
-        kd_spot spot = spot_at(x, y, p);
+        kd_star_pixel spot = spot_at(x, y, p);
         float magnified = stars[4u * k + 3u] * cosine * spot.steps / (det * float(SIDE * SIDE));
         if (magnified < KD_STAR_LEAST)
             continue;

@@ -23,7 +23,7 @@ static void write(const struct kd_rim *rim, float *to)
     for (uint32_t i = 0; i < rim->rows; i++) {
         const double off = kd_rim_off(rim, i);
         for (uint32_t k = 0; k < KD_RIM_ANGLES; k++) {
-            const struct kd_rim_place place = kd_rim_ray(rim, k, off);
+            const struct kd_rim_pixel place = kd_rim_ray(rim, k, off);
             *to++ = (float)place.x;
             *to++ = (float)place.y;
         }

@@ -157,10 +157,10 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
 
 double kd_rim_off(const struct kd_rim *rim, uint32_t i) { return rim->far * exp(-(double)i * rim->fall); }
 
-struct kd_rim_place kd_rim_ray(const struct kd_rim *rim, uint32_t k, double off)
+struct kd_rim_pixel kd_rim_ray(const struct kd_rim *rim, uint32_t k, double off)
 {
     const double out = (1 + off) * rim->steps;
-    return (struct kd_rim_place) { (uint32_t)(MIDDLE + (int)lrint(rim->x[k] * out)), (uint32_t)(MIDDLE - (int)lrint(rim->y[k] * out)) };
+    return (struct kd_rim_pixel) { (uint32_t)(MIDDLE + (int)lrint(rim->x[k] * out)), (uint32_t)(MIDDLE - (int)lrint(rim->y[k] * out)) };
 }
 
 struct kd_camera_block kd_rim_camera(const struct kd_scene *scene, const struct kd_rim *rim)

@@ -1,4 +1,4 @@
-/* The rim of the shadow: rays next to the critical curve, on a grid of their own, round the curve and by the logarithm of the distance to it. There
+/* This lays out the rim of the shadow: rays next to the critical curve stand on a grid of their own, round the curve and by the logarithm of the distance to it. There
  * every image order of the sky is as wide as the last, and each image of a star can be found (docs/physics/sky.md). Double precision; pure, any
  * thread. The scene must be valid.
  *
@@ -34,8 +34,8 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 
 /* The camera of its rays, which looks at the middle, and the place there of the one in column k and row i. */
 struct kd_camera_block kd_rim_camera(const struct kd_scene *scene, const struct kd_rim *rim);
-struct kd_rim_place { uint32_t x, y; };
-struct kd_rim_place kd_rim_ray(const struct kd_rim *rim, uint32_t k, double off); /* off: of the row, */
+struct kd_rim_pixel { uint32_t x, y; };
+struct kd_rim_pixel kd_rim_ray(const struct kd_rim *rim, uint32_t k, double off); /* off: of the row, */
 double kd_rim_off(const struct kd_rim *rim, uint32_t i);                          /* far e^(-i fall) */
 
 /* A lens map of it has one order, w and where rays go; with the list of rays and the tables behind it, at most so many bytes. */
