@@ -52,7 +52,7 @@ class Documents(unittest.TestCase):
 
     def test_readme(self):
         self.run_all('README.md', 2)
-        for name in 'hole.png', 'tilted.png', 'fast.png', 'flare.csv':
+        for name in 'hole.png', 'tilted.png', 'fast.png', 'maps.fits', 'flare.csv':
             self.assertTrue(pathlib.Path(self.folder.name, name).stat().st_size, name)
 
     def test_statuses(self):
@@ -72,7 +72,7 @@ class Documents(unittest.TestCase):
         self.run_all('docs/physics-quantities.md', 1)
 
     def test_live(self):
-        self.run_all('docs/live.md', 1)
+        self.run_all('docs/live.md', 2)
 
     def test_jobs(self):
         self.run_all('docs/jobs.md', 2)
