@@ -1,8 +1,8 @@
 /* What is seen of the gas: the angle at which its light leaves it, against Kerr-Schild geodesics and the metric; that its turbulence
  * keeps the flux; that it turns as gas on orbits does; that one seed is one picture. */
+#include "photon.h"
 #include "studio.h"
 
-#include "kerr_schild.h"
 #include "physics/disk.h"
 #include "physics/kerr.h"
 #include "render/view/camera.h"
@@ -39,17 +39,6 @@ static double cosine(const struct ks_photon *p, const struct ks_path *path)
 {
     double r = path->r[0], omega = orbit_omega(p->a, r);
     return path->p_z[0] * sqrt(-line(p->a, r, omega)) / (p->energy - omega * p->momentum);
-}
-
-static struct ks_photon photon_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
-{
-    double theta = scene->camera.inclination_deg * (M_PI / 180), width = scene->image.width, height = scene->image.height;
-    bool far = isinf(scene->camera.r);
-    double step = far ? scene->camera.field_m / width : 2 * tan(scene->camera.fov_deg * (M_PI / 360)) / width;
-    double right = step * (x - 0.5 * (width - 1)), up = -step * (y - 0.5 * (height - 1)), n = sqrt(1 + right * right + up * up);
-    const double k[3] = { -1 / n, -up / n, right / n };
-    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), right, up)
-               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
 }
 
 #define DEPTH 3.0

@@ -1,7 +1,7 @@
 /* In slow light of gas each pixel shows the turbulence of the time at which its light left; its delay is by Kerr-Schild geodesics. */
+#include "photon.h"
 #include "studio.h"
 
-#include "kerr_schild.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -25,18 +25,7 @@ static struct kd_scene view(double spin, double inclination_deg, double r)
     return studio_scene(NULL, json);
 }
 
-static struct ks_photon photon_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
-{
-    double theta = scene->camera.inclination_deg * (M_PI / 180);
-    bool far = isinf(scene->camera.r);
-    double step = far ? scene->camera.field_m / WIDTH : 2 * tan(scene->camera.fov_deg * (M_PI / 360)) / WIDTH;
-    double right = step * (x - 0.5 * (WIDTH - 1)), up = -step * (y - 0.5 * (HEIGHT - 1)), n = sqrt(1 + right * right + up * up);
-    const double k[3] = { -1 / n, -up / n, right / n };
-    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), right, up)
-               : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
-}
-
-/* The disk is opaque: what a pixel shows is its first crossing. */
+/* The disk is opaque: what a pixel shows is its first crossing. 16 bits of the dimmest pixels looked at are worth 1e-3. */
 static void pixels_show_when_their_light_left(void **state)
 {
     (void)state;

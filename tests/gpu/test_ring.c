@@ -184,7 +184,7 @@ struct shown {
     const char *what;
     uint32_t width, height, every;
     double emission_opacity, amplitude;
-    int octaves, orders, lit, off; /* off: steps of 255 */
+    int octaves, orders, lit;
 };
 
 /* A pixel of a ring is that of a plane picture which is aimed there: the same light, with its redshift. */
@@ -226,7 +226,7 @@ static void same_light(const struct shown *shown)
         const uint8_t *a = (const uint8_t *)kd_frame_pixels(&frame) + 3 * i, *b = (const uint8_t *)kd_frame_pixels(&one) + 3 * 4;
         for (int c = 0; c < 3; c++) {
             lit += a[c] > 16;
-            if (abs(a[c] - b[c]) > shown->off)
+            if (abs(a[c] - b[c]) > 1)
                 fail_msg("%s: pixel %u, channel %d: %d, aimed at %d", shown->what, i, c, a[c], b[c]);
         }
         kd_frame_finish(&one);
@@ -241,9 +241,9 @@ static void light_is_that_of_a_plane_picture(void **state)
 {
     (void)state;
     static const struct shown cases[] = {
-        { "smooth disk", 10, 12, 1, 0, 0, 6, ORDERS, 150, 1 },
-        { "optical depth", 10, 12, 1, 3, 0, 6, ORDERS, 150, 1 },
-        { "turbulence", 360, 432, 1307, 3, 0.8, 1, 1, 100, 1 },
+        { "smooth disk", 10, 12, 1, 0, 0, 6, ORDERS, 150 },
+        { "optical depth", 10, 12, 1, 3, 0, 6, ORDERS, 150 },
+        { "turbulence", 360, 432, 1307, 3, 0.8, 1, 1, 100 },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         same_light(cases + k);

@@ -1,7 +1,5 @@
 #include "render/output/numbers.h"
 
-#include <stdio.h>
-
 enum kd_status kd_numbers_of(const struct kd_picture *picture, struct kd_numbers *out, struct kd_error *error)
 {
     const struct kd_words *words = &picture->scene->image.layers;
@@ -14,8 +12,6 @@ enum kd_status kd_numbers_of(const struct kd_picture *picture, struct kd_numbers
         to->layer = kd_frame_layer(picture->frame, layer.kind == KD_LAYER_rgb ? "radiance" : to->name);
         if (!to->layer)
             return kd_error_set(error, KD_EINVAL, "the frame has not all layers that image.layers names");
-        if (layer.kind == KD_LAYER_rgb)
-            snprintf(to->name, sizeof to->name, "rgb");
     }
     return KD_OK;
 }
