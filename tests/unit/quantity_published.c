@@ -160,9 +160,31 @@ static void fall(void **state)
     published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
 }
 
+/* Rain in Schwarzschild looks: what comes from behind is as above, what comes from the side, L = 0 = p^r of its own, unshifted, and the dark disk at the horizon
+ * has the radius 2 atan(2/sqrt(27)), on whose edge E = 1/(1 - cos sqrt(2/r)). */
+static void sky_of_rain(void **state)
+{
+    (void)state;
+    const double half = 2 / sqrt(27), cosine = (1 - half * half) / (1 + half * half);
+#define RAIN "spin=0", "observer=infall"
+    published("behind", ASK("sky", "g_behind", RAIN, "observer_r=8"), 2.0 / 3, 1e-14);
+    published("the least is behind", ASK("sky", "g_least", RAIN, "observer_r=8"), 2.0 / 3, 1e-14);
+    published("overhead", ASK("sky", "g_above", RAIN, "observer_r=0.7"), 1, 1e-14);
+    published("30 degrees from straight behind", ASK("sky", "g", RAIN, "observer_r=8", "yaw_deg=150"), 1 / (1 + 0.5 * cos(M_PI / 6)), 1e-14);
+    published("the same upwards", ASK("sky", "g", RAIN, "observer_r=8", "yaw_deg=180", "pitch_deg=30"), 1 / (1 + 0.5 * cos(M_PI / 6)), 1e-14);
+    published("the dark disk at the horizon", ASK("sky", "dark_radius_deg", RAIN, "observer_r=2"), 2 * atan(half) * (180 / M_PI), 1e-9);
+    published("its edge", ASK("sky", "g_greatest", RAIN, "observer_r=2"), 1 / (1 - cosine), 1e-12);
+    assert_true(isnan(ASK("sky", "g_ahead", RAIN, "observer_r=2")));
+    published("far away", ASK("sky", "g_greatest", "observer_r=infinity"), 1, 0);
+    /* One at rest at 6 M sees 1/sqrt(2/3) of it, from where the orbit, of v = 1/2, leads away sqrt((1 - v)/(1 + v)) of that. */
+    published("from behind one that goes round", ASK("sky", "g_left", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), sqrt(0.5), 1e-14);
+    published("and from before it", ASK("sky", "g_right", "spin=0", "observer=keplerian", "observer_r=6", "inclination_deg=90"), 3 * sqrt(0.5), 1e-14);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(figures), cmocka_unit_test(constants),
-                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on), cmocka_unit_test(fall) };
+                                        cmocka_unit_test(energy_is_conserved), cmocka_unit_test(face_on), cmocka_unit_test(fall),
+                                        cmocka_unit_test(sky_of_rain) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
