@@ -30,8 +30,8 @@ layout(set = 0, binding = 6) buffer PointLight { uint point_light[]; };
 
 #define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
 
-/* f(x, y) = a x + b y + aa x^2 + ab x y + bb y^2, in radians. */
-struct kd_patch { vec2 a, b, aa, ab, bb; bool there; };
+/* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, in radians. */
+struct kd_patch { vec2 c, a, b, aa, ab, bb, aaa, aab, abb, bbb; bool there; };
 
 struct kd_chart { vec3 n, e1, e2; };
 
@@ -56,24 +56,40 @@ void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2
     there = there && (before.there || after.there);
 }
 
-/* Next to a caustic a patch is thin: what numbers of 32 bits have lost is much of its width, and so are terms of third order. There the first
- * coefficients are those of the cubic that fits 7 x 7 rays best, in the mean of squares. */
+/* Next to a caustic a patch is thin: what numbers of 32 bits have lost is much of its width, and so are terms of third order. There it is the cubic that fits
+ * 7 x 7 rays best, in the mean of squares: by the polynomials 1, u, u^2 - 4, u^3 - 7u, which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
 void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
 {
     float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);
     bool thin = abs(area) < KD_STAR_THIN * size, there = true;
-    vec2 a = vec2(0.0), b = vec2(0.0);
+    vec2 k00 = vec2(0.0), k10 = vec2(0.0), k01 = vec2(0.0), k20 = vec2(0.0), k11 = vec2(0.0), k02 = vec2(0.0), k30 = vec2(0.0), k21 = vec2(0.0), k12 = vec2(0.0), k03 = vec2(0.0);
     for (int i = 0; i < (thin ? 49 : 0); i++) {
         int row = i / 7, dx = i - 7 * row - 3, dy = row - 3;
         kd_neighbour n = neighbour(c, at, x, y, dx, dy);
-        float u = float(dx), v = float(dy);
+        float u = float(dx), v = float(dy), u2 = u * u - 4.0, v2 = v * v - 4.0;
         there = there && n.there;
-        a += u * (0.04431217 - 0.00462963 * u * u - 0.00170068 * v * v) * n.f;
-        b += v * (0.04431217 - 0.00462963 * v * v - 0.00170068 * u * u) * n.f;
+        k00 += n.f;
+        k10 += u * n.f;
+        k01 += v * n.f;
+        k20 += u2 * n.f;
+        k11 += u * v * n.f;
+        k02 += v2 * n.f;
+        k30 += u * (u2 - 3.0) * n.f;
+        k21 += u2 * v * n.f;
+        k12 += u * v2 * n.f;
+        k03 += v * (v2 - 3.0) * n.f;
     }
     if (thin && there) {
-        o.a = a;
-        o.b = b;
+        o.aaa = k30 / (216.0 * 7.0);
+        o.aab = k21 / (84.0 * 28.0);
+        o.abb = k12 / (28.0 * 84.0);
+        o.bbb = k03 / (7.0 * 216.0);
+        o.aa = k20 / (84.0 * 7.0);
+        o.ab = k11 / (28.0 * 28.0);
+        o.bb = k02 / (7.0 * 84.0);
+        o.a = k10 / (28.0 * 7.0) - 7.0 * o.aaa - 4.0 * o.abb;
+        o.b = k01 / (7.0 * 28.0) - 7.0 * o.bbb - 4.0 * o.aab;
+        o.c = k00 / 49.0 - 4.0 * (o.aa + o.bb);
     }
 }
 
@@ -83,22 +99,30 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
     kd_neighbour nw = neighbour(c, at, x, y, -1, -1), ne = neighbour(c, at, x, y, 1, -1), sw = neighbour(c, at, x, y, -1, 1), se = neighbour(c, at, x, y, 1, 1);
     kd_patch o;
     o.there = true;
-    o.ab = vec2(0.0);
+    o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = vec2(0.0);
     one_sided(w, e, o.a, o.aa, o.there);
     one_sided(n, s, o.b, o.bb, o.there);
     if (w.there && e.there && n.there && s.there && nw.there && ne.there && sw.there && se.there) {
         o.a = ((ne.f - nw.f) + (e.f - w.f) + (se.f - sw.f)) * (1.0 / 6.0);
         o.b = ((sw.f - nw.f) + (s.f - n.f) + (se.f - ne.f)) * (1.0 / 6.0);
         o.ab = 0.25 * (se.f - sw.f - ne.f + nw.f);
-        if (!AT_RIM) /* whose steps are long */
+        if (!AT_RIM) /* whose steps are long, and whose numbers have lost more than a smooth curve through them brings back */
             refine(c, at, x, y, o);
     }
     return o;
 }
 
-vec2 value(kd_patch m, vec2 p) { return p.x * (m.a + m.aa * p.x + m.ab * p.y) + p.y * (m.b + m.bb * p.y); }
+vec2 value(kd_patch m, vec2 p)
+{
+    return m.c + p.x * (m.a + p.x * (m.aa + m.aaa * p.x + m.aab * p.y) + m.ab * p.y) + p.y * (m.b + p.y * (m.bb + m.bbb * p.y + m.abb * p.x));
+}
+
 /* Columns: d/dx, d/dy. */
-mat2 derivative(kd_patch m, vec2 p) { return mat2(m.a + 2.0 * m.aa * p.x + m.ab * p.y, m.b + 2.0 * m.bb * p.y + m.ab * p.x); }
+mat2 derivative(kd_patch m, vec2 p)
+{
+    return mat2(m.a + p.x * (2.0 * m.aa + 3.0 * m.aaa * p.x + 2.0 * m.aab * p.y) + p.y * (m.ab + m.abb * p.y),
+                m.b + p.y * (2.0 * m.bb + 3.0 * m.bbb * p.y + 2.0 * m.abb * p.x) + p.x * (m.ab + m.aab * p.x));
+}
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 
 /* A root near `p`; beyond all cells if there is none. */
