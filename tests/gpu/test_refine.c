@@ -63,6 +63,7 @@ static const char *const scenes[] = {
     "{\"disk\": {\"gas\": {\"amplitude\": 0.5}}}",
     "{\"camera\": {\"inclination_deg\": 85}, \"disk\": {\"gas\": {\"amplitude\": 0.8}, \"emission_opacity\": 10}}",
     "{\"sky\": {\"model\": \"grid\"}, \"disk\": {\"model\": \"none\"}}",
+    "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}", /* next to no edges: what is left are bends, and the map's third differences */
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -211,6 +212,29 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
+/* A faint bend is chosen where nothing stronger is there, and so much of it as leaves next to nothing of the squares; not beside an edge. */
+static void test_faint(void **state)
+{
+    (void)state;
+    static uint16_t pixels[3 * W * H];
+    memset(kinds, 0, sizeof kinds);
+    for (int k = 0; k < W * H; k++)
+        pixels[3 * k] = 1000;
+    for (int x = 0; x < W; x++) /* the edge of the picture, which is dark, is out of the question */
+        kinds[x] = kinds[(H - 1) * W + x] = 1;
+    for (int y = 0; y < H; y++)
+        kinds[y * W] = kinds[y * W + W - 1] = 1;
+    pixels[3 * (3 * W + 4)] += 400;  /* bends of 800 and 400: less than 1311 */
+    pixels[3 * (5 * W + 11)] += 100; /* of 200 and 100: the former is above the floor, 132 */
+    struct kd_choice choice = bent(pixels, W * H);
+    assert_int_equal(choice.list.n, 9 + 1);
+    kd_choice_finish(&choice);
+    pixels[3 * (3 * W + 4)] += 20000;
+    choice = bent(pixels, W * H);
+    assert_int_equal(choice.list.n, 9);
+    kd_choice_finish(&choice);
+}
+
 /* Which pixels of a made-up picture are chosen. */
 static void test_choice(void **state)
 {
@@ -257,7 +281,7 @@ int main(void)
     if (status)
         return status;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_choice), cmocka_unit_test(test_as_good), cmocka_unit_test(test_target),
+        cmocka_unit_test(test_choice), cmocka_unit_test(test_faint), cmocka_unit_test(test_as_good), cmocka_unit_test(test_target),
         cmocka_unit_test(test_same), cmocka_unit_test(test_shown),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));

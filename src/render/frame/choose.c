@@ -45,27 +45,63 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
     return most;
 }
 
-enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out, struct kd_error *error)
+/* The pixels from a bend of `floor` on; *sum: of the squares of all bends, theirs and the others'. */
+static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum, struct kd_error *error)
 {
     const size_t row = CHANNELS * (size_t)now->width;
-    const int least = (int)fmax(ceil(2 * pixel_error * WHITE), 1);
     uint16_t *dark = calloc(row, sizeof *dark);
     enum kd_status status = dark ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for a row of pixels");
-    *out = (struct kd_choice) { 0 };
     for (uint32_t y = 0; y < now->height && !status; y++) {
         const uint16_t *own = now->pixels + y * row, *above = y ? own - row : dark, *below = y + 1 < now->height ? own + row : dark;
         for (uint32_t x = 0; x < now->width && !status; x++) {
             if (now->kinds[y * (size_t)now->width + x] >= now->done)
                 continue;
             const int b = bend(above, own, below, x, now->width);
-            if (b >= least)
+            *sum += (double)b * b;
+            if (b >= floor)
                 status = kd_choice_add(out, (struct kd_pixel) { x, y }, (uint32_t)b, error);
         }
     }
     free(dark);
-    if (status)
-        kd_choice_finish(out);
     return status;
+}
+
+/* The bend below which pixels are left out: at most `least`, and so low that what is left out sums to KD_CHOOSE_LEFT of the squares at most. */
+static double threshold(const struct kd_choice *c, double floor, double least, double sum)
+{
+    double squares[BINS] = { 0 }, left = sum;
+    for (size_t i = 0; i < c->list.n; i++) {
+        const double b = c->scores[i];
+        left -= b * b;
+        if (b < least)
+            squares[(int)((b - floor) / (least - floor) * BINS)] += b * b;
+    }
+    int bin = 0;
+    while (bin < BINS && left + squares[bin] <= KD_CHOOSE_LEFT * sum)
+        left += squares[bin++];
+    return floor + (least - floor) * bin / BINS;
+}
+
+enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out, struct kd_error *error)
+{
+    const double least = fmax(ceil(2 * pixel_error * WHITE), 1), floor = fmax(ceil(least * KD_CHOOSE_FLOOR), 1);
+    double sum = 0;
+    size_t n = 0;
+    *out = (struct kd_choice) { 0 };
+    enum kd_status status = bends(now, (int)floor, out, &sum, error);
+    if (status) {
+        kd_choice_finish(out);
+        return status;
+    }
+    const double from = threshold(out, floor, least, sum);
+    for (size_t i = 0; i < out->list.n; i++) {
+        if (out->scores[i] < from)
+            continue;
+        out->list.pixels[n] = out->list.pixels[i];
+        out->scores[n++] = out->scores[i];
+    }
+    out->list.n = n;
+    return KD_OK;
 }
 
 static uint32_t changed(const uint16_t *a, const uint16_t *b, size_t pixel)

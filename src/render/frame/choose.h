@@ -24,7 +24,12 @@ void kd_choice_finish(struct kd_choice *choice);
 
 /* Choose the pixels whose second difference comes to twice pixel_error of white in any channel, across, down or along a diagonal. Where
  * the picture is straight from pixel to pixel a ray in the middle of each is right, whatever the slope. Beyond the edge of the picture
- * it is dark: whatever shines there may end there. KD_ENOMEM. */
+ * it is dark: whatever shines there may end there.
+ *
+ * Where a picture is so smooth that the others hold more than KD_CHOOSE_LEFT of the sum of squares of all second differences, which goes with
+ * the sum of squares of errors, as many of the next largest are chosen as leave just that, down to KD_CHOOSE_FLOOR of the bound. KD_ENOMEM. */
+#define KD_CHOOSE_LEFT 2e-4
+#define KD_CHOOSE_FLOOR 0.1
 enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out, struct kd_error *error);
 
 /* Choose the pixels next to those of n lists that changed by pixel_error or more: what one ray in each pixel missed here may go on there.
