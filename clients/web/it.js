@@ -183,6 +183,14 @@ export const fields = {
   'spots.size': ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
   'spots.index': ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
   'spots.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
+  volume: ['Volume'],
+  'volume.model': ['Modello', 'Materia lungo tutto il raggio: nessuna, o uniforme, un guscio ovunque uguale e fermo: quanto fanno luce e opacità lungo raggi curvi'],
+  'volume.inner': ['Bordo interno', 'Orizzonte: un centesimo al di fuori, quanto il bordo è almeno'],
+  'volume.outer': ['Bordo esterno', 'Maggiore di quello interno'],
+  'volume.emissivity': ['Emissività', 'Luce di una lunghezza M nel proprio riferimento, in unità della massima del disco'],
+  'volume.opacity': ['Opacità', 'Profondità ottica di una lunghezza M nel proprio riferimento'],
+  'volume.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
+  'volume.redshift': ['Redshift', 'Spostamento di frequenza della materia'],
   'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla; un reticolo celeste che mostra la lente; stelle e una Via Lattea inventate; le stelle del catalogo Hipparcos su quella Via Lattea; o sky.image senza stelle'],
   'sky.brightness': [
     'Luminosità',
@@ -464,6 +472,7 @@ export const sentences = {
   ringdown: 'oscillazione smorzata',
   sky: 'cielo',
   gas: 'gas',
+  volume: 'volume',
   'Disk of particles': 'Disco di particelle',
   'Hot spot': 'Macchia calda',
   'A celestial grid behind.': 'Dietro, un reticolo celeste.',
@@ -551,6 +560,12 @@ export const sentences = {
     'cielo: un’immagine di tre colori non ha spettro: la sua luce è resa più intensa e colorata come quella di corpi neri di 5600 K',
   "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads more than 0.1 rad away":
     'cielo: da così vicino all’orizzonte è rumore: per la maggior parte dei pixel che lo vedono il successivo, o l’ultima cifra delle costanti del raggio, porta a più di 0,1 rad di distanza',
+  'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature':
+    'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta',
+  "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
+    'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
+  'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; a pixel\'s light is of the places on its rays and no mean over what they stand for':
+    'volumi: luce a 32 bit da tre punti per tratto, con quanti tratti chiedono grana, profondità e raggio; la luce di un pixel è quella dei punti sui suoi raggi e non una media su ciò che rappresentano',
   'image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots':
     'immagine: pochi raggi per i pixel attraversati dalla curva critica; un anello di fotoni più sottile di loro appare a punti',
   'post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance':

@@ -10,11 +10,21 @@ struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint, sha
 struct kd_end { float u, phi, footprint, energy; };
 /* One emitter adds this at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
 struct kd_glow { vec3 light; float alpha, apart; };
+/* This is a place in a volume that the ray goes through. w = 1/r, u = cos(theta), and what they grow by in Mino time as the ray is traced, against the
+ * light: the arriving photon has p_r = dw/kd_delta(w), p_theta = du/sin(theta) and the E, L and Q of `energy`, `momentum`, `q`, by the energy that
+ * the observer measures. speed: M of length in (r, r n) a unit of Mino time, n being the direction from the hole, as if space were flat: what a
+ * grain is counted in. */
+struct kd_midst { float w, u, dw, du, energy, momentum, q, speed; };
+/* That is what is there. light: what is added to the light, and depth: optical depth, of a unit of the affine parameter by the observer's energy:
+ * along a ray, d lambda = (r^2 + a^2 u^2) d tau, matter of velocity U sees the way -k.U d lambda, so that of its emissivity j and opacity alpha, by
+ * its own length, depth = alpha (-k.U), and bolometric light = j (-k.U)^-3, 1/(-k.U) being g. grain: M along the ray over which it changes by about
+ * its own size; where there is nothing, as much as the way to where there is something. */
+struct kd_medium { vec3 light; float depth, grain; };
 /* A ray on its way: the light so far, and what all in front lets pass. */
 struct kd_beam { vec3 light; float apart, through; };
 
 #define KD_SPEC_TRAIT_(number, name) layout(constant_id = KD_SPEC_TRAITS + number) const uint TRAITS_##name = 0;
-KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
+KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_HAS(name) ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u)
 #define KD_NO_EMITTER_(number, name)
 
@@ -24,11 +34,11 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 
 /* These say whether anything is to be seen at crossings, and whether the luminance of some of it is kept apart. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
-const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
+const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
 const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
 /* This says whether anything shines where rays end. */
-const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
+const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
 /* All emitters of a place are in it together: none hides another's light. */
@@ -36,7 +46,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
 #define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s);
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 #define KD_GLOW_(number, name)                                                                                 \
     if (KD_HAS(name)) {                                                                                        \
         kd_glow glow = kd_##name##_glow(s);                                                                    \
@@ -44,20 +54,46 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
         beam.apart += seen * glow.apart;                                                                       \
         beam.through *= 1.0 - glow.alpha;                                                                      \
     }
-    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
+
+#ifdef KD_MARCH
+/* All emitters of a place are in it together. */
+kd_medium kd_medium_at(kd_midst p)
+{
+    kd_medium sum = kd_medium(vec3(0.0), 0.0, 1e30);
+#define KD_ALONG_(number, name)                                                                                \
+    if (KD_HAS(name)) {                                                                                        \
+        kd_medium one = kd_##name##_along(p);                                                                  \
+        sum.light += one.light;                                                                                \
+        sum.depth += one.depth;                                                                                \
+        sum.grain = min(sum.grain, one.grain);                                                                 \
+    }
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_ALONG_)
+    return sum;
+}
+
+/* The ray goes `way` of its affine parameter through a medium that is the same all along: exact, whatever the depth. */
+void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
+{
+    float x = medium.depth * way, passes = exp(-x);
+    float mean = x < 0.02 ? 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))) : (1.0 - passes) / x;
+    beam.light += (beam.through * mean * way) * medium.light;
+    beam.through *= passes;
+}
+#endif
 
 void kd_beam_end(inout kd_beam beam, kd_end end)
 {
 #define KD_END_(number, name) if (KD_HAS(name)) beam.light += beam.through * kd_##name##_end(end);
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_)
 }
 
 /* Points of light are spread over pixels, whatever becomes of a pixel's own rays. */
 void kd_beam_points(inout kd_beam beam, uint pixel)
 {
 #define KD_POINTS_(number, name) if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) beam.light += beam.through * kd_##name##_points(pixel);
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_)
 }
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */

@@ -67,12 +67,31 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
     return kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q, quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n);
 }
 
+#ifdef KD_MARCH
+bool lost = false; /* the ray was given up on its way to a crossing */
+void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
+{
+    lost = lost || w < 0.0;
+    if (w < 0.0)
+        beam.through = 0.0;
+    else
+        kd_beam_at(beam, sample_at(n, w, at, kd_camera_ray(place.x, place.y)));
+}
+#define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
+#include "light/march.glsl"
+#endif
+
 /* This is the luminance of a ray: of all that it sees, or of one order, as it arrives. */
 float light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_ray ray = kd_camera_ray(place.x, place.y);
     bool given_up = false;
+#ifdef KD_MARCH
+    lost = false;
+    kd_march_follow(beam, place, at); /* no orders: plans refuse them */
+    given_up = lost;
+#else
     for (uint n = 0; KD_GLOWS && n < (ORDER == KD_NO_ORDER ? ORDERS : ORDER + 1u); n++) {
         float w = lens[at + n * slice.stride];
         if (ORDER != KD_NO_ORDER)
@@ -82,6 +101,7 @@ float light(uvec2 place, uint at, uint pixel)
             break;
         kd_beam_at(beam, sample_at(n, w, at, ray));
     }
+#endif
     if (ORDER == KD_NO_ORDER && KD_ENDS && (QUANTITIES & KD_LENS_FATE) != 0u) {
         float fate = quantity(KD_LENS_FATE, at);
         given_up = given_up || fate == KD_FATE_UNDECIDED;

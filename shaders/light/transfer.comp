@@ -1,4 +1,5 @@
-/* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. */
+/* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. KD_MARCH: for
+ * scenes with volumes, along the rays themselves. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -41,6 +42,20 @@ vec3 background(uvec2 place, uint at, uint pixel)
     return beam.light;
 }
 
+#ifdef KD_MARCH
+#define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
+#include "light/march.glsl"
+
+/* Follows one ray, light of its end included. */
+kd_beam follow(uvec2 place, uint at, uint pixel)
+{
+    kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
+    kd_march_follow(beam, place, at);
+    if (ENDS)
+        beam.light += beam.through * background(place, at, pixel);
+    return beam;
+}
+#else
 /* Follows one ray, light of its end included. */
 kd_beam follow(uvec2 place, uint at, uint pixel)
 {
@@ -57,6 +72,7 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
         beam.light += beam.through * background(place, at, pixel);
     return beam;
 }
+#endif
 
 /* A pixel's light lies here. */
 uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x; }
@@ -75,7 +91,11 @@ void store(uint at, vec3 light, float apart)
  *
  * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the next crossing that
  * may shine, which takes little, and the outer one lights it. With a sky each pixel has light, and looking for it only takes time. */
+#ifdef KD_MARCH
+const bool COLUMNS = false;
+#else
 const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && !ENDS;
+#endif
 
 void light_column(uint x, uint y, uint end)
 {

@@ -134,6 +134,17 @@
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
+#define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
+    ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE,                                                                \
+         "matter all along the rays: none, or uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to", \
+         "none|uniform")                                                                                             \
+    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; horizon: a hundredth outside it, as the edge is at least", "horizon") \
+    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                  \
+    REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "light of a length of M, in its own frame, in units of the disk's brightest") \
+    REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "optical depth of a length of M, in its own frame")  \
+    REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g") \
+    BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter")
+
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
          "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; the stars of the " \
@@ -234,6 +245,7 @@
     SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi")           \
     SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models")                              \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
+    SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
@@ -300,6 +312,13 @@
     SWITCH("disk.gas.amplitude")                                                                                     \
     SPAN("disk.gas.seed", 0, 1000)                                                                                   \
     SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot")                                             \
+    SWITCH("volume.model") SPAN("volume.outer", 3, 200)                                                               \
+    WITH("volume.inner", "model", KD_VOLUME_UNIFORM) SPAN("volume.inner", 1, 100) FIRST("volume.inner", 6)            \
+    WITH("volume.outer", "model", KD_VOLUME_UNIFORM)                                                                 \
+    WITH("volume.emissivity", "model", KD_VOLUME_UNIFORM) SPAN("volume.emissivity", 1e-4, 10)                        \
+    WITH("volume.opacity", "model", KD_VOLUME_UNIFORM) SPAN("volume.opacity", 1e-4, 10)                              \
+    WITH("volume.temperature_k", "model", KD_VOLUME_UNIFORM) SPAN("volume.temperature_k", 1000, 1e5)                  \
+    WITH("volume.redshift", "model", KD_VOLUME_UNIFORM)                                                              \
     SWITCH("sky.model")                                                                                              \
     SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \
@@ -326,6 +345,7 @@ enum kd_projection { KD_PROJECTION_AUTO, KD_PROJECTION_PLANE, KD_PROJECTION_PINH
                      KD_PROJECTION_EQUIRECTANGULAR, KD_PROJECTION_FULLDOME };
 enum kd_stereo { KD_STEREO_NONE, KD_STEREO_PAIR };
 enum kd_disk_model { KD_DISK_NONE, KD_DISK_NOVIKOV_THORNE, KD_DISK_SHAKURA_SUNYAEV, KD_DISK_PARTICLES };
+enum kd_volume_model { KD_VOLUME_NONE, KD_VOLUME_UNIFORM };
 enum kd_colour { KD_COLOUR_PEAK, KD_COLOUR_ACCRETION };
 enum kd_band { KD_BAND_BOLOMETRIC, KD_BAND_VISIBLE };
 enum kd_sky_model { KD_SKY_NONE, KD_SKY_GRID, KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };

@@ -241,6 +241,16 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
         show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
+static enum kd_status volume(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_volume *v = &scene->volume;
+    double least = fmax(isinf(v->inner) ? 0 : v->inner, 1.01 * kd_kerr_horizon(scene->spacetime.spin));
+    if (v->model == KD_VOLUME_NONE || v->outer > least)
+        return KD_OK;
+    return kd_error_field(error, "/volume/outer", "volume.outer is %s M, allowed is more than the inner edge, %s M", show(v->outer).text,
+                          show_bound(least).text);
+}
+
 static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_field *r = kd_field_find("spots", "r");
@@ -323,6 +333,7 @@ const struct kd_rule kd_rules[] = {
       stereo },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
+    { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, unless there is no volume.", volume },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },

@@ -284,3 +284,86 @@ struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, con
             low[i] += g[i][j] * p[j];
     return (struct ks_photon){ a, r, c, -low[0], low[3], low[1], low[2], 0, 0 };
 }
+
+struct along { struct system system; const struct ks_photon *photon; double inner, outer; ks_medium *medium; void *user; struct ks_light sum; };
+
+static void medium_at(const struct along *w, const double *from, double t, double out[2])
+{
+    state y;
+    extrapolate(&w->system, from, t, y);
+    double r = radius(w->system.a, y);
+    w->medium(w->user, w->photon, r, y[2] / r, out);
+}
+
+/* From t0 to t1 after a state, by Simpson's rule. */
+static void add_stretch(struct along *w, const double *from, double t0, double t1)
+{
+    double a[2], b[2], c[2], h = t1 - t0;
+    medium_at(w, from, t0, a);
+    medium_at(w, from, 0.5 * (t0 + t1), b);
+    medium_at(w, from, t1, c);
+    double middle = w->sum.depth + h * (5 * a[1] + 8 * b[1] - c[1]) / 24, end = w->sum.depth + h * (a[1] + 4 * b[1] + c[1]) / 6;
+    w->sum.light += h / 6 * (a[0] * exp(-w->sum.depth) + 4 * b[0] * exp(-middle) + c[0] * exp(-end));
+    w->sum.depth = end;
+    w->sum.length += h;
+}
+
+static double radius_after(const struct along *w, const double *from, double t)
+{
+    state y;
+    extrapolate(&w->system, from, t, y);
+    return radius(w->system.a, y);
+}
+
+static bool holds(const struct along *w, double r) { return r >= w->inner && r <= w->outer; }
+
+/* The same of what of it lies between the radii, of which no more than one is passed. */
+static void add_inside(struct along *w, const double *from, double t0, double t1)
+{
+    bool first = holds(w, radius_after(w, from, t0)), last = holds(w, radius_after(w, from, t1));
+    double low = t0, high = t1;
+    for (int i = 0; i < 50 && first != last; i++) {
+        double t = 0.5 * (low + high);
+        *(holds(w, radius_after(w, from, t)) == first ? &low : &high) = t;
+    }
+    if (first && last)
+        add_stretch(w, from, t0, t1);
+    else if (first || last)
+        add_stretch(w, from, first ? t0 : high, first ? low : t1);
+}
+
+struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium, void *user)
+{
+    enum { PARTS = 16 };
+    struct along w = { { photon.a, photon.energy }, &photon, inner, outer, medium, user, { 0 } };
+    const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
+    state y, next;
+    start(&photon, y);
+    double h = 0.05 * radius(photon.a, y);
+    for (int step = 0; step < 20000; step++) {
+        double r = radius(photon.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / r;
+        bool outwards = y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0;
+        if (r < horizon * (1 + 1e-9) || (r > 2 * outer && r > 20 && outwards))
+            break;
+        h = fmin(h, 0.25 * r / v);
+        double error = extrapolate(&w.system, y, h, next);
+        if (!(error < 1e-12) && h > 1e-9) {
+            h *= 0.5;
+            continue;
+        }
+        bool meets = to_plane && y[2] != 0 && (y[2] > 0) != (next[2] > 0);
+        double end = h;
+        for (double low = 0, i = 0; i < 50 && meets; i++) {
+            double t = 0.5 * (low + end);
+            extrapolate(&w.system, y, t, next);
+            *((next[2] > 0) == (y[2] > 0) ? &low : &end) = t;
+        }
+        for (int k = 0; k < PARTS; k++)
+            add_inside(&w, y, k * end / PARTS, (k + 1) * end / PARTS);
+        if (meets)
+            break;
+        memcpy(y, next, sizeof next);
+        h *= error < 1e-14 ? 2 : 1;
+    }
+    return w.sum;
+}

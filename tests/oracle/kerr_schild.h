@@ -39,6 +39,14 @@ struct ks_photon ks_from_camera(double a, double r, double theta, bool zamo, con
 
 struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 
+/* What a photon meets at a place: per unit of its affine parameter, light that is added and optical depth. */
+typedef void ks_medium(void *user, const struct ks_photon *photon, double r, double u, double light_and_depth[2]);
+
+/* Light that is emitted and absorbed along the path back in time, between two radii, until it ends or first crosses the equatorial plane. The
+ * Hamiltonian's own parameter is affine; a step of it is parted in 16, Simpson's rule in each, and the radii are landed on. */
+struct ks_light { double light, depth, length; }; /* length: of the affine parameter */
+struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium, void *user);
+
 /* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a place that may lie within the
  * horizon; light that comes from outside left it there through the outer horizon, where all is regular. Azimuths are Boyer-Lindquist, of
  * the source less the place's own in these coordinates, which is the same at infinity. A ray from the horizon in the past

@@ -44,6 +44,7 @@ static const char *const scenes[] = {
     "{\"style\": {\"exposure\": 0, \"bloom\": 0.5}}",
     "{\"image\": {\"layers\": [\"g\"]}}",
     "{\"style\": {\"beam_uas\": 20}}",
+    "{\"volume\": {\"model\": \"uniform\"}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -62,7 +63,7 @@ static void names_are_names(void **state)
 static void words_stay(void **state)
 {
     (void)state;
-    const char *const relied_on[] = { "ray_radius", "ray_full", "sample_transfer", "pixel_post", "particle" };
+    const char *const relied_on[] = { "ray_radius", "ray_full", "sample_transfer", "pixel_post", "ray_march", "particle" };
     for (size_t i = 0; i < sizeof relied_on / sizeof *relied_on; i++)
         assert_string_equal(kd_figures[i].word, relied_on[i]);
     for (int i = 0; i < KD_FIGURE_COUNT; i++)

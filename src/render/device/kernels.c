@@ -23,6 +23,7 @@
 #include "expose.spv.h"
 #include "footprint.spv.h"
 #include "layers.spv.h"
+#include "layers_march.spv.h"
 #include "lens_closed.spv.h"
 #include "lens_map.spv.h"
 #include "photometry.spv.h"
@@ -48,6 +49,7 @@
 #include "star_tiles.spv.h"
 #include "star_tiles_texels.spv.h"
 #include "transfer.spv.h"
+#include "transfer_march.spv.h"
 
 #include <string.h>
 
@@ -83,6 +85,10 @@ static const struct kd_vk_pipeline_params sources[] = {
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                            { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_MARCH] = { "march", kd_spv_transfer_march, sizeof kd_spv_transfer_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+                          { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_LAYERS_MARCH] = { "layers, march", kd_spv_layers_march, sizeof kd_spv_layers_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_PHOTOMETRY] = { "photometry", kd_spv_photometry, sizeof kd_spv_photometry, 2, sizeof(struct kd_light_push) },
     [KD_KERNEL_EXPOSE] = { "expose", kd_spv_expose, sizeof kd_spv_expose, 2, 8 },
     [KD_KERNEL_POST] = { "post", kd_spv_post, sizeof kd_spv_post, 2, sizeof(struct kd_post_push) },

@@ -25,6 +25,8 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_LAYERS,
+    KD_KERNEL_MARCH, /* the same two where there are volumes */
+    KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
     KD_KERNEL_BLOOM_BRIGHT, /* each followed by its twin that reads texels */

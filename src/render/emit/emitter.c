@@ -7,17 +7,18 @@
 #include <string.h>
 
 #define DECLARE(number, name) extern const struct kd_emitter kd_emit_##name;
-KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE)
+KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
 #define ENTRY(number, name) [number] = &kd_emit_##name,
-const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY) };
+const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY) };
 
 /* Where the list has them. */
-enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8 };
+enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16 };
 #define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
 #define IS_PART(number, name) [number] = PART,
 #define IS_OVER(number, name) [number] = OVER,
 #define IS_AT_END(number, name) [number] = AT_END,
-static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END) };
+#define IS_ALONG(number, name) [number] = ALONG,
+static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END, IS_ALONG) };
 
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter)
 {
@@ -57,6 +58,11 @@ static bool any(const struct kd_scene *scene, enum kind kind)
 bool kd_emit_at_crossings(const struct kd_scene *scene)
 {
     return any(scene, AT_CROSSING);
+}
+
+bool kd_emit_along(const struct kd_scene *scene)
+{
+    return any(scene, ALONG);
 }
 
 bool kd_emit_at_ends(const struct kd_scene *scene)
@@ -156,14 +162,14 @@ static bool is_current(const struct kd_emit_state *state, int i, const struct kd
     return true;
 }
 
-/* Radii between which some emitter of crossings may be, or a part of one; the first is above the second if there is none. */
-static void reach_of_all(const struct kd_scene *scene, double radii[2])
+/* Radii between which some emitter of these kinds may be; the first is above the second if there is none. */
+static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii[2])
 {
     radii[0] = INFINITY;
     radii[1] = 0;
     for (int i = 0; i < KD_EMITTER_COUNT; i++) {
         double own[2] = { 0, INFINITY };
-        if (!(kinds[i] & (AT_CROSSING | PART)) || !kd_emit_has(scene, kd_emitters[i]))
+        if (!(kinds[i] & of) || !kd_emit_has(scene, kd_emitters[i]))
             continue;
         if (kd_emitters[i]->reach)
             kd_emitters[i]->reach(scene, own);
@@ -172,11 +178,22 @@ static void reach_of_all(const struct kd_scene *scene, double radii[2])
     }
 }
 
+/* The largest |cos(theta)| of all volumes. */
+static double height_of_all(const struct kd_scene *scene)
+{
+    double most = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
+            most = fmax(most, kd_emitters[i]->height ? kd_emitters[i]->height(scene) : 1);
+    return most >= 1 ? 2 : most; /* no ray is held to find where it passes the axis */
+}
+
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels)
 {
     struct kd_emission *numbers = &state->data.emission;
-    double reach[2];
-    reach_of_all(scene, reach);
+    double reach[2], along[2];
+    reach_of_all(scene, AT_CROSSING | PART, reach);
+    reach_of_all(scene, ALONG, along);
     if (!state->colours)
         kd_colour_tables(&state->data.tables);
     state->colours = true;
@@ -192,6 +209,9 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         /* Wider than a float is rough: the edge itself is the emitter's. */
         .w_least = (float)((1 - 1e-6) / reach[1]),
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
+        .along_least = (float)(1 / along[1]),
+        .along_most = (float)fmin(1 / along[0], 1e30),
+        .along_u = (float)height_of_all(scene),
         .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
         .one_minus_a = (float)(1 - scene->spacetime.spin),
         .inner = (float)kd_disk_inner(scene),

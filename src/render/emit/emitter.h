@@ -47,6 +47,9 @@ struct kd_emitter {
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
+    /* Of one ALONG: the largest |cos(theta)| there; NULL: 1. The march finds these edges and those of `reach` to a float's accuracy, of all volumes of a
+     * scene together: an edge inside those bounds is as sharp as the emitter's grain tells. */
+    double (*height)(const struct kd_scene *scene);
     /* Fill in numbers; and tables, which may take milliseconds. They are called anew when a part of the scene that they depend on
      * has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
@@ -60,9 +63,9 @@ struct kd_emitter {
 };
 
 #define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,
-enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
+enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
 #define KD_EMIT_ONE_(number, name) +1
-enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
+enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
 extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
 /* Whether a scene has an emitter: it is present, and none that is takes its place. */
@@ -73,6 +76,7 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
  * luminance of some of it is kept apart; whether there are points of light. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
+bool kd_emit_along(const struct kd_scene *scene); /* whether there are volumes */
 bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);

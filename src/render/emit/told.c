@@ -5,7 +5,8 @@
 #define AT(number, name) [number] = "crossing",
 #define NOWHERE(number, name) [number] = "",
 #define END(number, name) [number] = "end",
-static const char *const places[KD_EMITTER_COUNT] = { KD_EMITTERS(AT, NOWHERE, NOWHERE, END) };
+#define ALONG(number, name) [number] = "along",
+static const char *const places[KD_EMITTER_COUNT] = { KD_EMITTERS(AT, NOWHERE, NOWHERE, END, ALONG) };
 
 static enum kd_status one(const struct kd_scene *scene, int number, bool first, struct kd_buffer *out)
 {

@@ -81,6 +81,7 @@ static enum kd_status run(struct kd_frame_job *j)
     bool reused = false;
     enum kd_status status;
     kd_renderer_capacity(j->r, &c);
+    j->march = j->plan->march;
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);

@@ -17,6 +17,7 @@ struct kd_frame_job {
     double away_ms; /* and what its progress took */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
+    struct kd_march march; /* how closely volumes are gone through now */
     struct kd_lens_map *lens;
     struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
     bool stars_kept;             /* and whether it is there already */

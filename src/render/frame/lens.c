@@ -47,13 +47,19 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
 
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes, const struct kd_vk_pipeline **out)
 {
-    const enum kd_kernel kernel = makes < 0 ? KD_KERNEL_TRANSFER : KD_KERNEL_LAYERS;
     const struct kd_plan *p = j->plan;
+    const bool march = p->march.steps && (makes < 0 || kd_layer_kinds[p->layers[makes].kind].of == KD_OF_LIGHT);
+    const enum kd_kernel kernel = makes < 0 ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER : march ? KD_KERNEL_LAYERS_MARCH : KD_KERNEL_LAYERS;
     struct kd_spec_transfer spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .SIGHT = kd_camera_sight(j->scene),
         .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
         .ORDER = KD_NO_ORDER,
     };
+    if (march) {
+        spec.STEPS = j->march.steps;
+        spec.FINE = j->march.fine;
+        spec.INGOING = p->ingoing;
+    }
     if (makes >= 0)
         spec.LAYER = (uint32_t)p->layers[makes].kind;
     if (makes >= 0 && p->layers[makes].order >= 0)
@@ -66,7 +72,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
 struct slice { uint32_t band, first, count; };
 
 /* Says whether the transfer kernel goes through columns of pixels, and leaves those without light as they are. */
-static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !p->ends; }
+static bool in_columns(const struct kd_plan *p) { return p->side == 1 && !p->ends && !p->march.steps; }
 
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
 {
@@ -147,7 +153,7 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
 {
     struct kd_vk_buffer *own[KD_OWN_COUNT];
     struct kd_vk_dispatch d = {
-        kd_passes[makes < 0 ? KD_PASS_TRANSFER : KD_PASS_LAYERS].name,
+        kd_passes[makes < 0 ? kd_plan_light_pass(j->plan) : KD_PASS_LAYERS].name,
         pipeline,
         { { lens, 0, 0, false },
           { j->store->transfer, 0, sizeof(struct kd_emission), false },
@@ -318,7 +324,7 @@ enum kd_status kd_frame_light(struct kd_frame_job *j, bool reused)
     enum kd_status status = KD_OK;
     if (needed)
         KD_TRY(forget_undecided(j));
-    KD_TRY(light_bands(j, needed, c.ns[KD_NS_SAMPLE_TRANSFER]));
+    KD_TRY(light_bands(j, needed, kd_plan_light_ns(p, &c)));
     if (p->critical)
         KD_TRY(light_at_curve(j, needed));
 done:

@@ -127,7 +127,7 @@ static enum kd_status transfer_part(struct kd_frame_job *j, struct kd_frame_part
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
         struct kd_vk_dispatch d = kd_frame_transfer(j, NULL, part->lens, band, part->list->camera, makes);
-        d.pass = makes < 0 ? pass_of(part, KD_PASS_TRANSFER) : d.pass;
+        d.pass = makes < 0 ? pass_of(part, kd_plan_light_pass(j->plan)) : d.pass;
         part->push.band0 = kd_frame_band_first(j, band);
         status = run_part(j, part, from, to, &d, makes, ns);
     }
@@ -147,7 +147,7 @@ enum kd_status kd_frame_light_list(struct kd_frame_job *j, const struct kd_frame
         }
         for (int makes = KD_MAKES_PICTURE; makes < (list->layers ? (int)j->plan->n_layers : 0); makes++)
             if (makes == KD_MAKES_PICTURE || kd_layer_kinds[j->plan->layers[makes].kind].of == KD_OF_LIGHT)
-                KD_TRY(transfer_part(j, &part, makes, c.ns[KD_NS_SAMPLE_TRANSFER]));
+                KD_TRY(transfer_part(j, &part, makes, kd_plan_light_ns(j->plan, &c)));
     }
 done:
     return status;

@@ -1,5 +1,7 @@
 #include "render/plan/layer_kinds.h"
 
+#include "render/emit/emitter.h"
+
 #include "lens.h"
 
 #include <math.h>
@@ -64,6 +66,11 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     if (layer.order >= scene->accuracy.orders)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed are image orders below accuracy.orders, %d", name,
                               scene->accuracy.orders);
+    if (kd_emit_along(scene) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT && layer.order >= 0)
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes is intensity: their light is between the crossings",
+                              name);
+    if (kd_emit_along(scene) && layer.kind == KD_LAYER_optical_depth)
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, which is that of one crossing, allowed where there are no volumes", name);
     if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE)
         return kd_error_field(error, "/image/layers", "image.layers holds %s with disk.model \"none\", where nothing has a temperature", name);
     return KD_OK;

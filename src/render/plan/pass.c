@@ -40,7 +40,7 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
 /* A ray that is followed and lit. */
 static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    return (struct kd_pass_cost) { "transfer.comp", trace(plan, c).ns + c->ns[KD_NS_SAMPLE_TRANSFER], KD_NS_NONE };
+    return (struct kd_pass_cost) { "transfer.comp", trace(plan, c).ns + kd_plan_light_ns(plan, c), KD_NS_NONE };
 }
 
 static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_capacity *c)
@@ -77,7 +77,8 @@ static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capa
 INVOCATIONS(traced, plan->planes ? kd_plan_rays(plan) : 0)
 INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
 INVOCATIONS(audited, plan->audit)
-INVOCATIONS(lit, kd_plan_rays(plan))
+INVOCATIONS(lit, plan->march.steps ? 0 : kd_plan_rays(plan))
+INVOCATIONS(marched, plan->march.steps ? kd_plan_rays(plan) : 0)
 INVOCATIONS(starred, plan->points ? plan->rays : 0)
 INVOCATIONS(refined, plan->adaptive ? plan->rays * plan->adaptive / KD_PLAN_CHOSEN + KD_PLAN_SAMPLED : 0)
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)

@@ -23,7 +23,8 @@ struct kd_scene;
     F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii alone, in closed form */                           \
     F(RAY_FULL, "ray_full", 150)              /* of any other that a kernel traces */                                            \
     F(SAMPLE_TRANSFER, "sample_transfer", 20) /* a ray's light */                                                                \
-    F(PIXEL_POST, "pixel_post", 30)
+    F(PIXEL_POST, "pixel_post", 30)                                                                                              \
+    F(RAY_MARCH, "ray_march", 4000)           /* the light of a ray through volumes */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,
 #define KD_P(emitter, id, word, guess) KD_NS_##id,
@@ -49,6 +50,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     KD_EMIT_PASSES                                                                                                               \
     P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
+    P(MARCH, "march", marched, WHOLE("transfer.comp", RAY_MARCH), RAYS, FRAME)                                                  \
     P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
     P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \

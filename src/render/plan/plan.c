@@ -22,6 +22,7 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 /* These approximations are no emitter's. */
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
 WHEN(crossings, kd_emit_at_crossings(scene))
+WHEN(volumes, plan->march.steps)
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(adapted, plan->adaptive)
 WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
@@ -46,6 +47,8 @@ static const struct sentence {
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
     { "disk: image orders beyond accuracy.orders are left out", crossings },
+    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; a pixel's light is of the places on its rays "
+      "and no mean over what they stand for", volumes },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
     { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },
@@ -410,9 +413,14 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
                               "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are \"plane\" and \"pinhole\" where light is "
                               "measured: areas of the others are not to scale");
     enum kd_status status;
+    if (plan.ring && kd_emit_along(scene))
+        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", whose rays are listed, where light is followed through volumes: "
+                              "allowed are the others");
     KD_TRY(kd_layers_check(scene, error));
     KD_TRY(beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
+    if (kd_emit_along(scene))
+        plan.march = kd_march_of(scene, &plan.setting);
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
     adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;

@@ -9,6 +9,7 @@
 #include "render/plan/beam.h"
 #include "render/plan/bloom.h"
 #include "render/plan/layer_kinds.h"
+#include "render/plan/march.h"
 #include "render/plan/pass.h"
 #include "scene/scene.h"
 #include "lens.h"
@@ -65,6 +66,7 @@ struct kd_plan {
     bool points;                    /* some emitter has points of light */
     bool apart;                     /* the luminance of some is kept beside the radiance */
     bool ends;                      /* some shine where rays end, and the lens map says where */
+    struct kd_march march;          /* of volumes; all 0: the scene has none, and light is made of the lens map alone */
     struct kd_beam_grid beam;       /* of a telescope, that light is convolved with */
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */
@@ -147,6 +149,13 @@ static inline uint64_t kd_plan_followed_most(const struct kd_plan *plan)
 {
     const uint64_t uniform = plan->adaptive * plan->rays + plan->critical_dense * plan->critical_pixels;
     return uniform / 4 - plan->rays - plan->critical * plan->critical_pixels;
+}
+
+/* The pass that makes light of rays, and what one takes in it, in ns. */
+static inline enum kd_pass_id kd_plan_light_pass(const struct kd_plan *plan) { return plan->march.steps ? KD_PASS_MARCH : KD_PASS_TRANSFER; }
+static inline double kd_plan_light_ns(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    return c->ns[plan->march.steps ? KD_NS_RAY_MARCH : KD_NS_SAMPLE_TRANSFER];
 }
 
 /* Linear light takes so many bytes a pixel. */

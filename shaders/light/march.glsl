@@ -1,0 +1,194 @@
+/* This is the march: light along a ray through volumes, composed with the crossings of the lens map in their order (docs/physics/volume.md).
+ *
+ * The ray is followed once more, by the steps of ray/escape.glsl, long and accurate as they are; between the ends of a step it is the quintic that
+ * fits y, y' and y'' at both (Hermite's: its error is of the sixth order of the step, as the integrator's). A step is parted where w or u turns and
+ * where the plane is crossed, so that both are monotone in each part, and of a part what lies within the volumes' bounds is found by Newton's method.
+ * That is gone through in stretches with three places each, Gauss and Legendre's, as long as the grain, the depth and the way across allow; one that
+ * turns out too long is gone through anew.
+ *
+ * Needs inputs.glsl, and KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map. */
+#ifndef KD_MARCH_GLSL
+#define KD_MARCH_GLSL
+
+#include "ray/radial_step.glsl"
+#include "ray/escape.glsl"
+
+#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* stretch, of a step */
+#define KD_MARCH_WAY 0.5      /* longest stretch, of r: over it three places find the integral of r^2 to 4e-5 */
+#define KD_MARCH_DEPTH 1.0    /* and in optical depth */
+#define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
+#define KD_MARCH_OPAQUE 1e-5  /* what is let through no longer counts */
+
+/* A polynomial of the time within a step, from 0 to 1. */
+struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
+
+/* It has these values, slopes and second derivatives at both ends. */
+kd_quintic kd_quintic_of(float y0, float d0, float a0, float y1, float d1, float a1)
+{
+    float rest = y1 - y0 - d0 - 0.5 * a0, slope = d1 - d0 - a0, bend = a1 - a0;
+    return kd_quintic(y0, d0, 0.5 * a0, 10.0 * rest - 4.0 * slope + 0.5 * bend, -15.0 * rest + 7.0 * slope - bend,
+                      6.0 * rest - 3.0 * slope + 0.5 * bend);
+}
+
+float kd_quintic_at(kd_quintic q, float t) { return q.c0 + t * (q.c1 + t * (q.c2 + t * (q.c3 + t * (q.c4 + t * q.c5)))); }
+float kd_quintic_slope(kd_quintic q, float t) { return q.c1 + t * (2.0 * q.c2 + t * (3.0 * q.c3 + t * (4.0 * q.c4 + t * 5.0 * q.c5))); }
+kd_quintic kd_quintic_derived(kd_quintic q) { return kd_quintic(q.c1, 2.0 * q.c2, 3.0 * q.c3, 4.0 * q.c4, 5.0 * q.c5, 0.0); }
+
+/* Where it takes a value between two times, at one of which it is below it: Newton's method, held between them. */
+float kd_quintic_root(kd_quintic q, float value, float low, float high)
+{
+    bool falls = kd_quintic_at(q, low) >= value;
+    float t = 0.5 * (low + high);
+    for (int k = 0; k < 10; k++) {
+        float f = kd_quintic_at(q, t) - value, next = t - f / kd_quintic_slope(q, t);
+        bool before = (f < 0.0) != falls;
+        low = before ? t : low;
+        high = before ? high : t;
+        t = next >= low && next <= high ? next : 0.5 * (low + high);
+    }
+    return t;
+}
+
+/* Narrows (from, to) to where q - value, times a sign, is not below 0, if it is monotone there. */
+void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, inout float to)
+{
+    float a = sign_ * (kd_quintic_at(q, from) - value), b = sign_ * (kd_quintic_at(q, to) - value);
+    if ((a < 0.0) != (b < 0.0)) {
+        float t = kd_quintic_root(q, value, from, to);
+        from = a < 0.0 ? t : from;
+        to = a < 0.0 ? to : t;
+    } else if (a < 0.0)
+        to = from;
+}
+
+/* A step of the ray. */
+struct kd_stride { kd_quintic w, u; float h; };
+
+kd_stride kd_stride_of(kd_geodesic m, kd_path p, kd_path q, float h)
+{
+    vec4 a = h * h * kd_path_pull(m, p.y), b = h * h * kd_path_pull(m, q.y);
+    return kd_stride(kd_quintic_of(p.y.w, h * p.v.w, a.w, q.y.w, h * q.v.w, b.w), kd_quintic_of(p.y.z, h * p.v.z, a.z, q.y.z, h * q.v.z, b.z), h);
+}
+
+kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, float t)
+{
+    float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h, du = kd_quintic_slope(s.u, t) / s.h;
+    float r = 1.0 / w, fall = dw * r, turn = max(m.q + m.momentum * m.momentum + m.energy2 * u * u, 0.0);
+    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn));
+}
+
+/* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages (Hairer, Norsett & Wanner 1993,
+ * II.7), of coefficients a_ij, it is dimmed by sum_j a_ij/b_j x_j: to first order in depth this is what is left, and nothing where light is as depth,
+ * whose sum is right as it is. */
+vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
+{
+    float x = one.w + two.w + three.w;
+    vec3 rest = 0.0809475 * (one.rgb * two.w - two.rgb * (one.w - three.w) - three.rgb * two.w) - 0.0352425 * (one.rgb * three.w - three.rgb * one.w);
+    return x < 8.0 ? exp(-0.5 * x) * rest : vec3(0.0);
+}
+
+/* Goes through a part of a step that lies in the volumes. */
+void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, float from, float to)
+{
+    const float coarse = 4.0 / float(FINE);
+    float wish = 0.0; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
+    while (from < to && beam.through > KD_MARCH_OPAQUE) {
+        float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 4096.0)) : 0.0, most = 1.0;
+        kd_beam trial = beam;
+        vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
+        for (int k = 0; k < 3; k++) {
+            float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
+            kd_midst p = kd_midst_of(m, ray, s, from + x * length_);
+            kd_medium medium = kd_medium_at(p);
+            float r = 1.0 / p.w, au = cam.spin * p.u, way = (r * r + au * au) * s.h;
+            kd_beam_along(trial, medium, weight * length_ * way);
+            one = two;
+            two = three;
+            three = weight * length_ * way * vec4(medium.light, medium.depth);
+            float allowed = min(min(medium.grain, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
+            most = min(most, coarse * allowed);
+        }
+        wish = max(most, KD_MARCH_SHORTEST);
+        if (length_ > 0.0 && length_ <= KD_MARCH_TOO_LONG * wish) {
+            beam.light = trial.light + beam.through * kd_march_rest(one, two, three);
+            beam.through = trial.through;
+            from = length_ < left ? from + length_ : to;
+        }
+    }
+    beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
+}
+
+/* Says whether a ray can come to where volumes are, by w'^2 = R(w): from outside R must not vanish before. */
+bool kd_march_meets(kd_geodesic m, kd_ray ray)
+{
+    float w = emission.frame.along_least, w2 = w * w;
+    return ray.w >= w || ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)) > 0.0;
+}
+
+/* Goes through one step. side: of the plane that the ray is on, crossed: how often it has crossed it. */
+void kd_march_step(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h, inout float side, inout uint crossed, uvec2 place, uint at)
+{
+    kd_stride s = kd_stride_of(m, p, q, h);
+    const float none = 2.0;
+    bool meets = q.y.z * side < 0.0;
+    float turn_w = p.v.w * q.v.w < 0.0 ? kd_quintic_root(kd_quintic_derived(s.w), 0.0, 0.0, 1.0) : none;
+    float turn_u = p.v.z * q.v.z < 0.0 ? kd_quintic_root(kd_quintic_derived(s.u), 0.0, 0.0, 1.0) : none;
+    float plane = meets ? kd_quintic_root(s.u, 0.0, 0.0, 1.0) : none;
+    float t = 0.0;
+    while (t < 1.0 && beam.through > 0.0) {
+        float end = 1.0;
+        end = turn_w > t ? min(end, turn_w) : end;
+        end = turn_u > t ? min(end, turn_u) : end;
+        end = plane > t ? min(end, plane) : end;
+        float from = t, to = end;
+        kd_quintic_clip(s.w, emission.frame.along_least, 1.0, from, to);
+        kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);
+        kd_quintic_clip(s.u, emission.frame.along_u, -1.0, from, to);
+        kd_quintic_clip(s.u, -emission.frame.along_u, 1.0, from, to);
+        kd_march_part(beam, m, ray, s, from, to);
+        if (end == plane && KD_GLOWS && crossed < ORDERS && beam.through > 0.0) {
+            float w = lens[at + crossed * slice.stride];
+            if (w != 0.0)
+                KD_MARCH_MEET(beam, w, crossed, place, at);
+        }
+        t = end;
+    }
+    side = meets ? -side : side;
+    crossed += meets ? 1 : 0;
+}
+
+/* Follows one ray, but for what lies at its end. */
+void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
+{
+    kd_ray ray = kd_camera_ray(place.x, place.y);
+    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
+    kd_path p = kd_path_start(ray, cam.u, cam.s);
+    float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = KD_PI / (float(STEPS) * sqrt(rate2));
+    float side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
+    uint crossed = 0;
+    bool goes = kd_march_meets(m, ray) && !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon));
+    /* Steps, and how many, are those of a ray that escapes (ray/escape.glsl). */
+    for (uint i = 0; i < 12 * STEPS && goes; i++) {
+        if (INGOING)
+            h = KD_PI / (float(STEPS) * sqrt(rate2 + 6.0 * m.k * p.y.w));
+        kd_path q = kd_path_step(m, p, h);
+        if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
+            q.v.w = kd_leaving(m, q.y.w, ray.e);
+        if (!kd_is_finite(q.y.w))
+            break;
+        kd_march_step(beam, m, ray, p, q, h, side, crossed, place, at);
+        bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
+        /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
+        bool gone = q.v.w < 0.0 && q.y.w < emission.frame.along_least && (q.y.w <= 0.0 || kd_path_pull(m, q.y).w <= 0.0);
+        goes = !falls && !gone && beam.through > 0.0;
+        p = q;
+    }
+    for (uint n = crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
+        float w = lens[at + n * slice.stride];
+        if (w == 0.0)
+            break;
+        KD_MARCH_MEET(beam, w, n, place, at);
+    }
+}
+
+#endif

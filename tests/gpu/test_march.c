@@ -1,0 +1,218 @@
+/* Light along rays through volumes: against closed forms along paths whose length the Kerr-Schild oracle measures, which knows no Mino time and no
+ * Nystroem method; against integrals of emission and absorption along them; in its order with crossings of the plane; and against itself. */
+#include "render_support.h"
+
+#include "kerr_schild.h"
+
+#include <math.h>
+
+enum { WIDTH = 9, HEIGHT = 7, PIXELS = WIDTH * HEIGHT };
+
+static struct kd_scene scene_of(double spin, double inclination, double r, const char *json)
+{
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.image.samples = 1;
+    scene.image.critical_factor = 1;
+    scene.spacetime.spin = spin;
+    scene.camera.inclination_deg = inclination;
+    scene.camera.r = r;
+    scene.camera.field_m = 27;
+    scene.camera.fov_deg = 50;
+    scene.disk.model = KD_DISK_NONE;
+    scene.volume.model = KD_VOLUME_UNIFORM;
+    OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+    OK(kd_scene_set(&scene, "image.layers", "rgb,intensity", &error));
+    return scene;
+}
+
+static struct ks_photon photon_of(const struct kd_scene *scene, int i)
+{
+    double theta = scene->camera.inclination_deg * M_PI / 180;
+    bool far = isinf(scene->camera.r);
+    double step = far ? scene->camera.field_m / WIDTH : 2 * tan(scene->camera.fov_deg * M_PI / 360) / WIDTH;
+    double x = step * (i % WIDTH - 0.5 * (WIDTH - 1)), y = -step * (i / WIDTH - 0.5 * (HEIGHT - 1));
+    double length = sqrt(1 + x * x + y * y), k[3] = { -1 / length, -y / length, x / length };
+    return far ? ks_from_infinity(scene->spacetime.spin, cos(theta), x, y) : ks_from_camera(scene->spacetime.spin, scene->camera.r, theta, false, k);
+}
+
+/* A uniform shell as the oracle sees it; with its shift, by observers of zero angular momentum from the metric. */
+static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
+{
+    const struct kd_scene *scene = user;
+    double a = p->a, seen = 1;
+    if (scene->volume.redshift) {
+        double sigma = r * r + a * a * u * u, sin2 = 1 - u * u, g_tt = -(1 - 2 * r / sigma), g_tp = -2 * a * r * sin2 / sigma;
+        double g_pp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2, omega = -g_tp / g_pp;
+        seen = (p->energy - omega * p->momentum) / sqrt(-(g_tt + omega * (2 * g_tp + omega * g_pp)));
+    }
+    out[0] = scene->volume.emissivity / (seen * seen * seen);
+    out[1] = scene->volume.opacity * seen;
+}
+
+static double inner_of(const struct kd_scene *scene)
+{
+    double least = 1.01 * (1 + sqrt(1 - scene->spacetime.spin * scene->spacetime.spin));
+    return isinf(scene->volume.inner) || scene->volume.inner < least ? least : scene->volume.inner;
+}
+
+static const float *intensity(const struct kd_frame *frame)
+{
+    const struct kd_layer *layer = kd_frame_layer(frame, "intensity");
+    assert_non_null(layer);
+    return layer->data;
+}
+
+static const struct view { double spin, inclination, r; const char *json; } views[] = {
+    { 0, 60, INFINITY, "{\"volume\":{\"inner\":6,\"outer\":12}}" },
+    { 0.9, 80, INFINITY, "{\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
+    { -0.7, 25, INFINITY, "{\"volume\":{\"inner\":7,\"outer\":10,\"opacity\":0}}" },
+    { 0.95, 88, 30, "{\"volume\":{\"outer\":9,\"opacity\":2,\"emissivity\":3}}" },
+    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* from within */
+    { 0.3, 70, INFINITY, "{\"volume\":{\"inner\":300000,\"outer\":500000,\"opacity\":1e-6,\"emissivity\":1e-6},\"camera\":{\"field_m\":1150000}}" }, /* straight rays */
+};
+enum { VIEWS = sizeof views / sizeof *views };
+
+static void at_most(double off, double allowed, const char *what, size_t view, int pixel)
+{
+    if (!(off <= allowed))
+        fail_msg("%s, view %zu, pixel %d: off by %.2g, allowed %.2g", what, view, pixel, off, allowed);
+}
+
+/* What is the same everywhere comes to j/alpha (1 - exp(-alpha length)), or j length. */
+static void test_closed_form(void **state)
+{
+    (void)state;
+    double worst = 0;
+    int lit = 0;
+    for (size_t v = 0; v < VIEWS; v++) {
+        struct kd_scene scene = scene_of(views[v].spin, views[v].inclination, views[v].r, views[v].json);
+        scene.volume.redshift = false;
+        struct kd_frame frame = rendered(&scene);
+        for (int i = 0; i < PIXELS; i++) {
+            const struct ks_light path = ks_along(photon_of(&scene, i), inner_of(&scene), scene.volume.outer, false, shell, &scene);
+            double x = scene.volume.opacity * path.length;
+            double want = scene.volume.emissivity * path.length * (x > 0 ? -expm1(-x) / x : 1);
+            if (x == 0 && path.length == 0) {
+                assert_float_equal(intensity(&frame)[i], 0, 0);
+                continue;
+            }
+            double off = fabs(intensity(&frame)[i] / want - 1);
+            lit++;
+            worst = fmax(worst, off);
+            at_most(off, 1e-4, "closed form", v, i);
+        }
+        kd_frame_finish(&frame);
+    }
+    assert_true(lit > 200);
+    printf("%d rays: worst %.2g\n", lit, worst);
+}
+
+/* With its shift, against the integral of emission and absorption. */
+static void test_shift(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (size_t v = 0; v < VIEWS; v++) {
+        struct kd_scene scene = scene_of(views[v].spin, views[v].inclination, views[v].r, views[v].json);
+        struct kd_frame frame = rendered(&scene);
+        for (int i = 0; i < PIXELS; i++) {
+            const struct ks_light path = ks_along(photon_of(&scene, i), inner_of(&scene), scene.volume.outer, false, shell, &scene);
+            double off = path.length > 0 ? fabs(intensity(&frame)[i] / path.light - 1) : intensity(&frame)[i];
+            worst = fmax(worst, off);
+            at_most(off, 2e-4, "with its shift", v, i);
+        }
+        kd_frame_finish(&frame);
+    }
+    printf("with its shift: worst %.2g\n", worst);
+}
+
+/* A shell beyond the disk dims it by what lies in front of it, and no more: the disk is opaque. */
+static void test_order(void **state)
+{
+    (void)state;
+    static const char *const json = "{\"disk\":{\"model\":\"novikov-thorne\",\"outer\":9,\"taper\":0,\"opacity\":1},"
+                                    "\"volume\":{\"inner\":9.5,\"outer\":14,\"emissivity\":0,\"opacity\":0.1,\"redshift\":false}}";
+    struct kd_scene scene = scene_of(0.6, 50, INFINITY, json), bare = scene;
+    bare.volume.model = KD_VOLUME_NONE;
+    struct kd_frame dimmed = rendered(&scene), plain = rendered(&bare);
+    int seen = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const struct ks_path path = ks_trace(photon_of(&scene, i), 1);
+        if (intensity(&plain)[i] < 1e-6 || !path.crossings || path.r[0] > 8.9 || path.r[0] < 4)
+            continue;
+        const struct ks_light front = ks_along(photon_of(&scene, i), 9.5, 14, true, shell, &scene);
+        at_most(fabs(intensity(&dimmed)[i] / (intensity(&plain)[i] * exp(-front.depth)) - 1), 1e-4, "a disk behind", 0, i);
+        seen++;
+    }
+    assert_true(seen > 8);
+    kd_frame_finish(&dimmed);
+    kd_frame_finish(&plain);
+}
+
+/* What is off has no pass, and what is on has one, which takes the place of the transfer. */
+static void test_plan(void **state)
+{
+    (void)state;
+    struct kd_capacity c;
+    struct kd_plan with, without;
+    struct kd_scene scene = scene_of(0.6, 50, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\"}}");
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(&scene, &c, &with, &error));
+    scene.volume.model = KD_VOLUME_NONE;
+    OK(kd_plan_make(&scene, &c, &without, &error));
+    assert_true(with.march.steps >= 8 && with.march.fine >= 2 && !without.march.steps);
+    assert_string_equal(with.lens_key, without.lens_key);
+    for (int k = 0; k < 2; k++) {
+        const struct kd_plan *plan = k ? &without : &with;
+        for (size_t i = 0; i < plan->n_passes; i++)
+            assert_string_not_equal(plan->passes[i].name, k ? "march" : "transfer");
+    }
+    scene.volume.model = KD_VOLUME_UNIFORM;
+    scene.camera.projection = KD_PROJECTION_RING;
+    struct kd_error refused;
+    assert_int_equal(kd_plan_make(&scene, &c, &with, &refused), KD_EINVAL);
+    scene.camera.projection = KD_PROJECTION_AUTO;
+    OK(kd_scene_set(&scene, "image.layers", "intensity_1", &error));
+    assert_int_equal(kd_plan_make(&scene, &c, &with, &refused), KD_EINVAL);
+}
+
+/* Numbers without measure leave no NaN, and no ray given up. */
+static void test_adversarial(void **state)
+{
+    (void)state;
+    static const struct view hard[] = {
+        { 0.9, 60, INFINITY, "{\"volume\":{\"opacity\":1e30,\"emissivity\":1e30}}" },
+        { 0.9, 60, INFINITY, "{\"volume\":{\"opacity\":1e30,\"emissivity\":1e-30}}" },
+        { 0.9, 90, INFINITY, "{\"volume\":{\"opacity\":1e-30,\"emissivity\":1e30}}" },
+        { 0.999999999999, 90, INFINITY, "{\"volume\":{\"opacity\":1e-30,\"emissivity\":1e-30,\"inner\":1}}" },
+        { -0.999, 0, INFINITY, "{\"volume\":{\"opacity\":1,\"outer\":1e6}}" },
+        { 0.9, 90, 1.45, "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"opacity\":1}}" },
+        { 0.998, 30, 1.07, "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"opacity\":1e30}}" },
+        { 0.5, 75, 1.2, "{\"camera\":{\"observer\":\"infall\"},\"volume\":{\"opacity\":0.1}}" }, /* within the horizon */
+        { 0.7, 180, 40, "{\"volume\":{\"inner\":19.999,\"outer\":20}}" },
+    };
+    for (size_t v = 0; v < sizeof hard / sizeof *hard; v++) {
+        struct kd_scene scene = scene_of(hard[v].spin, hard[v].inclination, hard[v].r, hard[v].json);
+        struct kd_frame frame = rendered(&scene);
+        for (int i = 0; i < PIXELS; i++)
+            if (!(intensity(&frame)[i] >= 0 && isfinite(intensity(&frame)[i])))
+                fail_msg("scene %zu, pixel %d: %g", v, i, intensity(&frame)[i]);
+        kd_frame_finish(&frame);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_closed_form),
+        cmocka_unit_test(test_shift),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_adversarial),
+    };
+    int code = open_renderer();
+    return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
