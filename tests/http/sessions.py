@@ -376,6 +376,15 @@ class Sessions(daemon.Owned):
         self.assertNotIn('path', patched)
         self.assertEqual((patched['scene']['camera']['inclination_deg'], patched['scene']['camera']['azimuth_deg']), (32, 50))
 
+    def test_a_path_is_looked_along_by_the_workers(self):
+        """Reading and looking along the longest of paths takes tens of milliseconds, which are none of the thread's that serves everybody: it tells how long they had it."""
+        session = self.open(SCENE)
+        keys = [{'at': i + 1, 'scene': {'camera': {'azimuth_deg': i % 360}}} for i in range(999)]
+        answer = self.follow(session, {'keyframes': keys})
+        self.assertEqual((answer.status, answer.json()['path']['end']), (200, 999))
+        self.assertRegex(answer.header('Server-Timing'), r'^queue;dur=[0-9.]+, look;dur=[0-9.]+$')
+        self.assertIsNone(self.daemon.request('PATCH', self.at(session), '{}', {**self.owner(session), 'Content-Type': 'application/merge-patch+json'}).header('Server-Timing'))
+
     def test_a_path_that_is_left(self):
         session = self.open(self.FALL)
         state = self.follow(session, {'keyframes': [{'at': 600, 'proper_time': 'end'}], 'interpolation': 'smooth'}).json()

@@ -62,7 +62,7 @@ struct kd_server {
     struct kd_connections *connections;
     struct kd_render_queue *renders;
     struct kd_turns *rays;  /* requests for them */
-    struct kd_turns *turns; /* orbits, long quantities, jobs being checked */
+    struct kd_turns *turns; /* orbits, long quantities, paths of sessions, jobs being checked */
     struct kd_sessions *sessions;
     struct kd_jobs *jobs;
     struct kd_asset_store *assets;

@@ -2,13 +2,13 @@
 #include "render/emit/motion.h"
 #include "render/emit/told.h"
 #include "render/output/clock.h"
-#include "scene/members.h"
 #include "scene/number.h"
 #include "scene/text.h"
 #include "scene/tree.h"
 #include "server/asset/store.h"
 #include "server/http/reply.h"
 #include "server/render/planned.h"
+#include "server/render/task.h"
 #include "server/session/sessions.h"
 
 #include <cjson/cJSON.h>
@@ -19,7 +19,6 @@
 
 #define JSON_TYPE "application/json"
 #define STRIKE_VALUES 16 /* in the body of one: more would be wrong */
-#define PATH_VALUES 50000
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -76,12 +75,26 @@ done:
     return status;
 }
 
-static enum MHD_Result answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state,
-                              bool created)
+enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state)
 {
     struct kd_buffer json = { 0 };
-    enum kd_status status = to_json(session, state, created, &json);
-    if (status || !created)
+    const struct kd_task *task = request->task;
+    char timing[80];
+    enum kd_status status = to_json(session, state, false, &json);
+    if (status || !task)
+        return kd_reply_json(request, status, &json, JSON_TYPE);
+    struct MHD_Response *response = kd_reply_text(request, &json, JSON_TYPE);
+    snprintf(timing, sizeof timing, "queue;dur=%.3f, look;dur=%.3f", task->begun_ms - task->submitted_ms, task->done_ms - task->begun_ms);
+    if (response)
+        MHD_add_response_header(response, "Server-Timing", timing);
+    return kd_reply_send(request, MHD_HTTP_OK, response);
+}
+
+static enum MHD_Result answer_created(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state)
+{
+    struct kd_buffer json = { 0 };
+    enum kd_status status = to_json(session, state, true, &json);
+    if (status)
         return kd_reply_json(request, status, &json, JSON_TYPE);
     char location[60];
     snprintf(location, sizeof location, "/v1/sessions/%s", kd_session_id(session));
@@ -116,7 +129,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
         return kd_reply_problem(request, &problem);
     }
     kd_session_state(session, &state);
-    result = answer(request, session, &state, true);
+    result = answer_created(request, session, &state);
     if (request->status != MHD_HTTP_CREATED) /* nobody has been told of it */
         kd_session_end(session);
     kd_session_release(session);
@@ -128,14 +141,14 @@ static enum MHD_Result patch(struct kd_request *request, struct kd_session *sess
     struct kd_session_state state;
     struct kd_error error = { 0 };
     if (!kd_session_patch(session, text, length, &state, &error))
-        return answer(request, session, &state, false);
+        return kd_session_answer(request, session, &state);
     struct kd_problem problem = kd_problem_from(&error);
     if (error.status == KD_EINVAL && !*error.pointer)
         problem.type = KD_PROBLEM_MALFORMED_JSON;
     return kd_reply_problem(request, &problem);
 }
 
-static enum MHD_Result forbidden(struct kd_request *request)
+enum MHD_Result kd_session_forbid(struct kd_request *request)
 {
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN,
                                                             .detail = "changing a session takes its token: Authorization: Bearer TOKEN" });
@@ -144,7 +157,7 @@ static enum MHD_Result forbidden(struct kd_request *request)
 static enum MHD_Result change(struct kd_request *request, struct kd_session *session)
 {
     if (!kd_session_owned(session, kd_token_of(request)))
-        return forbidden(request);
+        return kd_session_forbid(request);
     if (!strcmp(request->method, "PATCH"))
         return patch(request, session, request->body.data ? (const char *)request->body.data : "", request->body.size);
     kd_session_end(session);
@@ -162,7 +175,7 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
         result = change(request, session);
     } else {
         kd_session_state(session, &state);
-        result = answer(request, session, &state, false);
+        result = kd_session_answer(request, session, &state);
     }
     kd_session_release(session);
     return result;
@@ -228,70 +241,7 @@ enum MHD_Result kd_handle_session_ringdown(struct kd_request *request)
     struct kd_session *session = kd_session_of(request, &result);
     if (!session)
         return result;
-    result = kd_session_owned(session, kd_token_of(request)) ? strike(request, session) : forbidden(request);
-    kd_session_release(session);
-    return result;
-}
-
-/* {"keyframes": [{"at": seconds, "scene", "proper_time"}, ...], "interpolation", "distances"}, from the scene as it is. */
-static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out, struct kd_error *error)
-{
-    static const struct kd_timeline_form by_second = { "at", KD_SESSION_PATH_S, false };
-    struct kd_timeline_items items = { 0 };
-    const struct kd_assets *assets = kd_asset_store_assets(request->server->assets);
-    const struct kd_buffer *body = &request->body;
-    const struct kd_member members[] = { { "keyframes", &items.keyframes }, { "interpolation", &items.interpolation },
-                                         { "distances", &items.distances } };
-    cJSON *root = NULL;
-    enum kd_status status;
-    KD_TRY(kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
-    if (!cJSON_IsObject(root))
-        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
-    KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
-    if (!items.keyframes)
-        KD_TRY(kd_error_field(error, "/keyframes", "keyframes is missing: say what changes, as in \"keyframes\": [{\"at\": 10, \"scene\": {\"time\": 100}}]"));
-    KD_TRY(kd_timeline_read(&items, &by_second, assets, now, out, error));
-    if (!(kd_timeline_end(out) > 0)) {
-        kd_timeline_finish(out);
-        KD_TRY(kd_error_field(error, "/keyframes", "the last keyframe is at 0 s, allowed is later"));
-    }
-done:
-    cJSON_Delete(root);
-    return status;
-}
-
-static enum MHD_Result follow(struct kd_request *request, struct kd_session *session)
-{
-    struct kd_session_state state;
-    struct kd_timeline path = { 0 };
-    struct kd_error error = { 0 };
-    kd_session_state(session, &state);
-    enum kd_status status = read_path(request, &state.scene, &path, &error);
-    if (!status)
-        status = kd_session_follow(session, &path, &state, &error);
-    kd_timeline_finish(&path);
-    if (!status)
-        return answer(request, session, &state, false);
-    struct kd_problem problem = kd_problem_from(&error);
-    if (error.status == KD_EINVAL)
-        problem.type = *error.pointer ? KD_PROBLEM_INVALID_PARAMETERS : KD_PROBLEM_MALFORMED_JSON;
-    return kd_reply_problem(request, &problem);
-}
-
-enum MHD_Result kd_handle_session_path(struct kd_request *request)
-{
-    enum MHD_Result result;
-    struct kd_error error = { 0 };
-    struct kd_session *session = kd_session_of(request, &result);
-    if (!session)
-        return result;
-    if (!kd_session_owned(session, kd_token_of(request))) {
-        result = forbidden(request);
-    } else if (strcmp(request->method, "DELETE")) {
-        result = follow(request, session);
-    } else {
-        result = kd_session_stop(session, &error) ? kd_reply_error(request, &error) : kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
-    }
+    result = kd_session_owned(session, kd_token_of(request)) ? strike(request, session) : kd_session_forbid(request);
     kd_session_release(session);
     return result;
 }

@@ -1,7 +1,6 @@
 #include "base/clock.h"
 #include "server/session/internal.h"
 
-#include "scene/members.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -230,40 +229,10 @@ done:
     return status;
 }
 
-#define PATH_LOOKS 30 /* of up to a quarter of a millisecond */
-
-/* Whether all of it is possible, as far as some looks can tell. Frames on the way are planned anew. */
-static enum kd_status check_path(const struct kd_session *s, const struct kd_timeline *path, struct kd_error *error)
-{
-    struct kd_capacity capacity;
-    struct kd_scene scene;
-    const double end = kd_timeline_end(path);
-    bool fallen = false, rates = false;
-    enum kd_status status;
-    kd_render_queue_capacity(s->all->params.renders, &capacity);
-    for (size_t i = 0; i < path->n_keys; i++) {
-        const struct kd_motion *m = &path->keys[i].scene.motion;
-        fallen |= path->keys[i].proper_time > 0;
-        rates |= m->time_rate != 0 || m->azimuth_rate_deg != 0;
-        if (memcmp(m, &path->keys[0].scene.motion, sizeof *m))
-            KD_TRY(kd_error_field(error, "/keyframes", "keyframe %zu changes motion, which stays what it is along a path", i));
-    }
-    if (fallen && rates)
-        KD_TRY(kd_error_field(error, "/keyframes", "proper_time is given, allowed with motion.time_rate and motion.azimuth_rate_deg 0 alone: time and azimuth go on "
-                              "as they do on the observer's way"));
-    for (int i = 0; i <= PATH_LOOKS; i++) {
-        KD_TRY(kd_timeline_scene(path, end * i / PATH_LOOKS, &scene, error));
-        KD_TRY(kd_member_inside(kd_plan_check(&scene, &capacity, error), "/keyframes", error));
-    }
-done:
-    return status;
-}
-
 enum kd_status kd_session_follow(struct kd_session *s, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error)
 {
     struct kd_plan plan;
     enum kd_status status;
-    KD_TRY(check_path(s, path, error));
     KD_TRY(make_plan(s->all, &path->keys[0].scene, &plan, error));
     const double now = kd_clock_ms();
     pthread_mutex_lock(&s->all->lock);

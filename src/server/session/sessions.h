@@ -55,8 +55,8 @@ void kd_session_state(struct kd_session *session, struct kd_session_state *out);
 enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, struct kd_session_state *out,
                                 struct kd_error *error);
 #define KD_SESSION_PATH_S 3600 /* a path may take so long */
-/* Lets the session go along a path from now on, which begins with the scene as it is; takes it over. A patch ends it where it is then, and so does
- * kd_session_stop. KD_EINVAL at /keyframes where something between them is no valid scene, by looks at thirty places. */
+/* Lets the session go along a path from now on, which somebody has looked along (path.c), and takes it over. A patch ends it where it is then, and so does
+ * kd_session_stop. */
 enum kd_status kd_session_follow(struct kd_session *session, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error);
 enum kd_status kd_session_stop(struct kd_session *session, struct kd_error *error);
 /* Ends the session, and tells all who watch. */
@@ -98,6 +98,9 @@ struct kd_request;
 struct kd_particles_job;
 /* Finds the session that the path names: a reference, or NULL after a refusal. routes.c */
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused);
+/* Answers with the state, and what a task of the request took; refuses who has not its token. routes.c */
+enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_session *session, const struct kd_session_state *state);
+enum MHD_Result kd_session_forbid(struct kd_request *request);
 void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; accepts NULL */
 void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */
 
