@@ -6,7 +6,7 @@ import { valueAt } from './scene.js';
 import { getJson } from './server.js';
 
 // The preset that is shown where a link says nothing of the scene; '' is the default scene.
-export const first_view = 'gas';
+export const first_view = 'gas-stars';
 const plain = 'default'; // what a link then calls the default scene
 
 const document_of = name => getJson('v1/presets/' + encodeURIComponent(name));

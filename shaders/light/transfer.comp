@@ -86,16 +86,24 @@ void store(uint at, vec3 light, float apart)
         radiance[3 * emission.frame.band_pixels + at] = apart;
 }
 
-/* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which nothing can lie. Those where nothing shines are left as they
+/* Lights KD_TRANSFER_ROWS pixels below one another, of one ray each, behind which no light is spread. Those where nothing shines are left as they
  * are: they were made dark before.
  *
  * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So the inner loop looks for the next crossing that
- * may shine, which takes little, and the outer one lights it. With a sky each pixel has light, and looking for it only takes time. */
+ * may shine, which takes little, and the outer one lights it. Where light is spread over the sky each pixel has some, and looking for it only takes
+ * time. */
 #ifdef KD_MARCH
 const bool COLUMNS = false;
 #else
-const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && !ENDS;
+const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
+
+/* Of a sky of points alone each pixel has those first; where there is a crossing, they are lit anew behind it. */
+void point_column(uint x, uint y, uint end)
+{
+    for (; y < end; y++)
+        store(light_at(x, y), background(uvec2(x, y), (y - slice.band0) * cam.width + x, light_at(x, y)), 0.0);
+}
 
 void light_column(uint x, uint y, uint end)
 {
@@ -121,7 +129,8 @@ void light_column(uint x, uint y, uint end)
             beam = kd_beam(vec3(0.0), 0.0, 1.0);
         of = y;
         meet(beam, w, n, uvec2(x, y), at);
-        store(light_at(x, y), beam.light, beam.apart);
+        vec3 behind = ENDS ? beam.through * background(uvec2(x, y), at, light_at(x, y)) : vec3(0.0);
+        store(light_at(x, y), beam.light + behind, beam.apart);
         bool more = beam.through > 0.0 && n + 1 < ORDERS;
         y += more ? 0 : 1;
         n = more ? n + 1 : 0;
@@ -136,9 +145,11 @@ void main()
     if (px >= (CRITICAL > 0 ? slice.rows : emission.frame.pixels_x))
         return;
     if (COLUMNS) {
-        uint y = slice.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS;
+        uint y = slice.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS, end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
+        if (ENDS)
+            point_column(px, y, end);
         if (KD_GLOWS)
-            light_column(px, y, min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows));
+            light_column(px, y, end);
         return;
     }
     if (CRITICAL > 0) {

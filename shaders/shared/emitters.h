@@ -52,6 +52,7 @@
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_APART 32u
 #define KD_TRAIT_POINTS 0x80000000u /* it has points of light, which a pass of their own spreads over pixels (comp/star_images.comp) */
+#define KD_TRAIT_SPREAD 0x40000000u /* it has light wherever a ray ends */
 
 #endif
 #include "emit/frame.glsl"

@@ -96,7 +96,7 @@ const struct kd_preset kd_presets[] = {
       "{\"motion\":{\"time_rate\":6}}" },
     { "gas-stars", "The same before the stars of the Hipparcos catalogue, of which each image is as bright as the lens makes it; in a live session it turns",
       false,
-      "{\"sky\":{\"model\":\"catalogue\"},"
+      "{\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
       "\"motion\":{\"time_rate\":6}}" },
     { "falling", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
       "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"

@@ -34,7 +34,7 @@ static const struct shot {
     { "face-on", "face-on", "{" SIZE "}" },
     { "photon-rings", "photon-rings", "{" SIZE "}" },
     { "gas", "gas", "{\"time\":1000," SIZE "}" },
-    { "gas-stars", "gas-stars", "{\"time\":1000," SIZE "}" },
+    { "gas-stars", "gas-stars", "{\"time\":1000,\"sky\":{\"milky_way\":1}," SIZE "}" },
     { "falling", "falling", "{" SIZE "}" },
     { "inside", "falling", "{\"camera\":{\"r\":1,\"projection\":\"equirectangular\"}," SIZE "}" },
     { "infall", "infall", "{" SIZE "}" },

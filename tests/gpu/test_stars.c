@@ -426,9 +426,46 @@ static void kept_and_made_anew(void **state)
     }
 }
 
+/* Where light is spread over the sky, however faint, each pixel is lit by itself; where only points are, columns of pixels go from crossing to crossing. */
+static void points_behind_a_disk(void **state)
+{
+    (void)state;
+    for (int spots = 0; spots < 2; spots++) {
+        struct kd_scene scene, spread;
+        size_t lit = 0, behind = 0;
+        kd_scene_defaults(&scene);
+        scene.sky.model = KD_SKY_CATALOGUE;
+        scene.sky.brightness = 1;
+        scene.sky.milky_way = 0;
+        scene.image.width = WIDTH;
+        scene.image.height = HEIGHT;
+        if (spots)
+            OK(kd_scene_set(&scene, "spots.0.brightness", "2", &error));
+        spread = scene;
+        spread.sky.milky_way = 1e-12;
+        struct kd_frame a = seen(&scene), b = seen(&spread);
+        const float *points = a.layers[1].data, *each = b.layers[1].data;
+        scene.sky.model = KD_SKY_NONE;
+        struct kd_frame c = seen(&scene);
+        const float *disk = c.layers[1].data;
+        for (size_t i = 0; i < 3ul * WIDTH * HEIGHT; i++) {
+            if (fabsf(points[i] - each[i]) > 1e-9f + 1e-6f * each[i])
+                fail_msg("pixel %zu: %g, lit by itself %g", i / 3, points[i], each[i]);
+            lit += points[i] > 0 && disk[i] == 0;
+            behind += disk[i] > 0 && points[i] > 1.01f * disk[i];
+        }
+        printf("%zu channels of stars alone, %zu of stars behind the disk\n", lit, behind);
+        assert_true(lit > 10000 && behind > 100);
+        kd_frame_finish(&a);
+        kd_frame_finish(&b);
+        kd_frame_finish(&c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_behind_a_disk),
         cmocka_unit_test(kept_and_made_anew), cmocka_unit_test(another_sky_meanwhile),
         cmocka_unit_test(behind_the_hole), cmocka_unit_test(round_the_hole), cmocka_unit_test(next_to_the_curve), cmocka_unit_test(images_by_the_oracle), cmocka_unit_test(whole_skies),
     };

@@ -22,6 +22,34 @@ class First(Browser):
         page.wait_for_selector('#preset option:nth-child(3)', state='attached')
         return page
 
+    def test_it_is_gas_that_turns_before_stars(self):
+        """As it comes: stars between which it is black, a disk, and more of another when it has turned; one at rest has all pixels of the window."""
+        for lang, width, height in (('en', 1440, 900), ('it', 390, 844)):
+            page = self.page(self.context(viewport={'width': width, 'height': height}))
+            page.goto(self.base + f'#lang={lang}')
+            page.wait_for_selector('#stage[data-final]', timeout=60000, state='attached')
+            self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
+            self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and float(page.inner_text('#clock').split()[2].replace(',', '.')) > 1, 20))
+            page.click('#play')
+            page.wait_for_selector(AT_REST, timeout=60000)
+            self.shot(page, f'first-{lang}')
+            bright, black, wide = page.evaluate('''() => {
+                const picture = document.getElementById('picture'), { naturalWidth: width, naturalHeight: height } = picture;
+                const context = new OffscreenCanvas(width, height).getContext('2d');
+                context.drawImage(picture, 0, 0);
+                const { data } = context.getImageData(0, 0, width, Math.floor(height / 6)); // above the disk
+                let bright = 0, black = 0;
+                for (let i = 0; i < data.length; i += 4) {
+                    const most = Math.max(data[i], data[i + 1], data[i + 2]);
+                    bright += most > 60;
+                    black += most < 8;
+                }
+                return [(400 * bright) / data.length, (400 * black) / data.length, width];
+            }''')
+            self.assertEqual(wide, page.evaluate('document.getElementById("stage").clientWidth'))
+            self.assertGreater(bright, 0.05)
+            self.assertGreater(black, 80)
+
     def test_it_is_a_preset_that_moves(self):
         page = self.opened('living-disk', 'lang=en')
         self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and self.clock(page) > 1, 20))

@@ -25,6 +25,7 @@ static bool present(const struct kd_scene *scene)
 static uint32_t traits(const struct kd_scene *scene)
 {
     return (is_grid(scene) ? KD_TRAIT_SKY_GRID : 0) | (is_spread(scene) ? KD_TRAIT_SKY_SPREAD : 0) | (has_stars(scene) ? KD_TRAIT_POINTS : 0) |
+           (is_grid(scene) || is_spread(scene) ? KD_TRAIT_SPREAD : 0) |
            (scene->disk.band == KD_BAND_VISIBLE && !is_grid(scene) ? KD_TRAIT_VISIBLE : 0);
 }
 
