@@ -1,0 +1,205 @@
+/* The course of a ray, place by place, against the Hamiltonian integrated in Kerr-Schild coordinates: another method, other coordinates, no common
+ * formula. What lies between crossings is judged by rays that set out from there. */
+#include "physics/null_course.h"
+
+#include "kerr_schild.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum { ORDERS = 4, MOST = 4000 };
+
+static double random_unit(uint64_t *seed) /* splitmix64 */
+{
+    uint64_t z = *seed += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static const double spins[] = { 0, 1e-6, 0.3, -0.5, 0.9, -0.9, 0.99, 0.998 };
+static const double cosines[] = { 1, 0.9563, 0.7071, 0.342, 0.01, 0, -0.5, -0.9, -1 };
+
+static struct kd_null_ray random_ray(uint64_t *seed, double field)
+{
+    struct kd_null_ray ray = { .radius = INFINITY, .orders = ORDERS };
+    ray.spin = spins[(int)(8 * random_unit(seed))];
+    ray.cos_theta = cosines[(int)(9 * random_unit(seed))];
+    ray.alpha = random_unit(seed) < 0.05 ? 0 : field * (2 * random_unit(seed) - 1);
+    ray.beta = field * (2 * random_unit(seed) - 1);
+    return ray;
+}
+
+static void say(const struct kd_null_ray *ray, const char *what, int n, double got, double want, double allowed)
+{
+    fail_msg("a = %.17g, r = %.17g%s, cos = %.17g, alpha = %.17g, beta = %.17g: %s %d: %.17g, not %.17g: off by %.2g, allowed %.2g", ray->spin, ray->radius,
+             ray->outward ? " outwards" : "", ray->cos_theta, ray->alpha, ray->beta, what, n, got, want, fabs(got - want), allowed);
+}
+
+static double horizon(double a) { return 1 + sqrt((1 - a) * (1 + a)); }
+
+/* How far neighbours may be apart: 0.03 rad on the sphere, or the steps of w that straight rays take. */
+static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null_place *p, const struct kd_null_place *q)
+{
+    const double s = sqrt((1 - p->u) * (1 + p->u)), t = sqrt((1 - q->u) * (1 + q->u));
+    if (s < 0.05 || t < 0.05 || fabs(ray->spin) > 0.01) /* frame dragging turns places as well */
+        return;
+    const double apart = acos(fmin(1, p->u * q->u + s * t * cos(p->phi - q->phi)));
+    if (apart > 0.035)
+        say(ray, "angle between neighbours at order", p->order, apart, 0.03, 0.005);
+}
+
+/* The path's crossings are those of the oracle, whose own errors grow on the way as ours do: by the condition number, of which the closed form's
+ * estimates hold ten times DBL_EPSILON. */
+static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
+{
+    static struct kd_null_place places[MOST];
+    const double near = 0.01 * horizon(ray->spin), far = isinf(ray->radius) ? 50 : fmax(50, 2 * ray->radius);
+    const struct kd_null_course course = kd_null_course_of(ray, far, near, places, MOST);
+    const struct ks_path oracle = ks_trace(*photon, ORDERS);
+    const struct kd_null_path closed = kd_null_trace(ray);
+    int met = 0;
+    if (course.end != KD_COURSE_CAPTURED && course.end != KD_COURSE_ESCAPED)
+        say(ray, "end", 0, course.end, KD_COURSE_ESCAPED, 0);
+    if (oracle.fate != KS_UNDECIDED && (course.end == KD_COURSE_ESCAPED) != (oracle.fate == KS_ESCAPED))
+        say(ray, "fate", 0, course.end, oracle.fate, 0);
+    if (!(course.drift < 1e-9))
+        say(ray, "drift of the first integrals", 0, course.drift, 0, 1e-9);
+    for (size_t i = 0; i < course.n; i++) {
+        const struct kd_null_place *p = &places[i];
+        const int n = p->crossing;
+        if (i)
+            check_neighbours(ray, &places[i - 1], p);
+        if (n < 0 || n >= oracle.crossings || n >= closed.crossings)
+            continue;
+        const double factor = 2e-10 / DBL_EPSILON, r = factor * closed.crossing[n].error_r, phi = factor * closed.crossing[n].error_phi,
+                     delay = factor * closed.crossing[n].error_delay;
+        met++;
+        if (!(fabs(p->u) < 1e-9))
+            say(ray, "cosine of crossing", n, p->u, 0, 1e-9);
+        if (!(fabs(p->r / oracle.r[n] - 1) <= r))
+            say(ray, "r of crossing", n, p->r, oracle.r[n], r * p->r);
+        if (!(fabs(remainder(p->phi - oracle.phi[n], 2 * M_PI)) <= phi))
+            say(ray, "phi of crossing", n, p->phi, oracle.phi[n], phi);
+        if (!(fabs(p->delay - oracle.delay[n]) <= delay))
+            say(ray, "delay of crossing", n, p->delay, oracle.delay[n], delay);
+        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* turns count, too */
+            say(ray, "turns of crossing", n, p->phi, closed.crossing[n].phi, phi);
+    }
+    int there = 0; /* crossings further out than the path goes, or closer to the horizon, are not on it */
+    for (int n = 0; n < oracle.crossings; n++)
+        there += oracle.r[n] < 0.999 * far && oracle.r[n] > 1.001 * (horizon(ray->spin) + near);
+    if (met < there)
+        say(ray, "crossings", 0, met, there, 0);
+}
+
+static void from_infinity(void **state)
+{
+    uint64_t seed = 1;
+    (void)state;
+    for (int i = 0; i < 1500; i++) {
+        const struct kd_null_ray ray = random_ray(&seed, i % 3 == 0 ? 25 : 8);
+        const struct ks_photon photon = ks_from_infinity(ray.spin, ray.cos_theta, ray.alpha, ray.beta);
+        judge(&ray, &photon);
+    }
+}
+
+/* The photon with the labels of `ray` at its radius; false if there is none, or where the oracle's start is worth little. */
+static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
+{
+    const double a = ray->spin, u = ray->cos_theta, r = ray->radius, lambda = -ray->alpha * sqrt((1 - u) * (1 + u));
+    const double eta = (ray->alpha * ray->alpha - a * a) * u * u + ray->beta * ray->beta;
+    const double delta = r * r - 2 * r + a * a, w = r * r + a * a - a * lambda, big = w * w - delta * (eta + (lambda - a) * (lambda - a));
+    if (!(big > 1e-3 * w * w))
+        return false;
+    *photon = (struct ks_photon) { .a = a, .r = r, .u = u, .energy = 1, .momentum = lambda, .p_r = (ray->outward ? -1 : 1) * sqrt(big) / delta, .p_theta = ray->beta };
+    return true;
+}
+
+static void from_nearby(void **state)
+{
+    uint64_t seed = 2;
+    int compared = 0;
+    (void)state;
+    for (int i = 0; i < 2500; i++) {
+        struct kd_null_ray ray = random_ray(&seed, 9);
+        struct ks_photon photon;
+        ray.radius = horizon(ray.spin) * (1.25 + exp(6 * random_unit(&seed) - 3));
+        ray.outward = random_unit(&seed) < 0.5;
+        if (fabs(ray.cos_theta) == 1)
+            ray.cos_theta *= 0.99;
+        if (!photon_of(&ray, &photon))
+            continue;
+        judge(&ray, &photon);
+        compared++;
+    }
+    assert_true(compared > 1000);
+}
+
+/* Any place of a path lies on it: the ray that sets out from there with the same constants, by closed form, has the same crossings ahead, and those
+ * the same azimuths and delays but for what has been covered. */
+static void between_crossings(void **state)
+{
+    static struct kd_null_place places[MOST];
+    uint64_t seed = 3;
+    int judged = 0;
+    (void)state;
+    for (int i = 0; i < 150; i++) {
+        struct kd_null_ray ray = random_ray(&seed, 9);
+        const struct kd_null_course course = kd_null_course_of(&ray, 50, 0.01 * horizon(ray.spin), places, MOST);
+        const struct kd_null_path whole = kd_null_trace(&ray);
+        const double s = sqrt((1 - ray.cos_theta) * (1 + ray.cos_theta)), lambda = -ray.alpha * s;
+        const double eta = (ray.alpha * ray.alpha - ray.spin * ray.spin) * ray.cos_theta * ray.cos_theta + ray.beta * ray.beta;
+        for (size_t k = 20; k + 1 < course.n; k += 17) {
+            const struct kd_null_place *p = &places[k];
+            const double sin2 = (1 - p->u) * (1 + p->u), alpha = -lambda / sqrt(sin2);
+            const double beta2 = eta - (alpha * alpha - ray.spin * ray.spin) * p->u * p->u;
+            const bool outward = places[k + 1].r > p->r;
+            if (p->crossing >= 0 || p->order >= whole.crossings || !(sin2 > 1e-2 && beta2 > 1e-2) || fabs(places[k + 1].r / p->r - 1) < 1e-3 || fabs(p->u) < 1e-2)
+                continue;
+            const struct kd_null_ray rest = { .spin = ray.spin, .radius = p->r, .cos_theta = p->u, .sin_theta = sqrt(sin2), .alpha = alpha,
+                                              .beta = copysign(sqrt(beta2), places[k + 1].u - p->u), .outward = outward, .orders = ORDERS };
+            const struct kd_null_path there = kd_null_trace_fast(&rest);
+            const struct kd_null_crossing *want = &whole.crossing[p->order], *got = &there.crossing[0];
+            if (there.crossings < 1 || want->r > 1e3)
+                continue;
+            const double allowed = 1e-7 + 1e6 * fmin(fmax(want->error_r, fmax(want->error_phi, want->error_delay)), 1);
+            if (!(fabs(got->r / want->r - 1) <= allowed))
+                say(&ray, "r of the crossing from place", (int)k, got->r, want->r, allowed);
+            if (!(fabs(remainder(p->phi + got->phi - want->phi, 2 * M_PI)) <= 10 * allowed))
+                say(&ray, "phi of the crossing from place", (int)k, p->phi + got->phi, want->phi, 10 * allowed);
+            if (!(fabs(p->delay + got->delay - want->delay) <= 10 * allowed * (1 + want->r)))
+                say(&ray, "delay of the crossing from place", (int)k, p->delay + got->delay, want->delay, 10 * allowed * (1 + want->r));
+            judged++;
+        }
+    }
+    assert_true(judged > 300);
+}
+
+/* There is no such ray, or no room for it. */
+static void without_a_course(void **state)
+{
+    struct kd_null_place places[10];
+    (void)state;
+    const struct kd_null_ray forbidden = { .spin = 0.5, .radius = 5, .cos_theta = 0.2, .alpha = 40, .beta = 1, .orders = 1 };
+    assert_int_equal(kd_null_course_of(&forbidden, 50, 0.01, places, 10).end, KD_COURSE_NONE);
+    const struct kd_null_ray ray = { .spin = 0.5, .radius = INFINITY, .cos_theta = 0.2, .alpha = 6, .beta = 1, .orders = 1 };
+    const struct kd_null_course course = kd_null_course_of(&ray, 50, 0.01, places, 10);
+    assert_int_equal(course.end, KD_COURSE_LONG);
+    assert_int_equal(course.n, 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(from_infinity), cmocka_unit_test(from_nearby), cmocka_unit_test(between_crossings), cmocka_unit_test(without_a_course),
+    };
+    return cmocka_run_group_tests_name("physics_course", tests, NULL, NULL);
+}
