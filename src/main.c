@@ -15,7 +15,7 @@ static const struct command {
     int (*run)(int argc, char **argv);
 } commands[] = {
     { "render", kd_cli_render },   { "light-curve", kd_cli_light_curve }, { "particles", kd_cli_particles },
-    { "rays", kd_cli_rays },       { "orbit", kd_cli_orbit },
+    { "rays", kd_cli_rays },       { "pixel", kd_cli_pixel },    { "orbit", kd_cli_orbit },
     { "physics", kd_cli_physics }, { "plan", kd_cli_plan },
     { "scene", kd_cli_scene },     { "presets", kd_cli_presets }, { "serve", kd_cli_serve }, { "doctor", kd_cli_doctor },
     { "bench", kd_cli_bench },
@@ -81,6 +81,7 @@ static const struct argp argp = {
            "  light-curve  flux and centroid of a scene as its time goes on\n"
            "  particles    where the particles of a scene are, as an array\n"
            "  rays         end points of listed rays: crossings, redshift, delay\n"
+           "  pixel        what one pixel of a picture shows: its ray, each emitter on it, why it ends\n"
            "  orbit        path of a body round the hole, its constants and frequencies\n"
            "  physics      numbers of a hole, an orbit, a disk: one point or a curve\n"
            "  plan         what a scene costs on this device\n"

@@ -23,6 +23,8 @@ struct kd_medium { vec3 light; float depth, grain; };
 /* A ray on its way: the light so far, and what all in front lets pass. */
 struct kd_beam { vec3 light; float apart, through; };
 
+#include "light/tell.glsl"
+
 #define KD_SPEC_TRAIT_(number, name) layout(constant_id = KD_SPEC_TRAITS + number) const uint TRAITS_##name = 0;
 KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_HAS(name) ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u)
@@ -45,6 +47,7 @@ const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
+    KD_TELL_PLACE(s, beam.through)
 #define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s);
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 #define KD_GLOW_(number, name)                                                                                 \
@@ -53,6 +56,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
         beam.light += seen * glow.light;                                                                       \
         beam.apart += seen * glow.apart;                                                                       \
         beam.through *= 1.0 - glow.alpha;                                                                      \
+        KD_TELL_GLOW(number, seen, glow)                                                                       \
     }
     KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
@@ -85,14 +89,25 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 
 void kd_beam_end(inout kd_beam beam, kd_end end)
 {
-#define KD_END_(number, name) if (KD_HAS(name)) beam.light += beam.through * kd_##name##_end(end);
+    KD_TELL_END(end)
+#define KD_END_(number, name)                                                                                  \
+    if (KD_HAS(name)) {                                                                                        \
+        vec3 light = kd_##name##_end(end);                                                                     \
+        beam.light += beam.through * light;                                                                    \
+        KD_TELL_LIGHT(KD_TELL_OF_END, number, light)                                                           \
+    }
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_)
 }
 
 /* Points of light are spread over pixels, whatever becomes of a pixel's own rays. */
 void kd_beam_points(inout kd_beam beam, uint pixel)
 {
-#define KD_POINTS_(number, name) if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) beam.light += beam.through * kd_##name##_points(pixel);
+#define KD_POINTS_(number, name)                                                                               \
+    if ((TRAITS_##name & KD_TRAIT_POINTS) != 0u) {                                                             \
+        vec3 light = kd_##name##_points(pixel);                                                                \
+        beam.light += beam.through * light;                                                                    \
+        KD_TELL_LIGHT(KD_TELL_OF_POINTS, number, light)                                                        \
+    }
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_)
 }
 
@@ -101,6 +116,7 @@ void kd_beam_given_up(inout kd_beam beam)
 {
     beam.light += beam.through * vec3(1.0, 0.0, 1.0);
     beam.through = 0.0;
+    KD_TELL_GIVEN_UP
 }
 
 #endif

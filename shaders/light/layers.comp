@@ -7,6 +7,7 @@
 KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/layers.h"
 #include "light/inputs.glsl"
+#include "light/numbers.glsl"
 layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 
 /* A device need not keep NaN in arithmetic: it is told from numbers, and written, by its bits. */
@@ -21,23 +22,6 @@ layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_);
 const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_);
 
-/* This is the frequency as the observer measures it over that in the frame of the gas, whether a picture shows that or not. */
-float kd_layer_g(kd_sample s)
-{
-    if (kd_plunge_falls(s))
-        return kd_plunge_shift(s, true, true);
-    return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
-}
-
-/* The gas shines as a black body of this temperature, in its own frame, K. */
-float kd_layer_temperature(kd_sample s)
-{
-    if (kd_plunge_falls(s))
-        return emission.plunge.temperature * emission.disk.peak;
-    float r = 1.0 / s.w, t = emission.disk.peak * kd_disk_heat(s.w) * inversesqrt(r * sqrt(r));
-    return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s)) : t; /* its flux goes as the fourth power */
-}
-
 /* That of what shines there, along the ray: -ln of the part of the light from behind that it lets through. */
 float kd_layer_depth(kd_sample s)
 {
@@ -45,14 +29,6 @@ float kd_layer_depth(kd_sample s)
     kd_beam_at(beam, s);
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
-
-/* Brings an azimuth to (-pi, pi]. */
-float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
-
-/* An angle is had from its cosine. For that between the light and the normal of the disk, in the frame of the gas, that is g |p_theta| / r: the
- * photon's momentum along the normal, p_theta / r with p_theta^2 = Q in the equatorial plane, over its energy there, 1/g; gas that stays
- * in the plane, however it moves in it, sees the normal along theta (Carter 1968). */
-float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
 
 /* A footprint; a ray without neighbours has none. */
 float kd_layer_size(float footprint) { return footprint < KD_FOOTPRINT_EDGE ? footprint : KD_NOTHING; }

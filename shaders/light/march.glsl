@@ -145,7 +145,9 @@ void kd_march_step(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_path p, kd_
         kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);
         kd_quintic_clip(s.u, emission.frame.along_u, -1.0, from, to);
         kd_quintic_clip(s.u, -emission.frame.along_u, 1.0, from, to);
+        KD_TELL_BEFORE(beam)
         kd_march_part(beam, m, ray, s, from, to);
+        KD_TELL_STRETCH(s, from, to, beam)
         if (end == plane && KD_GLOWS && crossed < ORDERS && beam.through > 0.0) {
             float w = lens[at + crossed * slice.stride];
             if (w != 0.0)

@@ -6,7 +6,9 @@
 #include "shared/spec.h"
 KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "light/inputs.glsl"
+#ifndef KD_TELL
 layout(set = 0, binding = 3) writeonly buffer Radiance { float radiance[]; };
+#endif
 
 /* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the camera and `at` in
  * the lens map. */
@@ -51,8 +53,10 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
     kd_march_follow(beam, place, at);
+    KD_TELL_SUM(KD_TELL_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);
+    KD_TELL_SUM(KD_TELL_WHOLE, beam)
     return beam;
 }
 #else
@@ -68,8 +72,10 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
         if (beam.through <= 0.0)
             break;
     }
+    KD_TELL_SUM(KD_TELL_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);
+    KD_TELL_SUM(KD_TELL_WHOLE, beam)
     return beam;
 }
 #endif
@@ -77,6 +83,20 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
 /* A pixel's light lies here. */
 uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? slice.band0 : slice.band0 / SIDE)) * emission.frame.pixels_x + x; }
 
+#ifdef KD_TELL
+#include "light/numbers.glsl"
+
+/* Follows the middle ray of one pixel, whose place is in the push constants: its row of rays is row0, its column `rows`. */
+void main()
+{
+    kd_camera_read();
+    KD_EMIT_BLOCKS(READ)
+    if (gl_GlobalInvocationID.x > 0)
+        return;
+    uvec2 place = uvec2(slice.rows, slice.row0);
+    follow(place, (place.y - slice.band0) * cam.width + place.x, light_at(place.x / SIDE, place.y / SIDE));
+}
+#else
 void store(uint at, vec3 light, float apart)
 {
     radiance[3 * at] = light.r;
@@ -170,3 +190,4 @@ void main()
     float share = 1.0 / float(rays);
     store(light_at(px, py), share * sum, share * apart);
 }
+#endif

@@ -185,4 +185,16 @@
 #define KD_TRACE_CROSSING -2.0
 #define KD_TRACE_END -3.0 /* after the last crossing */
 
+/* Records of light/tell.glsl have so many numbers, and are of these kinds. */
+#define KD_TELL_RECORD 11
+#define KD_TELL_AT 0.0
+#define KD_TELL_OF_PLACE 1.0
+#define KD_TELL_ENDS 2.0
+#define KD_TELL_OF_END 3.0
+#define KD_TELL_OF_POINTS 4.0
+#define KD_TELL_LOST 5.0
+#define KD_TELL_FRONT 6.0
+#define KD_TELL_WHOLE 7.0
+#define KD_TELL_ALONG 8.0
+
 #endif

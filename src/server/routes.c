@@ -59,6 +59,9 @@ const struct kd_route kd_routes[] = {
       "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; "
       "of a light curve its rows, as application/json or text/csv",
       .gives = KD_GIVES_RESULT },
+    { "/v1/pixel", KD_GET | KD_POST, kd_handle_pixel, JSON,
+      "What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it ends and why", KD_TAKES_SCENE,
+      .status = { 200, 304 }, .own = "at" },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, NULL, "The picture of a scene", KD_TAKES_SCENE, .gives = KD_GIVES_PICTURE, .status = { 200, 304 } },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

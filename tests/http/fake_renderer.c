@@ -7,6 +7,7 @@
 #include "render/device/accuracy_store.h"
 #include "render/rays/device.h"
 #include "render/frame/frame.h"
+#include "render/frame/tell.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -100,6 +101,18 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
+/* Of a pixel it tells that its light is a quarter, and nothing of what gave it. */
+static struct kd_told *tell(const struct kd_plan *plan)
+{
+    struct kd_told *told = plan->told.on ? malloc(sizeof *told) : NULL;
+    if (told)
+        *told = (struct kd_told) {
+            .x = plan->told.x, .y = plan->told.y, .ray_x = plan->told.x * plan->side, .ray_y = plan->told.y * plan->side, .rays = plan->side * plan->side,
+            .light = { 0.25f, 0.25f, 0.25f }, .radiance = { 0.25f, 0.25f, 0.25f },
+        };
+    return told;
+}
+
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene,
                          const struct kd_plan *plan, kd_progress_fn progress, void *user,
                          struct kd_frame *out, struct kd_error *error)
@@ -111,6 +124,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         return status;
     *out = (struct kd_frame) { .width = plan->width,
                                .height = plan->height,
+                               .told = tell(plan),
                                .exposure = isinf(scene->style.exposure) ? kd_plan_exposure(plan, renderer->bright ? -1 : 1)
                                                                         : scene->style.exposure };
     if (kd_frame_add_layer(out, "rgb", 3, scene->image.bit_depth > 8 ? KD_LAYER_U16 : KD_LAYER_U8, error))

@@ -452,6 +452,31 @@ class Kerrd(unittest.TestCase):
                 for rest in ('/preview.png', '/result?format=png', '/result?format=csv'):
                     self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
+    def test_a_pixel_is_explained(self):
+        """Its crossings are those of POST /v1/rays, its light adds up, and its path goes through the crossings."""
+        scene = {'spacetime': {'spin': 0.9}, 'camera': {'inclination_deg': 75}, 'image': {'width': 160, 'height': 90, 'critical_factor': 1},
+                 'disk': {'opacity': 0.5, 'model': 'novikov-thorne', 'outer': 14}, 'sky': {'model': 'grid'}}
+        fates = set()
+        for x, y in (60, 50), (80, 30), (95, 48), (76, 45), (30, 20):
+            found = self.daemon.post(f'/v1/pixel?at={x},{y}', scene).json()
+            ray = self.daemon.post('/v1/rays', {'spin': 0.9, 'observer': {'inclination_deg': 75}, 'orders': 3,
+                                                'rays': [[found['constants']['alpha'], found['constants']['beta']]]}).json()['rays'][0]
+            fates.add(found['end']['fate'])
+            self.assertEqual(found['end']['fate'], ray['fate'])
+            self.assertEqual([[c[name] for name in ('r', 'phi', 'delay', 'g')] for c in found['crossings']],
+                             [[c[name] for name in ('r', 'phi', 'delay', 'g')] for c in ray['crossings']])
+            seen = [e['seen'] for c in found['crossings'] if c['seen'] for e in c['emitters']] + [e['seen'] for e in found['end']['emitters']]
+            for channel in range(3):
+                self.assertAlmostEqual(sum(light[channel] for light in seen), found['colour']['pixel'][channel], delta=2e-6 * (1e-6 + max(found['colour']['pixel'])))
+            columns = found['path']['columns']
+            points = [dict(zip(columns, p)) for p in found['path']['points']]
+            for c in found['crossings']:
+                near = min(points, key=lambda p: abs(p['phi'] - c['phi']) + abs(p['z']))
+                self.assertAlmostEqual(near['r'] / c['r'], 1, delta=1e-7)
+                self.assertAlmostEqual(near['delay'], c['delay'], delta=1e-6)
+            self.assertLess(found['accuracy']['picture'] or 0, 1e-4)
+        self.assertEqual(fates, {'captured', 'escaped'})
+
     def test_a_vanished_client_stops_its_render(self):
         scene = {'image': {'width': 4000, 'height': 4000, 'samples': 2}, 'accuracy': {'profile': 'high'}}
         for _ in range(3):

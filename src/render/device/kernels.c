@@ -50,6 +50,8 @@
 #include "star_tiles_texels.spv.h"
 #include "transfer.spv.h"
 #include "transfer_march.spv.h"
+#include "transfer_march_tell.spv.h"
+#include "transfer_tell.spv.h"
 
 #include <string.h>
 
@@ -83,6 +85,10 @@ static const struct kd_vk_pipeline_params sources[] = {
                                 { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [5] = KD_VK_UNIFORM } },
     [KD_KERNEL_TRANSFER] = { "transfer", kd_spv_transfer, sizeof kd_spv_transfer, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                              { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_TRANSFER_TELL] = { "transfer, told", kd_spv_transfer_tell, sizeof kd_spv_transfer_tell, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
+                                  { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
+    [KD_KERNEL_MARCH_TELL] = { "march, told", kd_spv_transfer_march_tell, sizeof kd_spv_transfer_march_tell, KD_OWN_BINDING + KD_OWN_COUNT,
+                               sizeof(struct kd_slice), { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_LAYERS] = { "layers", kd_spv_layers, sizeof kd_spv_layers, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),
                            { [1] = KD_VK_UNIFORM, [2] = KD_VK_TEXELS_RGBA, [4] = KD_VK_UNIFORM } },
     [KD_KERNEL_MARCH] = { "march", kd_spv_transfer_march, sizeof kd_spv_transfer_march, KD_OWN_BINDING + KD_OWN_COUNT, sizeof(struct kd_slice),

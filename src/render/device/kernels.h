@@ -24,6 +24,8 @@ enum kd_kernel {
     KD_KERNEL_STAR_SEARCH_TEXELS,
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_TRANSFER,
+    KD_KERNEL_TRANSFER_TELL, /* of one ray, emitter by emitter; and in volumes */
+    KD_KERNEL_MARCH_TELL,
     KD_KERNEL_LAYERS,
     KD_KERNEL_MARCH, /* the same two where there are volumes */
     KD_KERNEL_LAYERS_MARCH,

@@ -89,6 +89,7 @@ static enum kd_status run(struct kd_frame_job *j)
     KD_TRY(kd_frame_light(j, reused));
     if (j->plan->adaptive)
         KD_TRY(refine(j));
+    KD_TRY(kd_frame_tell_pixel(j));
     if (j->plan->light)
         KD_TRY(kd_frame_add_light(j));
     if (!j->plan->unseen)

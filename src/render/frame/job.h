@@ -107,6 +107,10 @@ enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 
+/* Tells the light of the plan's pixel, if it lies in this band, whose lens map must be there; and, when all light is, what became of it. */
+enum kd_status kd_frame_tell(struct kd_frame_job *job, uint32_t band);
+enum kd_status kd_frame_tell_pixel(struct kd_frame_job *job);
+
 /* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and centroid of them. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);

@@ -38,5 +38,6 @@ void kd_frame_drop_layers(struct kd_frame *frame)
 void kd_frame_finish(struct kd_frame *frame)
 {
     kd_frame_drop_layers(frame);
+    free(frame->told);
     *frame = (struct kd_frame) { 0 };
 }

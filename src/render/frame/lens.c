@@ -49,7 +49,10 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
 {
     const struct kd_plan *p = j->plan;
     const bool march = p->march.steps && (makes < 0 || kd_layer_kinds[p->layers[makes].kind].of == KD_OF_LIGHT);
-    const enum kd_kernel kernel = makes < 0 ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER : march ? KD_KERNEL_LAYERS_MARCH : KD_KERNEL_LAYERS;
+    const enum kd_kernel kernel = makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
+                                  : makes < 0            ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER
+                                  : march                ? KD_KERNEL_LAYERS_MARCH
+                                                         : KD_KERNEL_LAYERS;
     struct kd_spec_transfer spec = {
         .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side, .SIGHT = kd_camera_sight(j->scene),
         .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
@@ -316,6 +319,7 @@ static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double tr
         if (p->points)
             KD_TRY(kd_frame_stars(j, band));
         KD_TRY(light_band(j, band, needed && !p->points, p->points ? transfer_ns : ns));
+        KD_TRY(kd_frame_tell(j, band));
     }
 done:
     return status;

@@ -4,8 +4,8 @@
 
 #include "render/frame/job.h"
 
-/* What a kernel makes: rays, the light of the picture, or the plan's layer of that number. */
-enum { KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
+/* What a kernel makes: what is told of one ray, rays, the light of the picture, or the plan's layer of that number. */
+enum { KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
 
 /* Rows of pixels that one submission takes, given nanoseconds a row. */
 uint32_t kd_frame_slice(double ns_per_row, uint32_t rows);

@@ -35,6 +35,10 @@ static enum kd_status render_eye(const struct kd_pair *pair, int side, double ex
     plan.audit = plan.audit < pair->plan->audit ? plan.audit : pair->plan->audit;
     plan.exposure_from = pair->plan->exposure_from;
     plan.exposure_share = pair->plan->exposure_share;
+    if (pair->plan->told.on && (pair->plan->told.x < plan.width) == (side < 0)) {
+        plan.told = pair->plan->told;
+        plan.told.x -= side < 0 ? 0 : plan.width;
+    }
     status = pair->aside ? kd_render_aside(pair->renderer, &eye, &plan, go_on, NULL, &half, out, error)
                          : kd_render(pair->renderer, &eye, &plan, go_on, &half, out, error);
 done:
@@ -81,6 +85,7 @@ static enum kd_status join(const struct kd_frame eyes[2], struct kd_frame *out, 
     frame.lens_reused = eyes[0].lens_reused && eyes[1].lens_reused;
     frame.accuracy = both(&eyes[0].accuracy, &eyes[1].accuracy);
     frame.light = (struct kd_light_report) { 0 }; /* it would be that of neither */
+    frame.told = NULL;
     add_timings(&frame, &eyes[1]);
     for (size_t i = 0; i < eyes[0].n_layers; i++) {
         const struct kd_layer *l = &eyes[0].layers[i];
@@ -96,6 +101,16 @@ done:
     return status;
 }
 
+/* Only one eye has any. */
+static void hand_over_told(struct kd_frame eyes[2], struct kd_frame *to)
+{
+    for (int i = 0; i < 2; i++)
+        if (eyes[i].told) {
+            to->told = eyes[i].told;
+            eyes[i].told = NULL;
+        }
+}
+
 enum kd_status kd_frame_pair(const struct kd_pair *pair, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_frame eyes[2] = { 0 };
@@ -103,6 +118,7 @@ enum kd_status kd_frame_pair(const struct kd_pair *pair, struct kd_frame *out, s
     KD_TRY(render_eye(pair, -1, 0, &eyes[0], error));
     KD_TRY(render_eye(pair, 1, eyes[0].exposure, &eyes[1], error));
     KD_TRY(join(eyes, out, error));
+    hand_over_told(eyes, out);
 done:
     for (int i = 0; i < 2; i++)
         kd_frame_finish(&eyes[i]);

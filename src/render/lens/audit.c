@@ -3,9 +3,8 @@
 #include "render/view/layout.h"
 
 #include "physics/kerr.h"
-#include "render/view/camera.h"
+#include "render/lens/label.h"
 #include "render/lens/listed.h"
-#include "render/view/ring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,40 +23,6 @@ struct sample {
 };
 
 static uint32_t spread(uint32_t k, uint32_t n, uint32_t size) { return (uint32_t)((k + 0.5) / n * size); }
-
-/* The labels of a pixel's ray as the kernel makes them, in its own arithmetic: what it loses there is a shift of some 1e-7 of the
- * picture and no error of the map. */
-static void label_in_single(const struct kd_camera_block *c, bool finite, uint32_t px, uint32_t py, struct kd_camera_label *out)
-{
-    double off_x = (float)px - c->middle_x, off_y = c->middle_y - (float)py;
-    const float ahead = (float)kd_camera_ahead(c->sight, c->turn_x, c->turn_y, &off_x, &off_y), x = (float)off_x, y = (float)off_y;
-    float kx = ahead * c->c0x + x * c->cxx + y * c->cyx, ky = ahead * c->c0y + x * c->cxy + y * c->cyy;
-    *out = (struct kd_camera_label) { .alpha = kx, .beta = ky };
-    if (!finite)
-        return;
-    float kz = ahead * c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
-    double m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
-    kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
-                       c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,
-                       c->p_t - (c->p_r * kx + c->p_theta * ky + c->p_phi * kz) * n,
-                       c->dw_t - (c->dw_r * kx + c->dw_theta * ky + c->dw_phi * kz) * n < 0, out);
-}
-
-/* Makes the labels of a pixel's ray as those of the map were made. */
-static void label_of(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y, struct kd_camera_label *out)
-{
-    if (plan->ring) {
-        const struct kd_ring ring = kd_ring_of(scene);
-        const struct kd_critical_point column = kd_ring_column(&ring, x);
-        *out = kd_ring_label(&ring, &column, y);
-    } else if (plan->path == KD_LENS_LISTED) {
-        const struct kd_camera_exact exact = kd_camera_exact(scene);
-        kd_camera_label(&exact, x, y, out);
-    } else {
-        const struct kd_camera_block rounded = kd_camera_block(scene);
-        label_in_single(&rounded, !isinf(scene->camera.r), x, y, out);
-    }
-}
 
 static enum kd_status read_rows(struct kd_renderer *r, const struct kd_plan *plan, const struct kd_lens_map *map,
                                 const struct sample *s, struct kd_error *error)
@@ -128,7 +93,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
         for (uint32_t i = 0; i < s->columns; i++, n++) {
             uint32_t x = spread(i, s->columns, s->width), y = spread(j, s->rows, s->height);
             struct kd_camera_label label;
-            label_of(scene, plan, x, y, &label);
+            kd_lens_label(scene, plan, x, y, &label);
             s->rays[2 * n] = label.alpha;
             s->rays[2 * n + 1] = label.beta;
             s->outward[n] = label.outward;

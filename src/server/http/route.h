@@ -42,6 +42,7 @@ struct kd_route {
     enum kd_gives gives;
     const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
     unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
+    const char *own;    /* a parameter of the query that is no field of the scene, beside which it stands; NULL: none */
 };
 
 /* The table: server/routes.c. */
@@ -65,6 +66,7 @@ enum MHD_Result kd_handle_device(struct kd_request *request);
 enum MHD_Result kd_handle_kept(struct kd_request *request); /* what openapi/kept.h has */
 enum MHD_Result kd_handle_plan(struct kd_request *request);    /* render/renders.c */
 enum MHD_Result kd_handle_render(struct kd_request *request);
+enum MHD_Result kd_handle_pixel(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */
 enum MHD_Result kd_handle_accuracy(struct kd_request *request); /* answers/accuracy.c */

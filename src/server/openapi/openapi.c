@@ -104,6 +104,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
+    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+,[0-9.]+$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve, the others of pictures" },
     { "/v1/jobs/{id}/result", "frame", WHOLE, "with format=png: which" },

@@ -1,4 +1,5 @@
-/* This answers POST /v1/plan, and /v1/render from the scene to the picture. */
+/* This answers POST /v1/plan, /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is told. */
+#include "render/explain/explain.h"
 #include "render/output/notes.h"
 #include "server/http/negotiate.h"
 #include "server/render/planned.h"
@@ -233,14 +234,25 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
     return MHD_YES;
 }
 
-static enum kd_status tag(struct kd_request *request, const struct kd_scene *scene)
+static enum kd_status tag(struct kd_request *request, const struct kd_scene *scene, const struct kd_plan *plan)
 {
-    char hash[65];
+    char hash[65], at[28] = "";
+    if (plan->told.on)
+        snprintf(at, sizeof at, "-%u-%u", plan->told.x, plan->told.y);
     const char *name = request->format == kd_formats[0] ? "" : request->format->name;
     enum kd_status status = kd_scene_hash(scene, hash);
     if (!status)
-        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s\"", hash, request->server->etag_tail, *name ? "-" : "", name);
+        snprintf(request->etag, sizeof request->etag, "\"%s-%s%s%s%s\"", hash, request->server->etag_tail, *name ? "-" : "", name, at);
     return status;
+}
+
+/* The plan tells of the pixel that the query names. */
+static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
+{
+    const char *at = kd_target_value(&request->target, request->route->own);
+    if (!at)
+        return kd_error_field(error, "/at", "at is missing: it names the pixel, as in at=320,180");
+    return kd_explain_at(at, plan, error);
 }
 
 enum MHD_Result kd_handle_render(struct kd_request *request)
@@ -253,12 +265,14 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
         return deliver(request);
     if (!request->format && !(request->format = accepted(request)))
         return refuse(request);
-    const struct kd_planned *planned = kd_planned_of(request, &result);
+    struct kd_planned *planned = kd_planned_of(request, &result);
     if (!planned)
         return result;
     const struct kd_scene *scene = &planned->scene;
     const struct kd_plan *plan = &planned->plan;
-    if (tag(request, scene))
+    if (request->format == &kd_format_pixel && name_pixel(request, &planned->plan, &error))
+        return kd_reply_error(request, &error);
+    if (tag(request, scene, plan))
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     if (client_has(request))
@@ -268,4 +282,10 @@ enum MHD_Result kd_handle_render(struct kd_request *request)
     if (!admitted(request, plan, &problem, &error))
         return kd_reply_problem(request, &problem);
     return submit(request, &planned->drawn, plan);
+}
+
+enum MHD_Result kd_handle_pixel(struct kd_request *request)
+{
+    request->format = &kd_format_pixel;
+    return kd_handle_render(request);
 }

@@ -23,7 +23,10 @@ static void pointer_of(const char *name, char *out, size_t size)
     out[n] = 0;
 }
 
-enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, struct kd_error *error)
+/* The route's own parameter is no field. */
+static bool is_own(const char *name, const char *own) { return own && !strcmp(name, own); }
+
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *own, struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
@@ -32,8 +35,8 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
         for (size_t k = 0; k < i; k++)
             if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query gives %.100s twice", name);
-        if (!fields && strcmp(name, "preset"))
-            return kd_error_field(error, pointer, "the query of a POST may hold preset, not %.100s", name);
+        if (!fields && strcmp(name, "preset") && !is_own(name, own))
+            return kd_error_field(error, pointer, "the query of a POST may hold preset%s%s, not %.100s", own ? " and " : "", own ? own : "", name);
     }
     return KD_OK;
 }
@@ -53,12 +56,12 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
 }
 
 /* The style first: a query is one document, whatever its order. */
-static enum kd_status apply_fields(const struct kd_target *target, struct kd_scene *scene,
+static enum kd_status apply_fields(const struct kd_target *target, const char *own, struct kd_scene *scene,
                                    struct kd_error *error)
 {
     for (size_t i = 0; i < 2 * target->n_pairs; i++) {
         const struct kd_target_pair *pair = &target->pairs[i % target->n_pairs];
-        if (!strcmp(pair->name, "preset") || !strcmp(pair->name, "style.name") != (i < target->n_pairs))
+        if (!strcmp(pair->name, "preset") || is_own(pair->name, own) || !strcmp(pair->name, "style.name") != (i < target->n_pairs))
             continue;
         enum kd_status status = kd_scene_set(scene, pair->name, pair->value, error);
         if (status == KD_EINVAL && !*error->pointer)
@@ -73,17 +76,18 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
                          struct kd_error *error)
 {
     bool post = !strcmp(request->method, "POST"), malformed = false;
+    const char *own = request->route->own;
 
     kd_scene_defaults(scene);
     enum kd_status status;
-    KD_TRY(kd_scene_query_check(&request->target, !post, error));
+    KD_TRY(kd_scene_query_check(&request->target, !post, own, error));
     KD_TRY(apply_preset(&request->target, scene, error));
     if (post) {
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "", request->body.size, error);
         malformed = status == KD_EINVAL && !*error->pointer; /* what has no place in the document */
         KD_TRY(status);
     } else {
-        KD_TRY(apply_fields(&request->target, scene, error));
+        KD_TRY(apply_fields(&request->target, own, scene, error));
     }
     KD_TRY(kd_scene_resolve(scene, kd_asset_store_assets(request->server->assets), error));
     KD_TRY(kd_scene_validate(scene, error));

@@ -1,0 +1,66 @@
+/* This writes down what each emitter gives one ray, on its way through the kernel that makes the picture: transfer.comp compiled with KD_TELL writes
+ * records to binding 3 instead of light; otherwise nothing is left of this. The first number is how many records there were, those that have no
+ * room included. A record is KD_TELL_RECORD numbers, the first of which says of what:
+ *
+ *   KD_TELL_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), angle of emission, what all in front lets through
+ *   KD_TELL_OF_PLACE  an emitter there: its number, light, opacity, what of its light comes through
+ *   KD_TELL_ENDS      where it ends: cosine of the polar angle, azimuth, footprint
+ *   KD_TELL_OF_END, KD_TELL_OF_POINTS   an emitter there: its number, light
+ *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through before and behind it
+ *   KD_TELL_LOST      the ray was given up
+ *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through */
+#ifndef KD_TELL_GLSL
+#define KD_TELL_GLSL
+
+#ifdef KD_TELL
+layout(set = 0, binding = 3) writeonly buffer Told { float told[]; };
+uint kd_told = 0u;
+
+float kd_layer_g(kd_sample s);
+float kd_layer_temperature(kd_sample s);
+float kd_layer_angle(float c);
+
+void kd_tell(float of, vec4 a, vec4 b, vec2 c)
+{
+    uint at = 1u + KD_TELL_RECORD * kd_told++;
+    told[0] = float(kd_told);
+    if (at + KD_TELL_RECORD > uint(told.length()))
+        return;
+    told[at] = of;
+    for (uint k = 0u; k < 4u; k++) {
+        told[at + 1u + k] = a[k];
+        told[at + 5u + k] = b[k];
+    }
+    told[at + 9u] = c.x;
+    told[at + 10u] = c.y;
+}
+
+void kd_tell_place(kd_sample s, float through)
+{
+    float g = kd_layer_g(s);
+    kd_tell(KD_TELL_AT, vec4(s.order, s.w, s.phi, s.slope), vec4(s.footprint, g, kd_layer_temperature(s), kd_layer_angle(g * sqrt(max(s.q, 0.0)) * s.w)), vec2(through, 0.0));
+}
+#define KD_TELL_PLACE(s, through) kd_tell_place(s, through);
+#define KD_TELL_GLOW(number, seen, glow) kd_tell(KD_TELL_OF_PLACE, vec4(number, glow.light), vec4(glow.alpha, seen, 0.0, 0.0), vec2(0.0));
+/* Stretches without length are none. */
+#define KD_TELL_BEFORE(beam) kd_beam before = beam;
+#define KD_TELL_STRETCH(s, from, to, beam)                                                                     \
+    if (from < to)                                                                                             \
+        kd_tell(KD_TELL_ALONG, vec4(kd_quintic_at(s.w, from), kd_quintic_at(s.w, to), kd_quintic_at(s.u, from), kd_quintic_at(s.u, to)), \
+                vec4(beam.light - before.light, before.through), vec2(beam.through, 0.0));
+#define KD_TELL_END(end) kd_tell(KD_TELL_ENDS, vec4(end.u, end.phi, end.footprint, 0.0), vec4(0.0), vec2(0.0));
+#define KD_TELL_LIGHT(of, number, light) kd_tell(of, vec4(number, light), vec4(0.0), vec2(0.0));
+#define KD_TELL_GIVEN_UP kd_tell(KD_TELL_LOST, vec4(0.0), vec4(0.0), vec2(0.0));
+#define KD_TELL_SUM(of, beam) kd_tell(of, vec4(beam.light, beam.through), vec4(0.0), vec2(0.0));
+#else
+#define KD_TELL_PLACE(s, through)
+#define KD_TELL_GLOW(number, seen, glow)
+#define KD_TELL_BEFORE(beam)
+#define KD_TELL_STRETCH(s, from, to, beam)
+#define KD_TELL_END(end)
+#define KD_TELL_LIGHT(of, number, light)
+#define KD_TELL_GIVEN_UP
+#define KD_TELL_SUM(of, beam)
+#endif
+
+#endif

@@ -1,0 +1,118 @@
+/* kerrd pixel explains what one pixel of a picture shows. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "render/explain/explain.h"
+
+#include <string.h>
+
+enum { KEY_AT = 256 };
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device, *at, *output, *format;
+    uint64_t memory;
+};
+
+static const struct argp_option table[] = {
+    { "at", KEY_AT, "X,Y", 0, "the pixel: a place in the picture, in pixels from its upper left corner (required)", 0 },
+    { "output", 'o', "FILE", 0, "where to write; a name that ends in .json chooses that format (default: - for standard output)", 0 },
+    { "format", 'f', "FORMAT", 0, "text or json, whatever the name of the output", 0 },
+    KD_CLI_MEMORY,
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case KEY_AT: arguments->at = text; return 0;
+    case 'o': arguments->output = text; return 0;
+    case 'f':
+        if (strcmp(text, "text") && strcmp(text, "json"))
+            argp_error(state, "--format %s: text or json", text);
+        arguments->format = text;
+        return 0;
+    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
+    case ARGP_KEY_END:
+        if (!arguments->at)
+            argp_error(state, "--at X,Y is missing: which pixel?");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static bool wants_json(const struct arguments *arguments)
+{
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    return arguments->format ? !strcmp(arguments->format, "json") : dot && !strcmp(dot, ".json");
+}
+
+static enum kd_status draw(const struct arguments *arguments, struct kd_renderer *renderer, struct kd_scene *scene, struct kd_plan *plan,
+                           struct kd_frame *frame, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_progress progress;
+    enum kd_status status;
+    kd_renderer_capacity(renderer, &capacity);
+    KD_TRY(kd_format_plan(&kd_format_pixel, scene, &capacity, plan, error));
+    KD_TRY(kd_explain_at(arguments->at, plan, error));
+    kd_progress_init(&progress);
+    kd_progress_catch_signals();
+    status = kd_render(renderer, scene, plan, kd_progress_update, &progress, frame, error);
+    kd_progress_finish(&progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+done:
+    return status;
+}
+
+static enum kd_status run(struct arguments *arguments, struct kd_error *error)
+{
+    const char *path = arguments->output ? arguments->output : "-";
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_renderer *renderer = NULL;
+    struct kd_buffer text = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
+    if (strcmp(path, "-"))
+        KD_TRY(kd_file_check(path, error));
+    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+                              &renderer, error));
+    KD_TRY(draw(arguments, renderer, &scene, &plan, &frame, error));
+    const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(renderer), 0 };
+    KD_TRY(wants_json(arguments) ? kd_encode(&kd_format_pixel, &picture, KD_EFFORT_KEEP, NULL, &text, error) : kd_explain_text(&picture, &text, error));
+    KD_TRY(kd_file_write(path, &text, error));
+done:
+    kd_buffer_finish(&text);
+    kd_frame_finish(&frame);
+    kd_renderer_destroy(renderer);
+    return status;
+}
+
+int kd_cli_pixel(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Explain what one pixel of a scene's picture shows: its ray, what that crosses and when, what each emitter gives it, where it ends and "
+               "why.\vThe scene is merged as for render.",
+        .children = kd_scene_device_children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &error);
+    kd_scene_options_finish(&arguments.scene);
+    return kd_progress_exit(status, &error);
+}

@@ -1,0 +1,302 @@
+/* This writes what is explained of a pixel as JSON. */
+#include "base/json.h"
+#include "render/explain/explain.h"
+#include "render/emit/emitter.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static double luminance(const float light[3]) { return 0.2126 * (double)light[0] + 0.7152 * (double)light[1] + 0.0722 * (double)light[2]; }
+
+static void put_rgb(struct kd_json *json, const char *name, const float light[3], double times)
+{
+    kd_json_array(json, name);
+    for (int i = 0; i < 3; i++)
+        kd_json_number(json, NULL, times * (double)light[i]);
+    kd_json_end(json);
+}
+
+static void put_pixel(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
+{
+    const struct kd_told *t = x->told;
+    const double side = picture->plan->side, left = x->eye && *x->eye == 'r' ? picture->frame->width / 2 : 0;
+    kd_json_array(json, "pixel");
+    kd_json_number(json, NULL, picture->plan->told.x);
+    kd_json_number(json, NULL, picture->plan->told.y);
+    kd_json_end(json);
+    if (x->eye)
+        kd_json_string(json, "eye", x->eye);
+    kd_json_array(json, "ray_at");
+    kd_json_number(json, NULL, left + (t->ray_x + 0.5) / side);
+    kd_json_number(json, NULL, (t->ray_y + 0.5) / side);
+    kd_json_end(json);
+    kd_json_number(json, "rays", t->rays);
+}
+
+static void put_colour(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
+{
+    kd_json_object(json, "colour");
+    kd_json_array(json, "shown");
+    for (int i = 0; i < 3; i++)
+        kd_json_number(json, NULL, x->shown[i]);
+    kd_json_end(json);
+    put_rgb(json, "pixel", x->told->radiance, 1);
+    put_rgb(json, "ray", x->told->light, 1);
+    kd_json_number(json, "exposure", picture->frame->exposure);
+    kd_json_end(json);
+}
+
+/* By the energy that the observer measures. */
+static void put_constants(struct kd_json *json, const struct kd_explained *x)
+{
+    const double e = x->label.energy;
+    kd_json_object(json, "constants");
+    kd_json_number(json, "alpha", x->label.alpha);
+    kd_json_number(json, "beta", x->label.beta);
+    kd_json_number(json, "lambda", x->lambda);
+    kd_json_number(json, "eta", x->eta);
+    kd_json_number(json, "E", e);
+    kd_json_number(json, "L", e * x->lambda);
+    kd_json_number(json, "Q", e * e * x->eta);
+    kd_json_bool(json, "outward", x->label.outward);
+    kd_json_end(json);
+}
+
+static void put_radial(struct kd_json *json, const struct kd_explained *x)
+{
+    kd_json_object(json, "radial");
+    kd_json_string(json, "case", x->radial_case);
+    kd_json_number(json, "real_roots", x->roots.kind == KD_NULL_FOUR_REAL ? 4 : x->roots.kind == KD_NULL_TWO_REAL ? 2 : 0);
+    kd_json_array(json, "roots");
+    for (int i = 0; i < 4; i++) {
+        kd_json_array(json, NULL);
+        kd_json_number(json, NULL, x->root[i][0]);
+        kd_json_number(json, NULL, x->root[i][1]);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_json_number(json, "horizon_r", x->horizon);
+    kd_json_number(json, "turning_r", x->turning_r);
+    kd_json_end(json);
+}
+
+static void put_glow(struct kd_json *json, const struct kd_told_glow *g, bool opacity)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", kd_emitters[g->emitter]->name);
+    put_rgb(json, "light", g->light, 1);
+    put_rgb(json, "seen", g->light, g->through);
+    kd_json_number(json, "luminance", luminance(g->light));
+    kd_json_number(json, "luminance_seen", (double)g->through * luminance(g->light));
+    if (opacity)
+        kd_json_number(json, "opacity", g->opacity);
+    else
+        kd_json_bool(json, "points", g->points);
+    kd_json_end(json);
+}
+
+/* What shines or hides there, as the picture has it. */
+static void put_place(struct kd_json *json, const struct kd_explained *x, const struct kd_told_place *p)
+{
+    double left = 1;
+    kd_json_object(json, "picture");
+    kd_json_number(json, "r", 1 / (double)p->w);
+    kd_json_number(json, "g", p->g);
+    if (p->footprint > 0)
+        kd_json_number(json, "footprint", p->footprint);
+    kd_json_end(json);
+    kd_json_number(json, "through", p->through);
+    kd_json_array(json, "emitters");
+    for (size_t i = 0; i < p->n_glows; i++) {
+        left *= 1 - (double)p->glows[i].opacity;
+        put_glow(json, &p->glows[i], true);
+    }
+    kd_json_end(json);
+    kd_json_number(json, "optical_depth", 0 - log(left));
+    (void)x;
+}
+
+static void put_crossing(struct kd_json *json, const struct kd_explained *x, uint32_t n)
+{
+    const bool has = n < x->end.n_crossings;
+    const struct kd_ray_crossing *c = &x->crossings[n];
+    const struct kd_told_place *p = kd_explained_place(x, n);
+    kd_json_object(json, NULL);
+    kd_json_number(json, "order", n);
+    kd_json_number(json, "r", has ? c->r : NAN);
+    kd_json_number(json, "phi", has ? c->phi : NAN);
+    kd_json_number(json, "azimuth", has ? kd_explained_azimuth(x, c->phi) : NAN);
+    kd_json_number(json, "delay", has ? c->delay : NAN);
+    kd_json_number(json, "g", has ? c->g : NAN);
+    kd_json_bool(json, "seen", p != NULL);
+    if (kd_explained_has_gas(p)) {
+        kd_json_number(json, "temperature", p->temperature);
+        kd_json_number(json, "emission_angle", p->angle);
+    }
+    if (p)
+        put_place(json, x, p);
+    kd_json_end(json);
+}
+
+static void put_crossings(struct kd_json *json, const struct kd_explained *x)
+{
+    uint32_t n = x->end.n_crossings;
+    for (size_t i = 0; i < x->told->n_places; i++)
+        n = x->told->places[i].order >= n ? x->told->places[i].order + 1 : n;
+    kd_json_array(json, "crossings");
+    for (uint32_t k = 0; k < n && k < KD_RAYS_MAX_ORDERS; k++)
+        put_crossing(json, x, k);
+    kd_json_end(json);
+}
+
+#define NOT_(number, name)
+#define ALONG_(number, name) [number] = true,
+static const bool is_along[KD_EMITTER_COUNT] = { KD_EMITTERS(NOT_, NOT_, NOT_, NOT_, ALONG_) };
+
+/* What lies along the ray, if the scene has volumes. */
+static void put_along(struct kd_json *json, const struct kd_explained *x)
+{
+    const struct kd_told *t = x->told;
+    float sum[3] = { 0 };
+    double passes = 1;
+    for (size_t i = 0; i < t->n_stretches; i++) {
+        passes *= (double)t->stretches[i].through[1] / (double)t->stretches[i].through[0];
+        for (int c = 0; c < 3; c++)
+            sum[c] += t->stretches[i].light[c];
+    }
+    if (!kd_emit_along(&x->scene))
+        return;
+    kd_json_object(json, "along");
+    kd_json_array(json, "names");
+    for (size_t i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kd_emit_has(&x->scene, kd_emitters[i]) && is_along[i])
+            kd_json_string(json, NULL, kd_emitters[i]->name);
+    kd_json_end(json);
+    put_rgb(json, "seen", sum, 1);
+    kd_json_number(json, "luminance_seen", luminance(sum));
+    kd_json_number(json, "optical_depth", 0 - log(passes));
+    kd_json_array(json, "stretches");
+    for (size_t i = 0; i < t->n_stretches; i++) {
+        const struct kd_told_stretch *s = &t->stretches[i];
+        kd_json_object(json, NULL);
+        kd_json_number(json, "order", s->order);
+        for (int end = 0; end < 2; end++) {
+            kd_json_number(json, end ? "to_r" : "from_r", 1 / (double)s->w[end]);
+            kd_json_number(json, end ? "to_theta" : "from_theta", acos(fmax(-1, fmin(1, (double)s->u[end]))));
+        }
+        put_rgb(json, "seen", s->light, 1);
+        kd_json_number(json, "through", s->through[0]);
+        kd_json_number(json, "optical_depth", 0 - log((double)s->through[1] / (double)s->through[0]));
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void put_end(struct kd_json *json, const struct kd_explained *x)
+{
+    static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
+    const struct kd_told *t = x->told;
+    kd_json_object(json, "end");
+    kd_json_string(json, "fate", fates[x->end.fate]);
+    kd_json_string(json, "why", x->why);
+    kd_json_number(json, "through", t->n_places || t->ended ? (double)t->through : 1);
+    kd_json_number(json, "optical_depth", t->n_places || t->ended ? 0 - log((double)t->through) : 0);
+    if (x->end.fate == KD_RAY_ESCAPED) {
+        kd_json_number(json, "theta", x->end.theta);
+        kd_json_number(json, "phi", x->end.phi);
+        kd_json_number(json, "azimuth", kd_explained_azimuth(x, x->end.phi));
+        kd_json_number(json, "g", 1 / x->label.energy);
+    }
+    kd_json_array(json, "emitters");
+    for (size_t i = 0; i < t->n_ends; i++)
+        put_glow(json, &t->ends[i], false);
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void put_path(struct kd_json *json, const struct kd_explained *x)
+{
+    static const char *const columns[] = { "x", "y", "z", "r", "theta", "phi", "delay", "order" };
+    kd_json_object(json, "path");
+    kd_json_number(json, "least_r", x->course.least_r);
+    kd_json_bool(json, "whole", x->course.end == KD_COURSE_CAPTURED || x->course.end == KD_COURSE_ESCAPED);
+    kd_json_array(json, "columns");
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
+        kd_json_string(json, NULL, columns[i]);
+    kd_json_end(json);
+    kd_json_array(json, "points");
+    for (size_t i = 0; i < x->course.n; i++) {
+        const struct kd_null_place *p = &x->places[i];
+        double at[3];
+        kd_explained_at(x, p, at);
+        const double row[] = { at[0], at[1], at[2], p->r, acos(p->u), kd_explained_phi(x, p->phi), kd_explained_delay(x, p->delay), p->order };
+        kd_json_array(json, NULL);
+        for (size_t k = 0; k < sizeof row / sizeof *row; k++)
+            kd_json_number(json, NULL, row[k]);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_json_end(json);
+}
+
+static void put_accuracy(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
+{
+    const struct kd_setting *by = &picture->plan->setting;
+    kd_json_object(json, "accuracy");
+    kd_json_string(json, "engine", kd_engine_name(by->engine));
+    kd_json_string(json, "precision", kd_precision_name(by->precision));
+    kd_json_number(json, "steps", by->steps);
+    kd_json_number(json, "closed_form", x->end.error);
+    kd_json_number(json, "picture", x->picture_error);
+    kd_json_number(json, "path", x->path_error);
+    kd_json_number(json, "first_integrals", x->course.drift);
+    kd_json_end(json);
+}
+
+static enum kd_status write(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    put_pixel(&json, picture, x);
+    put_colour(&json, picture, x);
+    put_constants(&json, x);
+    put_radial(&json, x);
+    put_crossings(&json, x);
+    put_along(&json, x);
+    put_end(&json, x);
+    put_path(&json, x);
+    put_accuracy(&json, picture, x);
+    kd_json_array(&json, "approximations");
+    for (size_t i = 0; i < picture->plan->n_approximations; i++)
+        kd_json_string(&json, NULL, picture->plan->approximations[i]);
+    kd_json_end(&json);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_explained x;
+    (void)effort, (void)memory;
+    enum kd_status status = kd_explain(picture, &x, error);
+    if (!status && write(picture, &x, out))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+    kd_explained_finish(&x);
+    return status;
+}
+
+/* Wants the picture alone, of an observer that closed forms know. */
+static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
+{
+    const double horizon = 1 + sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
+    if (!(scene->camera.r > horizon))
+        return kd_error_field(error, "/camera/r", "camera.r is %.9g, where rays are not explained: allowed is outside of the horizon, above %.9g", scene->camera.r, horizon);
+    if (scene->image.layers.count > 1)
+        scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
+    return KD_OK;
+}
+
+const struct kd_format kd_format_pixel = {
+    .name = "json", .media_type = "application/json", .magic = "", .carries = KD_CARRIES_PICTURE, .draws = draws, .encode = encode,
+};

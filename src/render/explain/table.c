@@ -1,0 +1,102 @@
+/* This writes what is explained of a pixel as tables for eyes. */
+#include "render/emit/emitter.h"
+#include "render/explain/explain.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define DEGREES (180 / M_PI)
+
+static enum kd_status put_head(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
+{
+    const struct kd_told *t = x->told;
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "pixel %u, %u", picture->plan->told.x, picture->plan->told.y));
+    if (x->eye)
+        KD_TRY(kd_buffer_printf(out, " of the %s eye", x->eye));
+    KD_TRY(kd_buffer_printf(out, t->rays > 1 ? ": the middle one of its %u rays\n" : ": its one ray\n", t->rays));
+    KD_TRY(kd_buffer_printf(out, "alpha %.9g, beta %.9g, lambda %.9g, eta %.9g, E %.9g\n", x->label.alpha, x->label.beta, x->lambda, x->eta, x->label.energy));
+    KD_TRY(kd_buffer_printf(out, "radial case %s, roots", x->radial_case));
+    for (int i = 0; i < 4; i++)
+        KD_TRY(kd_buffer_printf(out, x->root[i][1] != 0 ? " %.6g%+.6gi" : " %.6g", x->root[i][0], x->root[i][1]));
+    KD_TRY(kd_buffer_printf(out, "; horizon %.6g\n", x->horizon));
+    KD_TRY(kd_buffer_printf(out, "%s\n\n", x->why));
+done:
+    return status;
+}
+
+static enum kd_status put_glow(const struct kd_told_glow *g, const char *where, struct kd_buffer *out)
+{
+    const double k = g->through;
+    return kd_buffer_printf(out, "%-8s %-10s %11.4e %11.4e %11.4e   %11.4e %11.4e %11.4e %8.4f\n", where, kd_emitters[g->emitter]->name, (double)g->light[0],
+                            (double)g->light[1], (double)g->light[2], k * (double)g->light[0], k * (double)g->light[1], k * (double)g->light[2],
+                            (double)g->opacity);
+}
+
+static enum kd_status put_crossings(const struct kd_explained *x, struct kd_buffer *out)
+{
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%5s %12s %10s %12s %9s %9s %9s %9s\n", "order", "r (M)", "phi (deg)", "delay (M)", "g", "T (K)", "angle", "through"));
+    for (uint32_t n = 0; n < x->end.n_crossings; n++) {
+        const struct kd_ray_crossing *c = &x->crossings[n];
+        const struct kd_told_place *p = kd_explained_place(x, n);
+        KD_TRY(kd_buffer_printf(out, "%5u %12.6f %10.3f %12.5f %9.5f", n, c->r, DEGREES * c->phi, c->delay, c->g));
+        KD_TRY(kd_explained_has_gas(p) ? kd_buffer_printf(out, " %9.1f %9.2f", (double)p->temperature, DEGREES * (double)p->angle)
+                                       : kd_buffer_printf(out, " %9s %9s", "-", "-"));
+        KD_TRY(p ? kd_buffer_printf(out, " %9.5f\n", (double)p->through) : kd_buffer_printf(out, " %9s\n", x->told->n_places ? "hidden" : "-"));
+    }
+    if (x->end.fate == KD_RAY_ESCAPED)
+        KD_TRY(kd_buffer_printf(out, "sky: theta %.4f deg, phi %.4f deg, g %.5f\n", DEGREES * x->end.theta, DEGREES * x->end.phi, 1 / x->label.energy));
+done:
+    return status;
+}
+
+static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *out)
+{
+    const struct kd_told *t = x->told;
+    char where[16];
+    float along[3] = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "\n%-8s %-10s %35s   %35s %8s\n", "order", "emitter", "light there, linear RGB", "as it arrives", "opacity"));
+    for (size_t i = 0; i < t->n_places; i++)
+        for (size_t k = 0; k < t->places[i].n_glows; k++) {
+            snprintf(where, sizeof where, "%u", t->places[i].order);
+            KD_TRY(put_glow(&t->places[i].glows[k], where, out));
+        }
+    for (size_t i = 0; i < t->n_stretches; i++)
+        for (int c = 0; c < 3; c++)
+            along[c] += t->stretches[i].light[c];
+    if (t->n_stretches)
+        KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "along the ray", "", (double)along[0], (double)along[1], (double)along[2]));
+    for (size_t i = 0; i < t->n_ends; i++)
+        KD_TRY(put_glow(&t->ends[i], t->ends[i].points ? "points" : "end", out));
+    KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "ray", "", (double)t->light[0], (double)t->light[1], (double)t->light[2]));
+    KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "pixel", "", (double)t->radiance[0], (double)t->radiance[1], (double)t->radiance[2]));
+    KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4f %11.4f %11.4f\n", "shown", "", x->shown[0], x->shown[1], x->shown[2]));
+done:
+    return status;
+}
+
+static enum kd_status put_accuracy(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
+{
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "\npath: %zu points, least r %.6g M; first integrals hold to %.1e", x->course.n, x->course.least_r, x->course.drift));
+    if (!isnan(x->path_error))
+        KD_TRY(kd_buffer_printf(out, ", crossings of the closed form to %.1e", x->path_error));
+    KD_TRY(kd_buffer_printf(out, "\n"));
+    if (!isnan(x->picture_error))
+        KD_TRY(kd_buffer_printf(out, "picture: %s %s, radii off by %.1e at most\n", kd_engine_name(picture->plan->setting.engine),
+                                kd_precision_name(picture->plan->setting.precision), x->picture_error));
+done:
+    return status;
+}
+
+enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error)
+{
+    struct kd_explained x;
+    enum kd_status status = kd_explain(picture, &x, error);
+    if (!status && (put_head(picture, &x, out) || put_crossings(&x, out) || put_light(&x, out) || put_accuracy(picture, &x, out)))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+    kd_explained_finish(&x);
+    return status;
+}

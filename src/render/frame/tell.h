@@ -1,0 +1,59 @@
+/* This is what a frame tells of the light of one ray, emitter by emitter, as the kernel that makes the picture adds it up (light/tell.glsl): of the
+ * middle ray of the pixel that the plan names. Radiance is linear sRGB, in units of the picture's. */
+#ifndef KD_RENDER_FRAME_TELL_H
+#define KD_RENDER_FRAME_TELL_H
+
+#include "render/plan/plan.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define KD_TOLD_PLACES 32 /* of a ray, at most */
+
+/* An emitter gives this there. */
+struct kd_told_glow {
+    uint32_t emitter;   /* kd_emitters */
+    float light[3];     /* with its opacity in it, and without what lies in front */
+    float opacity;
+    float through;      /* the part of it that comes to the observer, changed by what acts on all light there */
+    bool points;        /* this is of its points of light, spread over the pixel */
+};
+
+/* A place where something may shine or hide. */
+struct kd_told_place {
+    uint32_t order;     /* of the crossing */
+    float w, phi, slope, footprint; /* of the lens map; 0 for what it does not hold */
+    float g, temperature, angle;    /* of gas there, whether any is; K; between light and normal in the frame of the gas, radians */
+    float through;      /* what all in front lets pass */
+    struct kd_told_glow glows[KD_PLAN_EMITTERS];
+    size_t n_glows;
+};
+
+/* A stretch of the ray through volumes, all of which are in it together. */
+struct kd_told_stretch {
+    uint32_t order;     /* of the next crossing, if it comes to one */
+    float w[2], u[2];   /* 1/r and cos(theta) at its ends */
+    float light[3];     /* that it adds to what arrives */
+    float through[2];   /* what all in front lets pass, and that with it */
+};
+#define KD_TOLD_STRETCHES 256
+
+struct kd_told {
+    uint32_t x, y;      /* the pixel, and */
+    uint32_t ray_x, ray_y; /* its ray, counted from the upper left one */
+    uint32_t rays;      /* that the pixel's light is the mean of */
+    struct kd_told_place places[KD_TOLD_PLACES];
+    struct kd_told_stretch stretches[KD_TOLD_STRETCHES];
+    size_t n_places, n_stretches, lost; /* lost: records that had no room */
+    bool given_up;      /* the engine gave the ray up, and the picture shows magenta */
+    bool ended;         /* something may shine where it ends: */
+    float end_u, end_phi, end_footprint;
+    struct kd_told_glow ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: of all crossings */
+    size_t n_ends;
+    float through;      /* of all crossings */
+    float light[3];     /* the sum, of this ray */
+    float radiance[3];  /* of the pixel: the mean over its rays, before glare, beam and tone curve */
+};
+
+#endif

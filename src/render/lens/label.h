@@ -1,0 +1,12 @@
+/* This names the ray of a lens map's place, as closed forms and lists of rays take it. Pure, any thread. */
+#ifndef KD_RENDER_LENS_LABEL_H
+#define KD_RENDER_LENS_LABEL_H
+
+#include "render/plan/plan.h"
+#include "render/view/camera.h"
+
+/* Makes the labels of the ray at (x, y), in rays from the upper left one, as those of the plan's map are made: by the kernels in single precision, of
+ * lists and rings in double. */
+void kd_lens_label(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t x, uint32_t y, struct kd_camera_label *out);
+
+#endif

@@ -1,0 +1,282 @@
+/* What is told of one pixel: its light adds up to the picture's own linear light, and its crossings are those of listed rays and of layers. The
+ * picture is the same whether it is told of or not. */
+#include "render/emit/emitter.h"
+#include "render/explain/explain.h"
+#include "render/rays/rays.h"
+
+#include "render_support.h"
+
+enum { WIDTH = 64, HEIGHT = 36 };
+
+static struct kd_scene scene_of(const char *preset, const char *const *set)
+{
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    if (preset)
+        OK(kd_scene_preset(&scene, preset, &error));
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    for (; set && set[0]; set += 2)
+        OK(kd_scene_set(&scene, set[0], set[1], &error));
+    OK(kd_scene_validate(&scene, &error));
+    return scene;
+}
+
+/* A frame that tells of a pixel, with its linear light. */
+static struct kd_frame told_at(const struct kd_scene *scene, uint32_t x, uint32_t y, struct kd_plan *plan)
+{
+    struct kd_needs needs = kd_needs_of(scene);
+    struct kd_capacity c;
+    struct kd_frame frame;
+    char at[40];
+    kd_renderer_capacity(renderer, &c);
+    needs.radiance = true;
+    snprintf(at, sizeof at, "%u.25,%u.75", x, y);
+    OK(kd_plan_make_for(scene, &needs, &c, plan, &error));
+    OK(kd_explain_at(at, plan, &error));
+    OK(kd_render(renderer, scene, plan, NULL, NULL, &frame, &error));
+    assert_non_null(frame.told);
+    return frame;
+}
+
+static void near(const char *what, double got, double want, double allowed)
+{
+    if (!(fabs(got - want) <= allowed))
+        fail_msg("%s: %.9g, not %.9g: off by %.2g, allowed %.2g", what, got, want, fabs(got - want), allowed);
+}
+
+/* Those in front of the crossing of that order. */
+static void add_stretches(const struct kd_told *told, size_t *s, uint32_t order, double *through, double sum[3])
+{
+    for (; *s < told->n_stretches && told->stretches[*s].order <= order; ++*s) {
+        const struct kd_told_stretch *stretch = &told->stretches[*s];
+        near("what comes through", (double)stretch->through[0], *through, 2e-6);
+        for (int c = 0; c < 3; c++)
+            sum[c] += (double)stretch->light[c];
+        *through *= (double)stretch->through[1] / (double)stretch->through[0];
+    }
+}
+
+/* All that emitters gave, as it arrives: by what they say of themselves, front to back. */
+static void add_up(const struct kd_told *told, double sum[3])
+{
+    double through = 1;
+    size_t s = 0;
+    for (size_t i = 0; i < told->n_places; i++) {
+        const struct kd_told_place *p = &told->places[i];
+        add_stretches(told, &s, p->order, &through, sum);
+        near("what comes through", (double)p->through, through, 1e-6);
+        for (size_t k = 0; k < p->n_glows; k++) {
+            for (int c = 0; c < 3; c++)
+                sum[c] += (double)p->glows[k].through * (double)p->glows[k].light[c];
+            through *= 1 - (double)p->glows[k].opacity;
+        }
+    }
+    add_stretches(told, &s, UINT32_MAX, &through, sum);
+    near("what comes through all", (double)told->through, through, 1e-6);
+    for (size_t k = 0; k < told->n_ends; k++)
+        for (int c = 0; c < 3; c++)
+            sum[c] += through * (double)told->ends[k].light[c];
+}
+
+/* The sum that is told is the pixel's linear radiance. Returns how many emitters gave light. */
+static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
+{
+    const struct kd_told *told = frame->told;
+    const float *radiance = (const float *)kd_frame_layer(frame, "radiance")->data + 3 * (y * (size_t)frame->width + x);
+    double sum[3] = { 0 }, size = 0;
+    size_t n = told->n_ends;
+    add_up(told, sum);
+    for (int c = 0; c < 3; c++)
+        size = fmax(size, fabs((double)radiance[c]));
+    for (int c = 0; c < 3; c++) {
+        near("the ray's light", (double)told->light[c], sum[c], 2e-6 * size);
+        near("the pixel's light", (double)told->radiance[c], (double)radiance[c], 0);
+        if (told->rays == 1)
+            near("the pixel's light and its ray's", (double)told->light[c], (double)radiance[c], 2e-6 * size);
+    }
+    for (size_t i = 0; i < told->n_places; i++)
+        for (size_t k = 0; k < told->places[i].n_glows; k++)
+            n += told->places[i].glows[k].light[0] > 0;
+    return n;
+}
+
+/* The closed form's crossings are those that the list of rays has, and the picture's but for its rounding. */
+static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
+{
+    const struct kd_picture picture = { frame, scene, plan, "", 0 };
+    const struct kd_rays_params params = { .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg,
+                                           .orders = (uint32_t)scene->accuracy.orders, .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
+    struct kd_ray_end end;
+    struct kd_explained x;
+    OK(kd_explain(&picture, &x, &error));
+    if (!x.label.outward && x.label.energy > 0) {
+        OK(kd_rays_trace(NULL, &params, (double[]) { x.label.alpha, x.label.beta }, 1, crossings, &end, NULL, NULL, &error));
+        assert_int_equal(end.n_crossings, x.end.n_crossings);
+        assert_int_equal(end.fate, x.end.fate);
+        for (uint32_t n = 0; n < end.n_crossings; n++) {
+            near("r", x.crossings[n].r, crossings[n].r, 0);
+            near("phi", x.crossings[n].phi, crossings[n].phi + x.twist, 1e-12);
+            near("delay", x.crossings[n].delay, crossings[n].delay, 0);
+            near("g", x.crossings[n].g, crossings[n].g / x.label.energy, 1e-15);
+        }
+    }
+    for (size_t i = 0; i < x.told->n_places; i++) {
+        const struct kd_told_place *p = &x.told->places[i];
+        const struct kd_ray_crossing *c = &x.crossings[p->order];
+        if (p->order > 1 || p->order >= x.end.n_crossings || c->r > 100)
+            continue;
+        near("r of the picture over r", 1 / ((double)p->w * c->r), 1, 2e-4);
+        if (c->r > 1.05 * (double)frame->told->places[i].w && kd_explained_has_gas(p))
+            near("g of the picture", (double)p->g, c->g, 2e-4);
+    }
+    if (x.course.end != KD_COURSE_CAPTURED && x.course.end != KD_COURSE_ESCAPED)
+        fail_msg("the path has no end");
+    if ((x.course.end == KD_COURSE_ESCAPED) != (x.end.fate == KD_RAY_ESCAPED) && x.end.fate != KD_RAY_UNDECIDED)
+        fail_msg("the path ends otherwise");
+    if (!isnan(x.path_error))
+        near("crossings of the path", x.path_error, 0, 1e-9 + 1e4 * x.end.error); /* both grow with how much a ray amplifies */
+    kd_explained_finish(&x);
+}
+
+/* Told or not, it is the same picture. */
+static void judge_picture(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
+{
+    struct kd_plan silent = *plan;
+    struct kd_frame other;
+    silent.told.on = false;
+    OK(kd_render(renderer, scene, &silent, NULL, NULL, &other, &error));
+    assert_null(other.told);
+    assert_memory_equal(kd_frame_pixels(frame), kd_frame_pixels(&other), (size_t)frame->width * frame->height * kd_layer_pixel_bytes(&frame->layers[0]));
+    kd_frame_finish(&other);
+}
+
+static void judge(const struct kd_scene *scene, size_t least)
+{
+    static const uint32_t at[][2] = { { 20, 20 }, { 32, 22 }, { 41, 14 }, { 5, 3 }, { 31, 17 }, { 26, 15 }, { 50, 20 } };
+    size_t n = 0;
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        struct kd_plan plan;
+        struct kd_frame frame = told_at(scene, at[i][0], at[i][1], &plan);
+        assert_int_equal(frame.told->x, at[i][0]);
+        assert_int_equal(frame.told->lost, 0);
+        n += judge_sum(&frame, at[i][0], at[i][1]);
+        judge_crossings(scene, &plan, &frame);
+        if (!i)
+            judge_picture(scene, &plan, &frame);
+        kd_frame_finish(&frame);
+    }
+    if (n < least)
+        fail_msg("only %zu emitters gave light", n);
+}
+
+static void sums(void **state)
+{
+    const struct { const char *preset; const char *const *set; size_t least; } cases[] = {
+        { NULL, NULL, 3 },
+        { "gas-stars", (const char *const[]) { "image.critical_factor", "1", NULL }, 6 },
+        { "smooth", (const char *const[]) { "disk.opacity", "0.4", "sky.model", "grid", "image.critical_factor", "1", NULL }, 8 },
+        { "living-disk", (const char *const[]) { "disk.particles", "4000", "accuracy.orders", "3", NULL }, 3 },
+        { "hot-spot", NULL, 3 },
+        { "luminet1979", (const char *const[]) { "image.samples", "2", NULL }, 2 },
+        { "falling", NULL, 2 },
+        { NULL, (const char *const[]) { "accuracy.engine", "mino-rkn6", "style.ringdown", "0.5", "time", "10", NULL }, 3 },
+        { "smooth", (const char *const[]) { "volume.model", "uniform", "disk.opacity", "0.5", "sky.model", "grid", "image.critical_factor", "1", NULL }, 8 },
+        { NULL, (const char *const[]) { "image.samples", "auto", "image.bit_depth", "16", NULL }, 3 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct kd_scene scene = scene_of(cases[i].preset, cases[i].set);
+        judge(&scene, cases[i].least);
+    }
+}
+
+/* Layers of the pixel are the same numbers, to the bit: of the first crossing that lies on the disk. */
+static void layers(void **state)
+{
+    static const char *const names[] = { "r", "g", "temperature", "emission_angle", "delay", "phi" };
+    struct kd_scene scene = scene_of("gas", (const char *const[]) { "image.critical_factor", "1", "camera.azimuth_deg", "70", NULL });
+    int compared = 0;
+    (void)state;
+    OK(kd_scene_set(&scene, "image.layers", "r,g,temperature,emission_angle,delay,phi,rgb", &error));
+    for (uint32_t x = 2; x < WIDTH; x += 9) {
+        struct kd_plan plan;
+        struct kd_frame frame = told_at(&scene, x, 19, &plan);
+        const struct kd_picture picture = { &frame, &scene, &plan, "", 0 };
+        struct kd_explained e;
+        double layer[6];
+        for (int i = 0; i < 6; i++)
+            layer[i] = ((const float *)kd_frame_layer(&frame, names[i])->data)[19 * WIDTH + x];
+        OK(kd_explain(&picture, &e, &error));
+        const struct kd_told_place *p = NULL;
+        for (size_t i = 0; i < frame.told->n_places && !p; i++)
+            if (kd_explained_has_gas(&frame.told->places[i]))
+                p = &frame.told->places[i];
+        if (p) {
+            const struct kd_ray_crossing *c = &e.crossings[p->order];
+            near("layer r", layer[0], (double)(1.0f / p->w), 0);
+            near("layer g", layer[1], (double)p->g, 2e-7);
+            near("layer temperature", layer[2] / (double)p->temperature, 1, 1e-6);
+            near("layer emission angle", layer[3], (double)p->angle, 1e-6);
+            near("layer delay", layer[4], c->delay, 1e-4 * (1 + fabs(c->delay)));
+            near("layer phi", remainder(layer[5] - kd_explained_azimuth(&e, c->phi), 2 * M_PI), 0, 1e-4);
+            compared++;
+        }
+        kd_explained_finish(&e);
+        kd_frame_finish(&frame);
+    }
+    assert_true(compared > 3);
+}
+
+/* Of a pair of eyes, the one whose pixel it is; of a band that is not kept; of a ring. */
+static void other_pictures(void **state)
+{
+    static const uint32_t columns[] = { 20, WIDTH + 20 };
+    const struct kd_scene pair = scene_of(NULL, (const char *const[]) { "camera.r", "30", "camera.stereo", "pair", "image.critical_factor", "1", NULL });
+    const struct kd_scene ring = scene_of("photon-rings", (const char *const[]) { "image.samples", "1", NULL });
+    double alpha[2];
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        struct kd_plan plan;
+        struct kd_explained x;
+        struct kd_frame frame = told_at(&pair, columns[i], 20, &plan);
+        const struct kd_picture picture = { &frame, &pair, &plan, "", 0 };
+        assert_int_equal(frame.width, 2 * WIDTH);
+        assert_int_equal(frame.told->x, 20);
+        judge_sum(&frame, columns[i], 20);
+        OK(kd_explain(&picture, &x, &error));
+        assert_string_equal(x.eye, i ? "right" : "left");
+        alpha[i] = x.label.alpha;
+        kd_explained_finish(&x);
+        kd_frame_finish(&frame);
+    }
+    assert_true(alpha[0] != alpha[1]);
+    struct kd_plan plan;
+    struct kd_frame frame = told_at(&ring, 30, 12, &plan);
+    judge_sum(&frame, 30, 12);
+    judge_crossings(&ring, &plan, &frame);
+    kd_frame_finish(&frame);
+}
+
+static void places(void **state)
+{
+    struct kd_plan plan = { .width = 64, .height = 36 };
+    (void)state;
+    FAILS(KD_EINVAL, "below 64 across and 36 down", kd_explain_at("64,0", &plan, &error));
+    FAILS(KD_EINVAL, "is \"1\"", kd_explain_at("1", &plan, &error));
+    FAILS(KD_EINVAL, "is \"1,2,3\"", kd_explain_at("1,2,3", &plan, &error));
+    FAILS(KD_EINVAL, "is \"-1,2\"", kd_explain_at("-1,2", &plan, &error));
+    FAILS(KD_EINVAL, "is \"nan,2\"", kd_explain_at("nan,2", &plan, &error));
+    assert_false(plan.told.on);
+    OK(kd_explain_at("63.9,35.5", &plan, &error));
+    assert_int_equal(plan.told.x, 63);
+    assert_int_equal(plan.told.y, 35);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(sums), cmocka_unit_test(layers), cmocka_unit_test(other_pictures), cmocka_unit_test(places) };
+    int status = open_renderer();
+    return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));
+}
