@@ -23,12 +23,21 @@ struct column {
     const struct kd_field *field;
     size_t index;
     bool ratios; /* its logarithm is interpolated */
+    bool turns;  /* it goes the shorter way from key to key: a whole turn makes no difference */
+    enum kd_interpolation by;
 };
+
+static double given(const struct column *c, size_t key)
+{
+    const struct kd_timeline_key *k = &c->timeline->keys[key];
+    return c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
+}
 
 static double value_at(const struct column *c, size_t key)
 {
-    const struct kd_timeline_key *k = &c->timeline->keys[key];
-    double value = c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
+    double value = given(c, c->turns ? 0 : key);
+    for (size_t i = 1; c->turns && i <= key; i++)
+        value += remainder(given(c, i) - given(c, i - 1), 360);
     return c->ratios ? log(value) : value;
 }
 
@@ -46,13 +55,27 @@ static double secant(const struct column *c, size_t key)
 /* The slope at a key that keeps the curve between its neighbours: the weighted harmonic mean of the secants, 0 at a turning point
  * (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie that SLATEC's PCHIM takes). At rest at both
  * ends. */
-static double slope(const struct column *c, size_t key)
+static double monotone_slope(const struct column *c, size_t key, double before, double after)
 {
-    double before = key ? secant(c, key - 1) : NAN, after = secant(c, key);
     if (!(before * after > 0))
         return 0;
     double h0 = apart(c, key - 1), h1 = apart(c, key), w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
     return (w0 + w1) / (w0 / before + w1 / after);
+}
+
+/* That of the parabola through a key and its neighbours; of the straight line to the only one. */
+static double parabola_slope(const struct column *c, size_t key, double before, double after)
+{
+    if (isnan(before) || isnan(after))
+        return isnan(before) ? after : before;
+    double h0 = apart(c, key - 1), h1 = apart(c, key);
+    return (h1 * before + h0 * after) / (h0 + h1);
+}
+
+static double slope(const struct column *c, size_t key)
+{
+    double before = key ? secant(c, key - 1) : NAN, after = secant(c, key);
+    return (c->by == KD_CATMULL_ROM ? parabola_slope : monotone_slope)(c, key, before, after);
 }
 
 static double cubic(const struct column *c, size_t key, double t, double from, double to)
@@ -64,16 +87,28 @@ static double cubic(const struct column *c, size_t key, double t, double from, d
 static double between(const struct column *c, size_t key, double t)
 {
     double from = value_at(c, key), to = value_at(c, key + 1);
-    if (!isfinite(from) || !isfinite(to) || from == to)
+    if (!isfinite(from) || !isfinite(to) || (from == to && c->by != KD_CATMULL_ROM))
         return c->ratios ? exp(from) : from;
-    double value = c->timeline->smooth ? cubic(c, key, t, from, to) : from + t * (to - from);
-    value = fmax(fmin(from, to), fmin(fmax(from, to), value)); /* it is between them; its rounding need not be */
+    double value = c->by == KD_LINEAR ? from + t * (to - from) : cubic(c, key, t, from, to);
+    if (c->by != KD_CATMULL_ROM)
+        value = fmax(fmin(from, to), fmin(fmax(from, to), value)); /* it is between them; its rounding need not be */
+    if (c->turns && !(value >= c->field->minimum && value <= c->field->maximum))
+        value = remainder(value, 360);
     return c->ratios ? exp(value) : value;
 }
 
 static bool is_distance(const struct kd_field *field)
 {
     return !strcmp(field->section, "camera") && (!strcmp(field->name, "r") || !strcmp(field->name, "field_m"));
+}
+
+static bool is_turn(const struct kd_field *field) { return !strcmp(field->unit, "degrees") && field->maximum - field->minimum >= 360; }
+
+/* Catmull and Rom's cubic moves what is the same in two keys, too. */
+static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_field *field, size_t index)
+{
+    const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
+    return timeline->interpolation != KD_CATMULL_ROM && kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
 /* An element that only one of two keyframes has is at its defaults in the other. */
@@ -85,8 +120,9 @@ static void section_between(const struct kd_timeline *timeline, size_t key, doub
     for (size_t index = 0; index < size; index++)
         for (size_t i = section->first; i < section->first + section->count; i++) {
             const struct kd_field *field = &kd_fields[i];
-            const struct column column = { timeline, field, index, timeline->geometric && is_distance(field) };
-            if (continuous(field) && kd_field_get(out, field, index) != kd_field_get(&timeline->keys[key + 1].scene, field, index))
+            const struct column column = { timeline, field, index, timeline->geometric && is_distance(field), timeline->shorter && is_turn(field),
+                                           timeline->interpolation };
+            if (continuous(field) && !stays(timeline, key, field, index))
                 kd_field_put(out, field, index, between(&column, key, t));
         }
 }
@@ -104,25 +140,62 @@ static enum kd_status go_on(struct kd_scene *scene, double proper_time, struct k
     return KD_OK;
 }
 
+static double eased(enum kd_ease ease, double t)
+{
+    switch (ease) {
+    case KD_EASE_IN: return t * t;
+    case KD_EASE_OUT: return t * (2 - t);
+    case KD_EASE_IN_OUT: return t * t * (3 - 2 * t);
+    default: return t;
+    }
+}
+
+static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
+{
+    return a->kind == b->kind && (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
+}
+
+/* Turns the camera as keyframes aim it; to: the next one, or NULL. */
+static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to, double t, struct kd_error *error)
+{
+    double look[3], then[3];
+    const bool turns = to && !same_aim(&from->aim, &to->aim);
+    enum kd_status status = KD_OK;
+    if (from->aim.kind == KD_AIM_FREE && !turns)
+        return KD_OK;
+    KD_TRY(kd_aim_look(&from->aim, scene, look, error));
+    if (turns) {
+        KD_TRY(kd_aim_look(&to->aim, scene, then, error));
+        kd_aim_between(look, then, t, look);
+    }
+    kd_aim_turn(scene, look);
+done:
+    return status;
+}
+
 enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, struct kd_scene *out, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
+    const double end = kd_timeline_end(timeline);
     size_t key = 0;
+    if (at < end && timeline->ease != KD_EASE_NONE)
+        at = end * eased(timeline->ease, at / end);
     while (key + 1 < timeline->n_keys && timeline->keys[key + 1].at <= at)
         key++;
-    const struct kd_timeline_key *from = &timeline->keys[key];
-    const struct column clock = { .timeline = timeline };
-    double proper_time = from->proper_time;
+    const struct kd_timeline_key *from = &timeline->keys[key], *to = NULL;
+    const struct column clock = { .timeline = timeline, .by = timeline->interpolation == KD_LINEAR ? KD_LINEAR : KD_SMOOTH };
+    double proper_time = from->proper_time, t = 0;
     *out = from->scene;
     if (from->at < at && key + 1 < timeline->n_keys) {
-        double t = (at - from->at) / (timeline->keys[key + 1].at - from->at);
+        to = from + 1;
+        t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
         proper_time = between(&clock, key, t);
-    } else if (proper_time == 0) {
+    } else if (proper_time == 0 && from->aim.kind == KD_AIM_FREE) {
         return KD_OK;
     }
-    if (!kd_scene_validate(out, &inner) && !go_on(out, proper_time, &inner))
+    if (!kd_scene_validate(out, &inner) && !go_on(out, proper_time, &inner) && !aim(out, from, to, t, &inner))
         return KD_OK;
     kd_error_field(error, "/keyframes", "%.400s", inner.message);
     return KD_EINVAL;

@@ -81,10 +81,60 @@ static enum kd_status read_scene(struct reader *r, const cJSON *item, const char
     return kd_member_inside(status, pointer, r->error);
 }
 
+/* One of some words; the first without one. */
+static enum kd_status read_word(struct reader *r, const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out)
+{
+    char allowed[100];
+    size_t length = 0;
+    *out = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (item ? cJSON_IsString(item) && !strcmp(item->valuestring, words[i]) : i == 0) {
+            *out = (unsigned)i;
+            return KD_OK;
+        }
+        length += (size_t)snprintf(allowed + length, sizeof allowed - length, "%s\"%s\"", !i ? "" : i + 1 < n ? ", " : " or ", words[i]);
+    }
+    return kd_member_refuse(item, pointer, allowed, r->error);
+}
+
+static const char *const interpolations[] = { KD_INTERPOLATIONS }, *const eases[] = { KD_EASES }, *const distances[] = { "linear", "geometric" },
+                                    *const angles[] = { "as-given", "shorter" };
+#define READ_WORD(r, item, pointer, words, out) read_word(r, item, pointer, words, sizeof words / sizeof *words, out)
+
+/* A number of a place to look at; it is there, or `usual` is. */
+static enum kd_status read_number(struct reader *r, const cJSON *item, const char *pointer, const char *name, double usual, double least, double most, double *out)
+{
+    char at[80], allowed[60];
+    snprintf(at, sizeof at, "%s/%s", pointer, name);
+    snprintf(allowed, sizeof allowed, "a number from %.9g to %.9g", least, most);
+    *out = cJSON_IsNumber(item) ? item->valuedouble : usual;
+    return (!item || cJSON_IsNumber(item)) && *out >= least && (*out <= most || !item) ? KD_OK : kd_member_refuse(item, at, allowed, r->error);
+}
+
+static enum kd_status read_look_at(struct reader *r, const cJSON *item, const char *pointer, struct kd_aim *out)
+{
+    const cJSON *radius = NULL, *theta = NULL, *phi = NULL;
+    const struct kd_member members[] = { { "r", &radius }, { "theta_deg", &theta }, { "phi_deg", &phi } };
+    const char *word = cJSON_IsString(item) ? item->valuestring : "";
+    enum kd_status status;
+    *out = (struct kd_aim) { .kind = !strcmp(word, "hole") ? KD_AIM_HOLE : cJSON_IsObject(item) ? KD_AIM_PLACE : KD_AIM_FREE };
+    if (out->kind == KD_AIM_HOLE || !strcmp(word, "free"))
+        return KD_OK;
+    if (out->kind == KD_AIM_FREE)
+        return kd_member_refuse(item, pointer, "\"hole\", \"free\" or an object with theta_deg, phi_deg and r, without which it is a direction", r->error);
+    KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
+    KD_TRY(read_number(r, radius, pointer, "r", INFINITY, 0, 1e12, &out->r));
+    KD_TRY(read_number(r, theta, pointer, "theta_deg", 90, 0, 180, &out->theta_deg));
+    KD_TRY(read_number(r, phi, pointer, "phi_deg", 0, -360, 360, &out->phi_deg));
+done:
+    return status;
+}
+
 static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index)
 {
-    const cJSON *place = NULL, *scene = NULL, *proper_time = NULL;
+    const cJSON *place = NULL, *scene = NULL, *proper_time = NULL, *ease = NULL, *look_at = NULL;
     char pointer[40], at[60];
+    unsigned word = 0;
     double where = 0;
     enum kd_status status;
     snprintf(pointer, sizeof pointer, "/keyframes/%zu", index);
@@ -92,10 +142,12 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
         snprintf(at, sizeof at, "an object with %s and scene", r->form->place);
         return kd_member_refuse(item, pointer, at, r->error);
     }
-    const struct kd_member members[] = { { r->form->place, &place }, { "scene", &scene }, { "proper_time", &proper_time } };
+    const struct kd_member members[] = { { r->form->place, &place }, { "scene", &scene }, { "proper_time", &proper_time },
+                                         { "ease", &ease }, { "look_at", &look_at } };
     KD_TRY(kd_members_read(item, pointer, members, sizeof members / sizeof *members, r->error));
-    if (!place || !(scene || proper_time))
-        KD_TRY(kd_error_field(r->error, pointer, "a keyframe has a %s and a scene or a proper_time, here %s is missing", r->form->place, place ? "scene" : r->form->place));
+    if (!place || !(scene || proper_time || look_at))
+        KD_TRY(kd_error_field(r->error, pointer, "a keyframe has a %s and a scene, a proper_time or a look_at, here %s is missing", r->form->place,
+                              place ? "scene" : r->form->place));
     snprintf(at, sizeof at, "%s/%s", pointer, r->form->place);
     KD_TRY(read_place(r, place, at, index == 0, &where));
     if (where > 0) { /* one at 0 takes the place of the first itself */
@@ -108,18 +160,19 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
     snprintf(at, sizeof at, "%s/proper_time", pointer);
     if (proper_time)
         KD_TRY(read_proper_time(r, proper_time, at));
+    snprintf(at, sizeof at, "%s/ease", pointer);
+    KD_TRY(READ_WORD(r, ease, at, eases, &word));
+    last(r)->ease = (enum kd_ease)word;
+    snprintf(at, sizeof at, "%s/look_at", pointer);
+    if (look_at)
+        KD_TRY(read_look_at(r, look_at, at, &last(r)->aim));
 done:
     return status;
 }
 
-/* One of two words, the second true; false without one. */
-static enum kd_status read_word(struct reader *r, const cJSON *item, const char *pointer, const char *no, const char *yes, bool *out)
+const char *kd_timeline_manner(const struct kd_timeline_items *t)
 {
-    char allowed[60];
-    const char *word = cJSON_IsString(item) ? item->valuestring : item ? "" : no;
-    *out = !strcmp(word, yes);
-    snprintf(allowed, sizeof allowed, "\"%s\" or \"%s\"", no, yes);
-    return *out || !strcmp(word, no) ? KD_OK : kd_member_refuse(item, pointer, allowed, r->error);
+    return t->interpolation ? "interpolation" : t->distances ? "distances" : t->angles ? "angles" : t->ease ? "ease" : t->look_at ? "look_at" : NULL;
 }
 
 enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form, const struct kd_assets *assets,
@@ -129,8 +182,15 @@ enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const str
     struct reader r = { form, assets, &timeline, error };
     size_t n = cJSON_IsArray(items->keyframes) ? (size_t)cJSON_GetArraySize(items->keyframes) : 0, i = 0;
     enum kd_status status;
-    KD_TRY(read_word(&r, items->interpolation, "/interpolation", "linear", "smooth", &timeline.smooth));
-    KD_TRY(read_word(&r, items->distances, "/distances", "linear", "geometric", &timeline.geometric));
+    unsigned interpolation = 0, ease = 0, geometric = 0, shorter = 0;
+    KD_TRY(READ_WORD(&r, items->interpolation, "/interpolation", interpolations, &interpolation));
+    KD_TRY(READ_WORD(&r, items->distances, "/distances", distances, &geometric));
+    KD_TRY(READ_WORD(&r, items->angles, "/angles", angles, &shorter));
+    KD_TRY(READ_WORD(&r, items->ease, "/ease", eases, &ease));
+    timeline.interpolation = (enum kd_interpolation)interpolation;
+    timeline.ease = (enum kd_ease)ease;
+    timeline.geometric = geometric;
+    timeline.shorter = shorter;
     if (items->keyframes && !cJSON_IsArray(items->keyframes))
         KD_TRY(kd_member_refuse(items->keyframes, "/keyframes", "an array of keyframes", error));
     if (items->keyframes && (!n || n > KD_TIMELINE_KEYS_MAX))
@@ -140,6 +200,8 @@ enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const str
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu scenes", n + 1));
     timeline.n_keys = 1;
     timeline.keys[0].scene = *first;
+    if (items->look_at)
+        KD_TRY(read_look_at(&r, items->look_at, "/look_at", &timeline.keys[0].aim));
     for (const cJSON *item = items->keyframes ? items->keyframes->child : NULL; item; item = item->next)
         KD_TRY(read_key(&r, item, i++));
 done:

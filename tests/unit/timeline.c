@@ -105,8 +105,8 @@ static void what_is_no_path_is_refused(void **state)
         { RAIN, "[{\"at\":1,\"scene\":{}},{\"at\":1,\"scene\":{}}]", "/keyframes/1/at", "a number above 1 to 100" },
         { RAIN, "[{\"at\":100,\"scene\":{}},{\"at\":100,\"scene\":{}}]", "/keyframes/1/at", "follows a keyframe at 100, the last place" },
         { RAIN, "[{\"at\":101,\"scene\":{}}]", "/keyframes/0/at", "0 to 100" },
-        { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame", "known are at, scene, proper_time" },
-        { RAIN, "[{\"at\":1}]", "/keyframes/0", "a scene or a proper_time" },
+        { RAIN, "[{\"at\":1,\"frame\":2,\"scene\":{}}]", "/keyframes/0/frame", "known are at, scene, proper_time, ease, look_at" },
+        { RAIN, "[{\"at\":1}]", "/keyframes/0", "a scene, a proper_time or a look_at" },
         { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":0}}}]", "/keyframes/0/scene/camera/r", "allowed" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

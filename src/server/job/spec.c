@@ -39,8 +39,8 @@ static enum kd_status read_list(struct reader *r)
         return cJSON_IsArray(r->scenes)
                    ? kd_error_field(r->error, "/scenes", "there are %d scenes, allowed are 1 to %d", n, KD_JOB_FRAMES_MAX)
                    : kd_member_refuse(r->scenes, "/scenes", "an array of scenes", r->error);
-    if (r->scene || r->timeline.keyframes || r->frames || r->timeline.interpolation || r->timeline.distances)
-        return kd_error_field(r->error, "/scenes", "scenes stands alone: scene, keyframes, frames, interpolation and distances do not go with it");
+    if (r->scene || r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline))
+        return kd_error_field(r->error, "/scenes", "scenes stands alone: scene, keyframes, frames, interpolation, distances, angles, ease and look_at do not go with it");
     all->keys = calloc((size_t)n, sizeof *all->keys);
     enum kd_status status = all->keys ? KD_OK : kd_error_set(r->error, KD_ENOMEM, "out of memory for %d scenes", n);
     spec->listed = true;
@@ -57,7 +57,7 @@ static enum kd_status read_list(struct reader *r)
 
 static enum kd_status refuse_without_keyframes(const struct reader *r)
 {
-    const char *name = r->frames ? "frames" : r->timeline.interpolation ? "interpolation" : "distances";
+    const char *name = r->frames ? "frames" : kd_timeline_manner(&r->timeline);
     char pointer[40];
     snprintf(pointer, sizeof pointer, "/%s", name);
     return kd_error_field(r->error, pointer, "without keyframes a job is one picture: leave %s out, or say what changes, as in "
@@ -74,7 +74,7 @@ static enum kd_status read_sequence(struct reader *r)
     enum kd_status status;
     KD_TRY(read_scene(r, r->scene, "/scene", &first));
     KD_TRY(kd_timeline_read(t, &by_frame, r->assets, &first, &spec->timeline, r->error));
-    if (!t->keyframes && (r->frames || t->interpolation || t->distances))
+    if (!t->keyframes && (r->frames || kd_timeline_manner(t)))
         KD_TRY(refuse_without_keyframes(r));
     spec->frames = (unsigned)kd_timeline_end(&spec->timeline) + 1;
     if (r->frames)
@@ -100,9 +100,8 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
 {
     struct kd_job_spec spec = { .series = kd_series_all[0] };
     struct reader r = { .spec = &spec, .assets = assets, .error = error };
-    const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "keyframes", &r.timeline.keyframes },
-                                         { "frames", &r.frames }, { "interpolation", &r.timeline.interpolation },
-                                         { "distances", &r.timeline.distances }, { "output", &r.output } };
+    const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "frames", &r.frames },
+                                         { "output", &r.output }, KD_TIMELINE_MEMBERS(r.timeline) };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
     enum kd_status status;

@@ -30,15 +30,14 @@ static void destroy(struct kd_task *task)
     free(p);
 }
 
-/* {"keyframes": [{"at": seconds, "scene", "proper_time"}, ...], "interpolation", "distances"}, from the scene as it is. */
+/* {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances", "angles", "ease", "look_at"}, from the scene as it is. */
 static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out, struct kd_error *error)
 {
     static const struct kd_timeline_form by_second = { "at", KD_SESSION_PATH_S, false };
     struct kd_timeline_items items = { 0 };
     const struct kd_assets *assets = kd_asset_store_assets(request->server->assets);
     const struct kd_buffer *body = &request->body;
-    const struct kd_member members[] = { { "keyframes", &items.keyframes }, { "interpolation", &items.interpolation },
-                                         { "distances", &items.distances } };
+    const struct kd_member members[] = { KD_TIMELINE_MEMBERS(items) };
     cJSON *root = NULL;
     enum kd_status status;
     KD_TRY(kd_tree_parse(body->data ? (const char *)body->data : "", body->size, KD_BODY_MAX, PATH_VALUES, &root, error));
