@@ -112,7 +112,7 @@ static enum kd_status save(const struct work *w, const struct arguments *argumen
     const struct kd_table_format *format = arguments->format ? arguments->format : dot ? kd_series_table(&kd_light_curve, dot + 1) : NULL;
     if (!format)
         format = &kd_light_curve.tables[0];
-    enum kd_status status = format->write(w->rows, w->frames, &text);
+    enum kd_status status = format->write(w->rows, w->frames, NULL, &text);
     if (status)
         kd_error_set(error, status, "out of memory for %u rows", w->frames);
     else

@@ -84,9 +84,15 @@ enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char
     return KD_OK;
 }
 
-/* The ones' complement sum of big-endian words of 32 bits, a whole number of which there are. */
-static uint32_t sum_of(uint32_t sum, const uint8_t *data, size_t size)
+uint32_t kd_fits_add_sums(uint32_t a, uint32_t b)
 {
+    uint64_t all = (uint64_t)a + b;
+    return (uint32_t)(all & 0xffffffffu) + (uint32_t)(all >> 32);
+}
+
+uint32_t kd_fits_sum(uint32_t sum, const void *bytes, size_t size)
+{
+    const uint8_t *data = bytes;
     uint64_t all = sum;
     for (size_t i = 0; i < size; i += 4)
         all += (uint32_t)data[i] << 24 | (uint32_t)data[i + 1] << 16 | (uint32_t)data[i + 2] << 8 | data[i + 3];
@@ -159,51 +165,87 @@ static enum kd_status put_data(struct kd_buffer *out, const struct kd_fits_array
 }
 
 /* The cards that say what the data are. */
-static enum kd_status put_shape(struct kd_buffer *out, bool primary, const struct kd_fits_array *array)
+static enum kd_status put_shape(struct kd_buffer *out, const struct kd_fits_shape *shape)
 {
+    char key[16];
     enum kd_status status;
-    if (primary)
+    if (shape->primary)
         KD_TRY(put_value(out, "SIMPLE", "                   T", "conforms to the FITS standard"));
     else
-        KD_TRY(kd_fits_text(out, "XTENSION", "IMAGE", "image extension"));
-    KD_TRY(kd_fits_integer(out, "BITPIX", -32, "IEEE numbers of 32 bits"));
-    KD_TRY(kd_fits_integer(out, "NAXIS", array->channels > 1 ? 3 : 2, NULL));
-    KD_TRY(kd_fits_integer(out, "NAXIS1", array->width, "from the left"));
-    KD_TRY(kd_fits_integer(out, "NAXIS2", array->height, "from the lowest row"));
-    if (array->channels > 1)
-        KD_TRY(kd_fits_integer(out, "NAXIS3", array->channels, NULL));
-    if (primary) {
+        KD_TRY(kd_fits_text(out, "XTENSION", shape->table ? "BINTABLE" : "IMAGE", shape->table ? "table" : "image extension"));
+    KD_TRY(kd_fits_integer(out, "BITPIX", shape->table ? 8 : -32, shape->table ? NULL : "IEEE numbers of 32 bits"));
+    KD_TRY(kd_fits_integer(out, "NAXIS", shape->n_axes, NULL));
+    for (unsigned i = 0; i < shape->n_axes; i++) {
+        snprintf(key, sizeof key, "NAXIS%u", i + 1);
+        KD_TRY(kd_fits_integer(out, key, (long long)shape->axes[i], shape->table || i > 1 ? NULL : i ? "from the lowest row" : "from the left"));
+    }
+    if (shape->primary) {
         KD_TRY(put_value(out, "EXTEND", "                   T", NULL));
     } else {
         KD_TRY(kd_fits_integer(out, "PCOUNT", 0, NULL));
         KD_TRY(kd_fits_integer(out, "GCOUNT", 1, NULL));
     }
+    if (shape->table)
+        KD_TRY(kd_fits_integer(out, "TFIELDS", shape->columns, NULL));
 done:
     return status;
 }
 
-enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array, const struct kd_buffer *cards)
+enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *shape, const struct kd_buffer *cards, uint32_t data_sum)
 {
-    struct kd_buffer data = { 0 };
     const size_t from = out->size;
     char text[32], letters[17];
     enum kd_status status;
-    KD_TRY(put_data(&data, array));
-    KD_TRY(put_shape(out, primary, array));
+    KD_TRY(put_shape(out, shape));
     KD_TRY(kd_buffer_append(out, cards->data, cards->size));
-    const uint32_t data_sum = sum_of(0, data.data, data.size);
     snprintf(text, sizeof text, "%u", data_sum);
     KD_TRY(kd_fits_text(out, "DATASUM", text, "of the data: ones' complement"));
     const size_t checksum = out->size + VALUE + 1;
     KD_TRY(kd_fits_text(out, "CHECKSUM", "0000000000000000", "of header and data"));
     KD_TRY(put_card(out, "END"));
     KD_TRY(pad(out, from, ' '));
-    encode_sum(sum_of(data_sum, out->data + from, out->size - from), letters);
+    encode_sum(kd_fits_sum(data_sum, out->data + from, out->size - from), letters);
     memcpy(out->data + checksum, letters, 16);
+done:
+    return status;
+}
+
+enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array, const struct kd_buffer *cards)
+{
+    const struct kd_fits_shape shape = { .primary = primary, .n_axes = array->channels > 1 ? 3 : 2, .axes = { array->width, array->height, array->channels } };
+    struct kd_buffer data = { 0 };
+    enum kd_status status;
+    KD_TRY(put_data(&data, array));
+    KD_TRY(kd_fits_head(out, &shape, cards, kd_fits_sum(0, data.data, data.size)));
     KD_TRY(kd_buffer_append(out, data.data, data.size));
 done:
     kd_buffer_finish(&data);
     return status;
+}
+
+size_t kd_fits_head_size(const void *data, size_t size)
+{
+    for (size_t at = 0; at + KD_FITS_CARD <= size; at += KD_FITS_CARD)
+        if (!strncmp((const char *)data + at, "END     ", 8)) {
+            size_t whole = (at / KD_FITS_BLOCK + 1) * KD_FITS_BLOCK;
+            return whole <= size ? whole : 0;
+        }
+    return 0;
+}
+
+bool kd_fits_number(const void *head, size_t size, const char *key, long long *out)
+{
+    char wanted[12], value[KD_FITS_CARD - VALUE + 1];
+    snprintf(wanted, sizeof wanted, "%-8.8s= ", key);
+    for (size_t at = 0; at + KD_FITS_CARD <= size; at += KD_FITS_CARD) {
+        if (strncmp((const char *)head + at, wanted, VALUE))
+            continue;
+        snprintf(value, sizeof value, "%.*s", KD_FITS_CARD - VALUE, (const char *)head + at + VALUE);
+        char *end;
+        *out = strtoll(value, &end, 10);
+        return end > value;
+    }
+    return false;
 }
 
 /* Appends what stands between the quotes of a card; whether a piece follows. */

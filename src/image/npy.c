@@ -9,7 +9,8 @@
 static const struct {
     const char *code;
     size_t size;
-} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 }, [KD_NPY_U1] = { "|u1", 1 } };
+} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 }, [KD_NPY_U1] = { "|u1", 1 }, [KD_NPY_TEXT] = { "<U", 4 }, [KD_NPY_BYTES] = { "|S", 1 } };
+enum { TYPES_READ = KD_NPY_TEXT };
 
 size_t kd_npy_item_size(const struct kd_npy *array)
 {
@@ -23,6 +24,8 @@ size_t kd_npy_item_size(const struct kd_npy *array)
 
 static enum kd_status write_type(const struct kd_npy *array, struct kd_buffer *text)
 {
+    if ((int)array->fields[0].type >= TYPES_READ)
+        return kd_buffer_printf(text, "'%s%u'", types[array->fields[0].type].code, array->fields[0].count);
     if (!array->fields[0].name[0])
         return kd_buffer_printf(text, "'%s'", types[array->fields[0].type].code);
     enum kd_status status;
@@ -150,7 +153,7 @@ static enum kd_status take_type(struct reader *r, enum kd_npy_type *out)
     char code[16], what[80];
     if (!take_string(r, code, sizeof code))
         return fail(r, "an element type is no plain string");
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+    for (size_t i = 0; i < TYPES_READ; i++)
         if (!strcmp(code, types[i].code)) {
             *out = (enum kd_npy_type)i;
             return KD_OK;
@@ -234,7 +237,7 @@ static enum kd_status take_entry(struct reader *r, bool seen[3])
         return take_word(r, "False")  ? KD_OK
                : take_word(r, "True") ? fail(r, "it is in Fortran order, taken is C order")
                                       : fail(r, "fortran_order is neither True nor False");
-    default: return take_shape(r, r->array->shape, KD_NPY_DIMENSIONS, &r->array->n_dimensions);
+    default: return take_shape(r, r->array->shape, KD_NPY_DIMENSIONS_READ, &r->array->n_dimensions);
     }
 }
 

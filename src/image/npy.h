@@ -13,12 +13,14 @@
 
 enum {
     KD_NPY_FIELDS = 16,
-    KD_NPY_DIMENSIONS = 4,
+    KD_NPY_DIMENSIONS = 16,
+    KD_NPY_DIMENSIONS_READ = 4,
     KD_NPY_NAME = 32,
     KD_NPY_HEADER_MAX = 10000, /* as NumPy itself reads */
 };
 
-enum kd_npy_type { KD_NPY_F8, KD_NPY_F4, KD_NPY_U1 };
+/* The last two are written alone, of plain elements: text of `count` characters, NULs behind it; in UTF-32, or as bytes. */
+enum kd_npy_type { KD_NPY_F8, KD_NPY_F4, KD_NPY_U1, KD_NPY_TEXT, KD_NPY_BYTES };
 
 struct kd_npy_field {
     char name[KD_NPY_NAME]; /* letters, digits and _; "" when the elements are plain numbers */

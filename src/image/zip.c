@@ -39,15 +39,18 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
     return KD_OK;
 }
 
-enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size)
+enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size)
 {
     archive_entry_clear(zip->entry);
     archive_entry_set_pathname(zip->entry, name);
     archive_entry_set_size(zip->entry, (la_int64_t)size);
     archive_entry_set_filetype(zip->entry, AE_IFREG);
     archive_entry_set_perm(zip->entry, 0644);
-    if (archive_write_header(zip->archive, zip->entry) != ARCHIVE_OK)
-        return KD_ENOMEM;
+    return archive_write_header(zip->archive, zip->entry) == ARCHIVE_OK ? KD_OK : KD_ENOMEM;
+}
+
+enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size)
+{
     for (size_t done = 0; done < size;) {
         la_ssize_t n = archive_write_data(zip->archive, (const char *)data + done, size - done);
         if (n <= 0)
@@ -55,6 +58,12 @@ enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data
         done += (size_t)n;
     }
     return KD_OK;
+}
+
+enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size)
+{
+    enum kd_status status = kd_zip_begin(zip, name, size);
+    return status ? status : kd_zip_append(zip, data, size);
 }
 
 enum kd_status kd_zip_close(struct kd_zip *zip) { return archive_write_close(zip->archive) == ARCHIVE_OK ? KD_OK : KD_ENOMEM; }

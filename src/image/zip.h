@@ -12,7 +12,10 @@ struct kd_zip;
 
 /* Its bytes are appended to *out, which must stay. KD_ENOMEM. */
 enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip **zip);
-/* KD_ENOMEM. */
+/* KD_ENOMEM. A member by pieces: their sizes add up to `size`. Between any two of these calls the caller may take bytes off *out. */
+enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size);
+enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size);
+/* KD_ENOMEM. A whole one. */
 enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size);
 enum kd_status kd_zip_close(struct kd_zip *zip); /* the last bytes; KD_ENOMEM */
 void kd_zip_destroy(struct kd_zip *zip);

@@ -103,18 +103,33 @@ bool kd_scene_same_path(const char *a, const char *b)
     return !strcmp(one, other);
 }
 
+static enum kd_status find_field(const char *path, struct place *place, const struct kd_field **out, struct kd_error *error)
+{
+    enum kd_status status = find_place(path, place, error);
+    if (status)
+        return status;
+    *out = kd_field_find(place->section->name, place->name);
+    return *out ? KD_OK : kd_hint_unknown(error, place->section->name, place->index, place->name);
+}
+
+enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error)
+{
+    struct place place;
+    enum kd_status status = find_field(path, &place, out, error);
+    *index = status ? 0 : place.index;
+    return status;
+}
+
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *text,
                             struct kd_error *error)
 {
     struct kd_value value = kd_value_typed(text);
+    const struct kd_field *field;
     struct place place;
     if (!strcmp(path, "version"))
         return kd_value_version(&value, error);
     enum kd_status status;
-    KD_TRY(find_place(path, &place, error));
-    const struct kd_field *field = kd_field_find(place.section->name, place.name);
-    if (!field)
-        return kd_hint_unknown(error, place.section->name, place.index, place.name);
+    KD_TRY(find_field(path, &place, &field, error));
 
     struct kd_scene grown = *scene;
     size_t size = kd_section_size(scene, place.section);

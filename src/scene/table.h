@@ -117,6 +117,9 @@ int kd_field_word_count(const struct kd_field *field);
 struct kd_word kd_field_word(const struct kd_field *field, int index);
 int kd_field_word_index(const struct kd_field *field, const char *text); /* -1: none of them */
 
+/* Finds a field by its dotted path, as kd_scene_set does, and the index of its element, which need not be there yet: KD_EINVAL with a pointer. */
+enum kd_status kd_field_at(const char *path, const struct kd_field **out, size_t *index, struct kd_error *error);
+
 /* Spell a field: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
 void kd_field_path(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_field *field, size_t index, char out[KD_PATH_SIZE]);

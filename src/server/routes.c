@@ -57,7 +57,7 @@ const struct kd_route kd_routes[] = {
       "The frame that is being rendered, as far as it is drawn, else the last finished one; 409 while there is nothing" },
     { "/v1/jobs/{id}/result", KD_GET, kd_handle_job_result, NULL,
       "The picture of a job of one, or a ZIP of all; with format=png one frame, with format=stream the frames as they come; "
-      "of a light curve its rows, as application/json or text/csv",
+      "of a sweep asked for as a cube one array a layer, as application/fits, or with format=npz; of a light curve its rows, as application/json or text/csv",
       .gives = KD_GIVES_RESULT },
     { "/v1/pixel", KD_GET | KD_POST, kd_handle_pixel, JSON,
       "What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it ends and why", KD_TAKES_SCENE,

@@ -77,6 +77,11 @@ class Documents(unittest.TestCase):
     def test_jobs(self):
         self.run_all('docs/jobs.md', 2)
 
+    def test_sweeps(self):
+        self.run_all('docs/sweeps.md', 2)
+        folder = pathlib.Path(self.folder.name)
+        self.assertEqual(folder.joinpath('cube.npz').read_bytes(), folder.joinpath('same.npz').read_bytes())
+
 
 if __name__ == '__main__':
     daemon.need_device()

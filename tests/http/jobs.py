@@ -191,6 +191,61 @@ class Jobs(Case):
         cameras = [scene_of(png)['camera'] for png in self.frames(job).values()]
         self.assertEqual([(round(c['r'], 9), c['azimuth_deg']) for c in cameras], [(1000, 0), (100, 45), (10, 90)])
 
+    def test_a_sweep(self):
+        """Axes in the order given, the last one fastest, whatever the order in which their frames are rendered."""
+        asked = {'scene': {'image': IMAGE}, 'axes': {'style.exposure': [0, 1], 'spacetime.spin': '0:0.9:0.3', 'sky.model': ['none', 'grid']}}
+        job = self.make(asked)
+        self.assertEqual(job['axes'], {'style.exposure': 2, 'spacetime.spin': 4, 'sky.model': 2})
+        done = self.until(job, 'done')
+        self.assertEqual((done['frames'], done['axes']), (16, job['axes']))
+        answer = self.daemon.get(self.at(job, '/result'))
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/zip'))
+        with zipfile.ZipFile(io.BytesIO(answer.body)) as z:
+            self.assertIsNone(z.testzip())
+            index = json.loads(z.read('index.json'))
+            self.assertEqual(z.namelist(), ['index.json', *index['files']])
+            self.assertEqual(index['axes'], {'style.exposure': [0, 1], 'spacetime.spin': [0, 0.3, 0.6, 0.9], 'sky.model': ['none', 'grid']})
+            self.assertEqual(index['scene']['image']['width'], 32)
+            self.assertEqual(index['files'][11], '000011 exposure=1 spin=0.3 model=grid.png')
+            found = [scene_of(z.read(name)) for name in index['files']]
+            self.assertEqual(self.daemon.get(self.at(job, '/result?format=png&frame=11')).body, z.read(index['files'][11]))
+        self.assertEqual([(s['style']['exposure'], s['spacetime']['spin'], s['sky']['model']) for s in found],
+                         [(e, a, m) for e in (0, 1) for a in (0, 0.3, 0.6, 0.9) for m in ('none', 'grid')])
+        self.assertEqual(self.daemon.get(self.at(job, '/result')).body, answer.body)
+        self.assertEqual(len(self.frames(job)), 16)
+        head = self.daemon.request('HEAD', self.at(job, '/result'))
+        self.assertEqual((head.status, head.header('Content-Type'), head.body), (200, 'application/zip', b''))
+
+    def test_lens_maps_are_the_outermost_loop(self):
+        """The fake renderer keeps one lens map: what shares it follows at once, though its axis is the outermost one here."""
+        job = self.make({'scene': {'image': IMAGE}, 'axes': {'style.exposure': '0:4:1', 'camera.inclination_deg': [10, 50, 90], 'disk.outer': [20, 30]}})
+        self.assertEqual(self.until(job, 'done')['lens_maps_traced'], 3)
+        listed = self.make({'scenes': [{'image': IMAGE, 'camera': {'inclination_deg': 10 + 40 * (i % 2)}} for i in range(6)]})
+        self.assertEqual(self.until(listed, 'done')['lens_maps_traced'], 6)
+
+    def test_a_sweep_of_light(self):
+        """The fake renderer's light at time t: flux t."""
+        job = self.make({'scene': {'image': IMAGE}, 'output': 'light-curve', 'axes': {'image.layers': [['rgb'], ['rgb', 'g']], 'time': [1, 2.5]}})
+        self.until(job, 'done')
+        table = self.daemon.get(self.at(job, '/result?format=csv')).body.decode().split('\n')
+        self.assertEqual(table[0].split(',')[:5], ['frame', 'image.layers', 'time', 't', 'flux'])
+        self.assertEqual(table[3:], ['2,"rgb,g",1,1,1,0.5,-1,0.25,3,0.25,32,18', '3,"rgb,g",2.5,2.5,2.5,1.25,-2.5,0.625,3,0.25,32,18', ''])
+        frames = self.daemon.get(self.at(job, '/result')).json()['frames']
+        self.assertEqual([(f['image.layers'], f['time'], f['flux']) for f in frames], [('rgb', 1, 1), ('rgb', 2.5, 2.5), ('rgb,g', 1, 1), ('rgb,g', 2.5, 2.5)])
+
+    def test_what_a_sweep_may_cost(self):
+        """Not how many scenes it has, but what they are estimated to take, of time and of bytes."""
+        many = {'camera.inclination_deg': '1:100:1', 'spacetime.spin': '0:0.95:0.05', 'style.exposure': '0:4:1'}
+        job = self.make({'scene': {'image': {'width': 2, 'height': 2}}, 'axes': many})
+        self.assertEqual(job['frames'], 10000)
+        self.delete(job)
+        more = {**many, 'camera.azimuth_deg': '0:80:10'}
+        self.delete(self.make({'scene': {'image': {'width': 2, 'height': 2}}, 'axes': more}))
+        large = {'scene': {'image': {'width': 4000, 'height': 4000}}, 'axes': more}
+        self.assertIn('more than the 86400 s a job may take', self.assertProblem(self.daemon.post('/v1/jobs', large), 422, 'too-large')['detail'])
+        numbers = {'scene': {'image': {'width': 2000, 'height': 1000, 'layers': ['rgb', 'g']}}, 'output': 'cube', 'axes': {'style.exposure': '0:10/1000'}}
+        self.assertIn('GB, more than', self.assertProblem(self.daemon.post('/v1/jobs', numbers), 422, 'too-large')['detail'])
+
     def test_light_curve(self):
         """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""
         asked = {'scene': {'image': IMAGE, 'time': 0}, 'keyframes': [{'frame': 4, 'scene': {'time': 6}}], 'output': 'light-curve'}
@@ -412,6 +467,11 @@ class Jobs(Case):
                 ({'scene': {}, 'keyframes': [key], 'distances': 'far'}, 422, '/distances'), ({'scene': {}, 'distances': 'linear'}, 422, '/distances'),
                 ({'scenes': [{}], 'distances': 'linear'}, 422, '/scenes'),
                 ({'scene': {}, 'keyframes': [{'frame': 1, 'proper_time': 1}]}, 422, '/keyframes/0/proper_time'),
+                ({'scene': {}, 'axes': {}}, 422, '/axes'), ({'scene': {}, 'axes': {'spacetime.spin': [0, 2]}}, 422, '/axes/spacetime.spin/1'),
+                ({'scene': {}, 'axes': {'a/b~': [0]}}, 422, '/axes/a~1b~0'), ({'scene': {}, 'axes': {'time': [0]}, 'frames': 2}, 422, '/axes'),
+                ({'scenes': [{}], 'axes': {'time': [0]}}, 422, '/scenes'), ({'scene': {}, 'axes': {'spacetime.spin': [0.998, 0], 'disk.inner': [2]}}, 422, '/axes'),
+                ({'scene': {}, 'output': 'cube'}, 422, '/output'), ({'scene': {}, 'output': 'cube', 'axes': {'image.width': [32, 64]}}, 422, '/axes/image.width'),
+                ({'scene': {}, 'axes': {'camera.projection': ['plane', 'ring']}, 'output': 'light-curve'}, 422, '/axes'),
                 ({'scene': {}, 'output': 'curve'}, 422, '/output'), ({'scenes': [{}], 'output': 1}, 422, '/output'),
                 ({'scenes': [{}, {'camera': {'projection': 'ring'}}], 'output': 'light-curve'}, 422, '/scenes/1/camera/projection'),
                 ({'scenes': [{}] * 10001}, 422, '/scenes'), ({'scenes': [{}, {'accuracy': {'tolerance': 1e-15}}]}, 422, '/scenes/1/accuracy/tolerance'),

@@ -4,6 +4,7 @@ import concurrent.futures
 import io
 import json
 import math
+import pathlib
 import random
 import re
 import signal
@@ -476,6 +477,60 @@ class Kerrd(unittest.TestCase):
                 self.assertAlmostEqual(near['delay'], c['delay'], delta=1e-6)
             self.assertLess(found['accuracy']['picture'] or 0, 1e-4)
         self.assertEqual(fates, {'captured', 'escaped'})
+
+    def test_a_sweep_of_style_and_disk_traces_one_lens_map(self):
+        """A hundred scenes; and the file is the one that the command line makes."""
+        scene = {'image': {'width': 64, 'height': 36, 'layers': ['rgb', 'r']}}
+        axes = {'style.exposure': '-1:1/5', 'disk.outer': '15:24:1', 'camera.azimuth_deg': [0, 90]}
+        job = self.daemon.post('/v1/jobs', {'scene': scene, 'axes': axes, 'output': 'cube'}).json()
+        at = '/v1/jobs/' + job['id']
+        while (status := self.daemon.get(at).json())['state'] in ('waiting', 'running'):
+            time.sleep(0.02)
+        self.assertEqual((status['state'], status['finished'], status['lens_maps_traced']), ('done', 100, 1), status)
+        for end, kind in (('fits', 'application/fits'), ('npz', 'application/x-npz')):
+            with tempfile.TemporaryDirectory() as folder:
+                subprocess.run([daemon.COMMAND[0], 'sweep', '-', '-x', 'style.exposure=-1:1/5', '-x', 'disk.outer=15:24:1', '-x', 'camera.azimuth_deg=0,90', '-o', f'{folder}/a.{end}'],
+                               input=json.dumps(scene).encode(), timeout=60, check=True)
+                alone = pathlib.Path(folder, 'a.' + end).read_bytes()
+            answer = self.daemon.get(at + '/result?format=' + end)
+            self.assertEqual((answer.status, answer.header('Content-Type'), answer.body == alone), (200, kind, True))
+        self.assertEqual(self.daemon.get(at + '/result').header('Content-Type'), 'application/fits')
+        one = self.daemon.get(at + '/result?format=fits&frame=42').body
+        self.assertLess(len(one), len(alone) / 50)
+        with zipfile.ZipFile(io.BytesIO(self.daemon.get(at + '/result?format=zip').body)) as files:
+            self.assertEqual(files.read('000042 exposure=0 outer=16 azimuth_deg=0.fits'), one)
+        for rest in ('/preview.png', '/result?format=png', '/result?format=npz&frame=1', '/result?format=csv'):
+            self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
+
+    def test_a_sweep_that_is_killed_goes_on(self):
+        """To the same bytes as one that is not killed."""
+        scene = {'image': {'width': 400, 'height': 225, 'layers': ['rgb', 'g']}}
+        asked = {'scene': scene, 'axes': {'style.exposure': [0, 1], 'spacetime.spin': '0:0.9:0.1'}, 'output': 'cube'}
+
+        def finished(server, at, least):
+            self.assertTrue(daemon.eventually(lambda: server.get(at).json()['finished'] >= least, 60))
+            return server.get(at).json()
+
+        with tempfile.TemporaryDirectory() as folder:
+            server = daemon.Daemon('--state', folder)
+            whole = '/v1/jobs/' + server.post('/v1/jobs', asked).json()['id']
+            self.assertEqual(finished(server, whole, 20)['lens_maps_traced'], 10)
+            self.assertTrue(daemon.eventually(lambda: server.get(whole).json()['state'] == 'done'))
+            files = {end: server.get(f'{whole}/result?format={end}').body for end in ('fits', 'npz', 'zip')}
+            killed = '/v1/jobs/' + server.post('/v1/jobs', asked).json()['id']
+            finished(server, killed, 7)
+            server.process.kill()
+            server.wait()
+            server = daemon.Daemon('--state', folder)
+            self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
+            again = server.get(killed).json()
+            self.assertTrue(7 <= again['finished'] < 20 and again['axes'] == {'style.exposure': 2, 'spacetime.spin': 10}, again)
+            self.assertTrue(daemon.eventually(lambda: server.get(killed).json()['state'] == 'done', 60))
+            self.assertIn(server.get(killed).json()['lens_maps_traced'], (10, 11, 12))  # all of them, and what was under way
+            for at in killed, whole:
+                for end, expected in files.items():
+                    self.assertTrue(server.get(f'{at}/result?format={end}').body == expected, (at, end))
+            self.assertEqual(server.stop(), 0)
 
     def test_a_vanished_client_stops_its_render(self):
         scene = {'image': {'width': 4000, 'height': 4000, 'samples': 2}, 'accuracy': {'profile': 'high'}}

@@ -2,6 +2,8 @@
 
 #include "scene/number.h"
 
+#include <string.h>
+
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame)
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
@@ -17,7 +19,37 @@ static const char *const names[] = { KD_CURVE_COLUMNS_(NAME) };
 enum { COLUMNS = sizeof names / sizeof *names };
 _Static_assert(sizeof(struct kd_curve_row) == COLUMNS * sizeof(double), "a row is its columns");
 
-static enum kd_status write_row(const double *values, bool csv, bool last, struct kd_buffer *out)
+/* A field of CSV (RFC 4180). */
+static enum kd_status put_field(const char *text, struct kd_buffer *out)
+{
+    enum kd_status status;
+    if (!strpbrk(text, ",\"\n"))
+        return kd_buffer_printf(out, "%s", text);
+    KD_TRY(kd_buffer_printf(out, "\""));
+    for (; *text; text++)
+        KD_TRY(kd_buffer_printf(out, "%s%c", *text == '"' ? "\"" : "", *text));
+    KD_TRY(kd_buffer_printf(out, "\""));
+done:
+    return status;
+}
+
+/* The values that the axes have in a row. */
+static enum kd_status write_values(const struct kd_sweep *sweep, unsigned scene, bool csv, struct kd_buffer *out)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; sweep && i < sweep->n_axes; i++) {
+        const struct kd_sweep_value *value = kd_sweep_at(sweep, scene, i);
+        KD_TRY(csv ? kd_buffer_printf(out, ",") : kd_buffer_printf(out, ",\"%s\":", sweep->axes[i].path));
+        if (csv)
+            KD_TRY(put_field(value->text, out));
+        else
+            KD_TRY(kd_sweep_value_json(value, out));
+    }
+done:
+    return status;
+}
+
+static enum kd_status write_row(const double *values, const struct kd_sweep *sweep, bool csv, bool last, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
     for (int i = 0; i < COLUMNS; i++) {
@@ -26,29 +58,35 @@ static enum kd_status write_row(const double *values, bool csv, bool last, struc
             kd_number_format(number, values[i] == 0 ? 0 : values[i]); /* no -0 */
         KD_TRY(csv ? kd_buffer_printf(out, "%s%s", i ? "," : "", number)
                    : kd_buffer_printf(out, "%s\"%s\":%s", i ? "," : "{", names[i], *number ? number : "null"));
+        if (!i)
+            KD_TRY(write_values(sweep, (unsigned)values[0], csv, out));
     }
     KD_TRY(kd_buffer_printf(out, "%s", csv ? "\n" : last ? "}" : "},\n"));
 done:
     return status;
 }
 
-static enum kd_status write_csv(const void *rows, size_t n, struct kd_buffer *out)
+static enum kd_status write_csv(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
-    for (int i = 0; i < COLUMNS; i++)
-        KD_TRY(kd_buffer_printf(out, "%s%s", names[i], i + 1 < COLUMNS ? "," : "\n"));
+    for (int i = 0; i < COLUMNS; i++) {
+        KD_TRY(kd_buffer_printf(out, "%s%s", i ? "," : "", names[i]));
+        for (size_t k = 0; !i && sweep && k < sweep->n_axes; k++)
+            KD_TRY(kd_buffer_printf(out, ",%s", sweep->axes[k].path));
+    }
+    KD_TRY(kd_buffer_printf(out, "\n"));
     for (size_t i = 0; i < n; i++)
-        KD_TRY(write_row((const double *)rows + i * COLUMNS, true, i + 1 == n, out));
+        KD_TRY(write_row((const double *)rows + i * COLUMNS, sweep, true, i + 1 == n, out));
 done:
     return status;
 }
 
-static enum kd_status write_json(const void *rows, size_t n, struct kd_buffer *out)
+static enum kd_status write_json(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out)
 {
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "{\"frames\":[\n"));
     for (size_t i = 0; i < n; i++)
-        KD_TRY(write_row((const double *)rows + i * COLUMNS, false, i + 1 == n, out));
+        KD_TRY(write_row((const double *)rows + i * COLUMNS, sweep, false, i + 1 == n, out));
     KD_TRY(kd_buffer_printf(out, "]}\n"));
 done:
     return status;

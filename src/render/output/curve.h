@@ -13,7 +13,7 @@ struct kd_curve_row { KD_CURVE_COLUMNS_(KD_CURVE_MEMBER) };
 #undef KD_CURVE_MEMBER
 
 /* This series takes frames that carry light, whether the scene has spots or not. "csv" has a line of names, "json" is {"frames": [{name: value, ...},
- * ...]}: what is not there is empty, or null. */
+ * ...]}: what is not there is empty, or null. Of a sweep the values of its axes stand behind the frame's number, by their fields. */
 extern const struct kd_series kd_light_curve;
 
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame);

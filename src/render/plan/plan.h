@@ -108,6 +108,10 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
  * for pictures of many pixels. With that list it may still be KD_ETOOBIG. */
 enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error);
 
+/* Says which scenes share a lens map, without a plan: those of which this is equal, on any device. Others may all the same, where two ways to ask for
+ * an accuracy come to the same. KD_ENOMEM. */
+enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out);
+
 /* Count the buffers that the lens map of the pixels at the critical curve takes, and the bytes of one. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan *plan)
 {

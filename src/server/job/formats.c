@@ -2,17 +2,23 @@
 
 #include <string.h>
 
-const struct kd_job_format kd_job_as_zip = { "zip", "application/zip" };
 const struct kd_job_format kd_job_as_stream = { "stream", "application/x-kerrd-frames" };
 
-/* These are of one series: its tables; or what holds its files, and these by themselves. */
+/* These are of one series: its tables; or what its files become together, and these by themselves. */
 static bool of_series(const struct kd_series *series, size_t i, struct kd_job_format *out)
 {
-    const struct kd_job_format files[] = { kd_job_as_zip, { series->frame->name, series->frame->media_type }, kd_job_as_stream };
-    size_t n = series->row_bytes ? series->n_tables : sizeof files / sizeof *files;
-    if (i < n)
-        *out = series->row_bytes ? (struct kd_job_format) { series->tables[i].name, series->tables[i].media_type } : files[i];
-    return i < n;
+    size_t wholes = 0;
+    while (!series->row_bytes && series->wholes[wholes])
+        wholes++;
+    const struct kd_job_format others[] = { { series->frame->name, series->frame->media_type }, kd_job_as_stream };
+    size_t n = series->row_bytes ? series->n_tables : wholes + sizeof others / sizeof *others;
+    if (i >= n)
+        return false;
+    if (series->row_bytes)
+        *out = (struct kd_job_format) { series->tables[i].name, series->tables[i].media_type };
+    else
+        *out = i < wholes ? (struct kd_job_format) { series->wholes[i]->name, series->wholes[i]->media_type } : others[i - wholes];
+    return true;
 }
 
 /* Whether one that comes before these, number i of series k, has its name. */

@@ -8,8 +8,8 @@
 
 struct kd_job_format { const char *name, *media_type; };
 
-/* What holds the frames of a job that are files: all of them when they are finished; or from any on, as they come. */
-extern const struct kd_job_format kd_job_as_zip, kd_job_as_stream;
+/* What holds the frames of a job that are files, from any on, as they come. */
+extern const struct kd_job_format kd_job_as_stream;
 
 /* Every format of any job, each once, number i from 0 on; false: there are no more. */
 bool kd_job_format(size_t i, struct kd_job_format *out);

@@ -3,6 +3,7 @@
 #define KD_SERVER_JOB_INTERNAL_H
 
 #include "server/job/jobs.h"
+#include "render/plan/sweep_order.h"
 
 #include <pthread.h>
 
@@ -22,9 +23,10 @@ struct kd_job {
     struct kd_jobs *all;
     unsigned references;
     struct kd_job_record record;
-    struct kd_job_spec spec; /* empty once it has ended */
+    struct kd_job_spec spec; /* empty where this version cannot read the request */
+    struct kd_sweep_order order;
     const struct kd_series *series;
-    unsigned frames, next, finished; /* next: none before it has still to be begun */
+    unsigned frames, next, finished; /* next: a place in the order, none before which has still to be begun */
     unsigned char *have;             /* which are in their files */
     double fraction;                 /* of the frame being rendered */
     double estimate_ms;              /* of all frames, by their plans */

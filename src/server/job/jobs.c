@@ -63,6 +63,7 @@ void kd_job_delay(struct kd_job *job, const char *why)
 static void finish(struct kd_job *job)
 {
     kd_job_spec_finish(&job->spec);
+    kd_sweep_order_finish(&job->order);
     kd_buffer_finish(&job->glance.png);
     free(job->have);
     free(job);
@@ -198,6 +199,8 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
         job->record.series = job->series;
     }
     find_frames(job);
+    if (job->record.state == KD_JOB_ACTIVE && kd_sweep_order_of(job->spec.sweep, &job->order))
+        kd_log(KD_LOG_WARN, "no memory to put the frames of job %.4s... in order: they share fewer lens maps", known->id);
     append(all, job);
     if (job->record.state != KD_JOB_ACTIVE) {
         job->ended_ms = kd_clock_ms() - age_ms(all, known);
@@ -313,6 +316,8 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
     if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) || !kd_secret_make(job->record.token, sizeof job->record.token)) {
         status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
     } else {
+        job->order = draft->order;
+        draft->order = (struct kd_sweep_order) { 0 };
         job->estimate_ms = draft->ms;
         job->record.created = kd_job_now_s();
         job->record.frames = job->frames;
@@ -412,7 +417,7 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
     pthread_mutex_lock(&all->lock);
     *out = (struct kd_job_status) { .state = job->record.state, .deleted = !job->listed, .series = job->series, .frames = job->frames,
                                     .finished = job->finished, .created = job->record.created, .ended = job->record.ended,
-                                    .bytes = job->bytes, .remaining_s = remaining_s(job) };
+                                    .bytes = job->bytes, .remaining_s = remaining_s(job), .traced = job->record.traced, .sweep = job->spec.sweep };
     out->fraction = !job->frames ? 0 : (kd_job_is_active(job) ? drawn(job) : job->finished) / job->frames;
     for (const struct kd_job *other = all->first; other && other != job && kd_job_is_active(job); other = other->link)
         out->place += kd_job_is_active(other);

@@ -6,6 +6,7 @@
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
+#include "render/plan/sweep_order.h"
 #include "server/job/spec.h"
 #include "server/job/store.h"
 #include "server/render/queue.h"
@@ -42,12 +43,16 @@ void kd_jobs_destroy(struct kd_jobs *all);
 struct kd_job_draft {
     struct kd_job_spec spec;
     unsigned checked; /* frames; spec.frames: all */
-    double ms;        /* that they take, by their plans */
+    double ms;        /* that they take, by their plans; of a sweep with the lens maps that it shares counted once, when all are checked; */
+    double trace_ms;  /* and of that lens maps, until then */
+    double bytes;     /* of their files, where a format has as many for each picture of a size */
+    struct kd_sweep_order order;
     char preset[32];  /* as the spec was parsed with */
 };
-/* Checks further frames until it is time, at least one. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
+void kd_job_draft_finish(struct kd_job_draft *draft);
+/* Checks further frames until it is time, at least one, and makes their order when all are. KD_EINVAL and KD_ETOOBIG with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error);
-/* Makes a job, of which the caller holds a reference, from a checked draft, from whose spec it takes what it needs. text: the
+/* Makes a job, of which the caller holds a reference, from a checked draft, which it empties. text: the
  * request; client: its address. KD_EBUSY: there are as many jobs as there may be, or with *quota as many of this client. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length, const char *client,
                             bool *quota, struct kd_job **out, struct kd_error *error);
@@ -66,6 +71,8 @@ struct kd_job_status {
     double fraction;                  /* of the whole job */
     double remaining_s;               /* NAN: it waits for others, or is over */
     double created, ended;            /* seconds since 1970 */
+    unsigned traced;                  /* lens maps */
+    const struct kd_sweep *sweep;     /* as long as the job; NULL: none */
     uint64_t bytes;
     char error[480];
     char delayed[160]; /* why it is not tried at present; "": it is */

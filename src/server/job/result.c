@@ -1,53 +1,28 @@
-/* This answers GET /v1/jobs/{id}/result: a frame as a file, all of them as ZIP, or as they come; a table of their rows. */
+/* This answers GET /v1/jobs/{id}/result: a frame as a file, all of them as one file, or as they come; a table of their rows. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"
+#include "server/job/whole.h"
 #include "server/http/reply.h"
 #include "server/job/jobs.h"
 
-#include <archive.h>
-#include <archive_entry.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #define PREVIEW_TYPE "image/png" /* of a frame under way, whatever it will be */
 #define PART_BYTES 65536
 
-/* A stream of the frames from watcher.next on. */
+/* A stream of the frames from watcher.next on, each after 16 bytes of its own. */
 struct frames {
     struct kd_job_watcher watcher; /* first */
-    const char *suffix;            /* of a frame */
-    struct archive *zip;           /* NULL: each frame after 16 bytes of its own */
-    struct archive_entry *entry;
     int fd; /* of the frame under way, -1: none */
     uint64_t left;
     struct kd_buffer out; /* made and not yet taken, from `at` on */
     size_t at;
     bool over;
 };
-
-static la_ssize_t keep(struct archive *zip, void *cls, const void *data, size_t size)
-{
-    struct frames *f = cls;
-    if (!kd_buffer_append(&f->out, data, size))
-        return (la_ssize_t)size;
-    archive_set_error(zip, ENOMEM, "out of memory");
-    return -1;
-}
-
-/* Stored: PNG is deflated already. */
-static bool open_zip(struct frames *f)
-{
-    f->zip = archive_write_new();
-    f->entry = archive_entry_new();
-    return f->zip && f->entry && archive_write_set_format_zip(f->zip) == ARCHIVE_OK &&
-           archive_write_zip_set_compression_store(f->zip) == ARCHIVE_OK && archive_write_set_bytes_per_block(f->zip, 0) == ARCHIVE_OK &&
-           archive_write_open(f->zip, f, NULL, keep, NULL) == ARCHIVE_OK;
-}
 
 static void put_le32(unsigned char *out, uint32_t value)
 {
@@ -59,20 +34,9 @@ static void put_le32(unsigned char *out, uint32_t value)
 static bool head(struct frames *f)
 {
     unsigned char numbers[16] = { 0 };
-    char name[20];
-    if (!f->zip) {
-        put_le32(numbers, (uint32_t)f->left);
-        put_le32(numbers + 4, f->watcher.next);
-        return !kd_buffer_append(&f->out, numbers, sizeof numbers);
-    }
-    snprintf(name, sizeof name, "%06u.%.8s", f->watcher.next, f->suffix);
-    archive_entry_clear(f->entry);
-    archive_entry_set_pathname(f->entry, name);
-    archive_entry_set_size(f->entry, (la_int64_t)f->left);
-    archive_entry_set_filetype(f->entry, AE_IFREG);
-    archive_entry_set_perm(f->entry, 0644);
-    archive_entry_set_mtime(f->entry, time(NULL), 0);
-    return archive_write_header(f->zip, f->entry) == ARCHIVE_OK;
+    put_le32(numbers, (uint32_t)f->left);
+    put_le32(numbers + 4, f->watcher.next);
+    return !kd_buffer_append(&f->out, numbers, sizeof numbers);
 }
 
 static bool body(struct frames *f)
@@ -87,7 +51,7 @@ static bool body(struct frames *f)
         f->fd = -1;
         f->watcher.next++;
     }
-    return f->zip ? archive_write_data(f->zip, part, (size_t)n) == n : !kd_buffer_append(&f->out, part, (size_t)n);
+    return !kd_buffer_append(&f->out, part, (size_t)n);
 }
 
 /* More bytes, or f->over, or *wait for resumption. False: it cannot go on. */
@@ -106,9 +70,7 @@ static bool advance(struct frames *f, bool *wait)
     struct kd_job_status status;
     kd_job_status(f->watcher.job, &status);
     f->over = true;
-    if (f->watcher.next < status.frames)
-        return false; /* a reader must not take this for the end */
-    return !f->zip || archive_write_close(f->zip) == ARCHIVE_OK;
+    return f->watcher.next >= status.frames; /* else a reader must not take this for the end */
 }
 
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
@@ -132,8 +94,6 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 static void release(void *cls)
 {
     struct frames *f = cls;
-    archive_write_free(f->zip);
-    archive_entry_free(f->entry);
     if (f->fd >= 0)
         close(f->fd);
     kd_buffer_finish(&f->out);
@@ -142,13 +102,9 @@ static void release(void *cls)
 }
 
 /* Takes the reference over. */
-static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
-                                   const struct kd_job_format *in, unsigned from)
+static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *job, unsigned from)
 {
-    const char *type = in->media_type;
-    const bool zip = in == &kd_job_as_zip;
-    if (zip)
-        kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.zip", kd_job_id(job));
+    const char *type = kd_job_as_stream.media_type;
     struct frames *f = request->head ? NULL : calloc(1, sizeof *f);
     if (!f) {
         kd_job_release(job);
@@ -156,13 +112,9 @@ static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *jo
                              : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     f->fd = -1;
-    f->suffix = status->series->frame->name;
     f->watcher = (struct kd_job_watcher) { .job = job, .mhd = request->mhd, .by_frame = true, .next = from, .deadline_ms = INFINITY };
     kd_job_watch(&f->watcher);
-    if (!zip || open_zip(f))
-        return kd_job_stream(request, type, produce, f, release);
-    release(f);
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    return kd_job_stream(request, type, produce, f, release);
 }
 
 static enum MHD_Result not_ready(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status)
@@ -254,7 +206,7 @@ static enum MHD_Result send_table(struct kd_request *request, struct kd_job *job
     for (unsigned i = 0; i < status->frames && there; i++)
         there = read_row(job, i, rows + i * row, row);
     kd_job_release(job);
-    enum kd_status made = !rows ? KD_ENOMEM : there ? table->write(rows, status->frames, &text) : KD_EIO;
+    enum kd_status made = !rows ? KD_ENOMEM : there ? table->write(rows, status->frames, status->sweep, &text) : KD_EIO;
     free(rows);
     if (table->file)
         kd_reply_file(request, KD_ATTACHMENT, "%s", table->file);
@@ -308,26 +260,43 @@ static enum MHD_Result table_of(struct kd_request *request, struct kd_job *job, 
     return status->state == KD_JOB_DONE ? send_table(request, job, status, table) : not_ready(request, job, status);
 }
 
+static const struct kd_gather_format *whole_named(const struct kd_series *series, const char *name)
+{
+    for (size_t i = 0; series->wholes[i]; i++)
+        if (!strcmp(series->wholes[i]->name, name))
+            return series->wholes[i];
+    return NULL;
+}
+
+/* "format is fits, npz or zip, which hold all, or fits or stream, both with frame=NUMBER if wanted" */
+static enum MHD_Result unknown_format(struct kd_request *request, struct kd_job *job, const struct kd_series *series)
+{
+    char detail[200] = "format is ";
+    for (size_t i = 0; series->wholes[i]; i++)
+        snprintf(detail + strlen(detail), sizeof detail - strlen(detail), "%s%s", !i ? "" : series->wholes[i + 1] ? ", " : " or ", series->wholes[i]->name);
+    snprintf(detail + strlen(detail), sizeof detail - strlen(detail), ", which hold%s all, or %s or %s, both with frame=NUMBER if wanted", series->wholes[1] ? "" : "s",
+             series->frame->name, kd_job_as_stream.name);
+    return bad(request, job, detail);
+}
+
 /* The frames of a job that are files: one of them, or all in something that holds them. */
 static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
 {
-    const char *one = status->series->frame->name;
+    const struct kd_series *series = status->series;
+    const bool one_of_them = kd_target_value(&request->target, "frame");
     uint64_t frame;
-    char detail[160];
     if (!format)
-        format = status->frames > 1 ? kd_job_as_zip.name : one;
+        format = status->frames > 1 || status->sweep ? series->wholes[0]->name : series->frame->name;
+    const struct kd_gather_format *whole = one_of_them ? NULL : whole_named(series, format);
     if (!kd_target_whole(&request->target, "frame", 0, status->frames ? status->frames - 1 : 0, &frame))
         return bad(request, job, "frame is the number of a frame of this job, from 0 on");
-    if (!strcmp(format, one))
+    if (whole && status->state != KD_JOB_DONE)
+        return not_ready(request, job, status);
+    if (whole)
+        return kd_job_send_whole(request, job, status, whole);
+    if (!strcmp(format, series->frame->name))
         return send_frame(request, job, (unsigned)frame, status);
-    if (!strcmp(format, kd_job_as_stream.name))
-        return send_frames(request, job, status, &kd_job_as_stream, (unsigned)frame);
-    if (strcmp(format, kd_job_as_zip.name) || kd_target_value(&request->target, "frame")) {
-        snprintf(detail, sizeof detail, "format is %s or %s, both with frame=NUMBER if wanted, or %s", one, kd_job_as_stream.name,
-                 kd_job_as_zip.name);
-        return bad(request, job, detail);
-    }
-    return status->state == KD_JOB_DONE ? send_frames(request, job, status, &kd_job_as_zip, 0) : not_ready(request, job, status);
+    return strcmp(format, kd_job_as_stream.name) ? unknown_format(request, job, series) : send_frames(request, job, (unsigned)frame);
 }
 
 enum MHD_Result kd_handle_job_result(struct kd_request *request)

@@ -33,6 +33,15 @@ static const char *state_word(const struct kd_job_status *s)
     return s->state == KD_JOB_DONE ? "done" : s->state == KD_JOB_FAILED ? "failed" : s->place || *s->delayed ? "waiting" : "running";
 }
 
+/* "axes": {"spacetime.spin": 3, ...} */
+static void write_axes(struct kd_json *json, const struct kd_sweep *sweep)
+{
+    kd_json_object(json, "axes");
+    for (size_t i = 0; i < sweep->n_axes; i++)
+        kd_json_number(json, sweep->axes[i].path, (double)sweep->axes[i].n);
+    kd_json_end(json);
+}
+
 static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -48,6 +57,9 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "fraction", s->fraction);
     kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN: null */
     kd_json_number(&json, "bytes", (double)s->bytes);
+    kd_json_number(&json, "lens_maps_traced", s->traced);
+    if (s->sweep)
+        write_axes(&json, s->sweep);
     kd_json_number(&json, "created", s->created);
     kd_json_number(&json, "ended", s->ended > 0 ? s->ended : NAN);
     if (*s->delayed)
@@ -100,7 +112,7 @@ struct draft {
 static void destroy(struct kd_task *task)
 {
     struct draft *d = (struct draft *)task;
-    kd_job_spec_finish(&d->draft.spec);
+    kd_job_draft_finish(&d->draft);
     if (d->job)
         kd_job_release(d->job);
     free(d);

@@ -12,7 +12,7 @@
 struct kd_job_render {
     struct kd_render_job render; /* first: the queue's pointer is ours */
     struct kd_job *job;
-    unsigned number;
+    unsigned number, place; /* in the order */
     bool rendered;
 };
 
@@ -34,7 +34,9 @@ static enum kd_status plan_frame(const struct kd_jobs *all, const struct kd_job_
                               plan->estimate_ms * 1e-3, all->params.longest_s);
     if (!status)
         return KD_OK;
-    if (spec->listed)
+    if (spec->sweep)
+        snprintf(pointer, sizeof pointer, "/axes");
+    else if (spec->listed)
         snprintf(pointer, sizeof pointer, "/scenes/%u%.100s", number, inner.pointer);
     else
         snprintf(pointer, sizeof pointer, "%s%.100s", spec->timeline.n_keys > 1 ? "/keyframes" : "/scene", spec->timeline.n_keys > 1 ? "" : inner.pointer);
@@ -51,19 +53,22 @@ static void give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
+static unsigned at_place(const struct kd_job *job, unsigned place) { return job->order.frames ? job->order.frames[place] : place; }
+
 /* Hands over the next frame of a job. False: there was none. */
 static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
     struct kd_capacity capacity;
     struct kd_error error = { 0 };
-    while (job->next < job->frames && job->have[job->next])
+    while (job->next < job->frames && job->have[at_place(job, job->next)])
         job->next++;
     if (job->next == job->frames)
         return false;
+    const unsigned number = at_place(job, job->next);
     struct kd_job_render *frame = calloc(1, sizeof *frame);
     kd_render_queue_capacity(all->params.renders, &capacity);
-    enum kd_status status = frame ? plan_frame(all, &job->spec, job->next, &capacity, &frame->render.scene, &frame->render.plan, &error)
+    enum kd_status status = frame ? plan_frame(all, &job->spec, number, &capacity, &frame->render.scene, &frame->render.plan, &error)
                                   : kd_error_set(&error, KD_ENOMEM, "out of memory for a frame");
     if (status) {
         give_up(job, &error);
@@ -81,14 +86,15 @@ static bool begin(struct kd_job *job)
     memcpy(frame->render.claim.client, job->client, sizeof job->client);
     frame->render.format = job->series->frame;
     frame->render.effort = KD_EFFORT_KEEP;
-    frame->render.number = job->next;
+    frame->render.number = number;
     frame->render.socket = -1;
     frame->render.progress = progress;
     frame->render.glance = job->series->frame->carries & KD_CARRIES_PICTURE ? &kd_job_glance : NULL;
     frame->render.rendered = rendered;
     frame->render.done = done;
     frame->job = job;
-    frame->number = job->next++;
+    frame->number = number;
+    frame->place = job->next++;
     job->references++;
     job->fraction = 0;
     job->revision++;
@@ -119,6 +125,16 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 {
     if (all->rendering && (!job || all->rendering->job == job))
         atomic_store(&all->rendering->render.drop, true);
+}
+
+/* Counts the lens map of a frame. Of a sweep that is kept at once, for who asks after a restart; each takes longer than that. */
+static void count_map(struct kd_job *job, const struct kd_render_job *render)
+{
+    if (render->status || render->frame.lens_reused || !render->plan.planes)
+        return;
+    job->record.traced++;
+    if (job->spec.sweep && kd_job_is_active(job))
+        kd_job_write(job);
 }
 
 static void finished(struct kd_job *job, unsigned number, uint64_t size)
@@ -185,6 +201,7 @@ static void done(struct kd_render_job *render)
     if (stored && status)
         render->error.status = KD_EFULL; /* whatever it is: the frame can be rendered again when it is over */
     pthread_mutex_lock(&all->lock);
+    count_map(job, render);
     if (frame->rendered) {
         all->behind--;
         job->encoding--;
@@ -193,7 +210,7 @@ static void done(struct kd_render_job *render)
     if (!status)
         finished(job, frame->number, render->file.size);
     else if (status != KD_ECANCELLED && status != KD_EDEVICE && kd_job_is_active(job)) { /* those two go on after a restart */
-        job->next = frame->number < job->next ? frame->number : job->next;
+        job->next = frame->place < job->next ? frame->place : job->next;
         give_up(job, &render->error);
     }
     kd_jobs_pump(all);
@@ -204,22 +221,67 @@ static void done(struct kd_render_job *render)
     free(frame);
 }
 
+void kd_job_draft_finish(struct kd_job_draft *draft)
+{
+    kd_job_spec_finish(&draft->spec);
+    kd_sweep_order_finish(&draft->order);
+}
+
+/* What a frame costs, beside what its plan says. */
+static enum kd_status count(struct kd_job_draft *draft, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
+{
+    const struct kd_words *layers = &scene->image.layers;
+    uint64_t group;
+    double trace_ms = 0;
+    for (size_t i = 0; i < plan->n_passes; i++)
+        trace_ms += plan->cacheable && !strcmp(plan->passes[i].name, kd_passes[KD_PASS_TRACE].name) ? plan->passes[i].estimate_ms : 0;
+    for (int i = 0; i < layers->count && draft->spec.series->frame->carries & KD_CARRIES_LAYERS; i++)
+        draft->bytes += 4. * (layers->at[i].word == KD_LAYER_rgb ? 3 : 1) * (plan->eyes ? plan->eyes : 1) * plan->width * plan->height;
+    draft->ms += plan->estimate_ms;
+    draft->checked++;
+    if (!draft->spec.sweep)
+        return KD_OK;
+    draft->trace_ms += trace_ms;
+    if (kd_plan_lens_group(scene, &group) || kd_sweep_order_add(&draft->order, group, trace_ms))
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", draft->spec.frames);
+    return KD_OK;
+}
+
+/* Not the number of frames is limited, but what they cost. */
+static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draft *draft, struct kd_error *error)
+{
+    const unsigned frames = draft->spec.frames;
+    const double s = 1e-3 * (draft->ms - (draft->checked < frames ? draft->trace_ms : 0)), bytes = (double)all->params.bytes;
+    if (s > all->params.longest_job_s)
+        return kd_error_set(error, KD_ETOOBIG, "%s%u frames would take about %.3g s, more than the %.0f s a job may take",
+                            draft->checked < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
+    if (draft->bytes > bytes)
+        return kd_error_set(error, KD_ETOOBIG, "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", draft->checked, frames,
+                            1e-9 * draft->bytes, 1e-9 * bytes);
+    return KD_OK;
+}
+
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error)
 {
     const struct kd_job_spec *spec = &draft->spec;
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
+    double shared_ms;
+    enum kd_status status;
     kd_render_queue_capacity(all->params.renders, &capacity);
     do {
-        enum kd_status status = plan_frame(all, spec, draft->checked, &capacity, &scene, &plan, error);
-        if (status)
-            return status;
-        draft->ms += plan.estimate_ms;
-        draft->checked++;
+        KD_TRY(plan_frame(all, spec, draft->checked, &capacity, &scene, &plan, error));
+        KD_TRY(count(draft, &scene, &plan, error));
+        if (draft->checked < spec->frames)
+            KD_TRY(afford(all, draft, error));
     } while (draft->checked < spec->frames && kd_clock_ms() < until_ms);
-    if (draft->checked == spec->frames && draft->ms > 1e3 * all->params.longest_job_s)
-        return kd_error_set(error, KD_ETOOBIG, "the %u frames would take about %.3g s, more than the %.0f s a job may take", spec->frames,
-                            draft->ms * 1e-3, all->params.longest_job_s);
-    return KD_OK;
+    if (draft->checked < spec->frames)
+        return KD_OK;
+    if (kd_sweep_order_end(&draft->order, &shared_ms))
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", spec->frames));
+    draft->ms -= shared_ms;
+    KD_TRY(afford(all, draft, error));
+done:
+    return status;
 }

@@ -14,7 +14,7 @@ struct reader {
     struct kd_job_spec *spec;
     struct kd_scene base;
     const struct kd_assets *assets;
-    const cJSON *scene, *scenes, *frames, *output;
+    const cJSON *scene, *scenes, *frames, *axes, *output;
     struct kd_timeline_items timeline;
     struct kd_error *error;
 };
@@ -39,8 +39,8 @@ static enum kd_status read_list(struct reader *r)
         return cJSON_IsArray(r->scenes)
                    ? kd_error_field(r->error, "/scenes", "there are %d scenes, allowed are 1 to %d", n, KD_JOB_FRAMES_MAX)
                    : kd_member_refuse(r->scenes, "/scenes", "an array of scenes", r->error);
-    if (r->scene || r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline))
-        return kd_error_field(r->error, "/scenes", "scenes stands alone: scene, keyframes, frames, interpolation, distances, angles, ease and look_at do not go with it");
+    if (r->scene || r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline) || r->axes)
+        return kd_error_field(r->error, "/scenes", "scenes stands alone: scene, axes, keyframes, frames, interpolation, distances, angles, ease and look_at do not go with it");
     all->keys = calloc((size_t)n, sizeof *all->keys);
     enum kd_status status = all->keys ? KD_OK : kd_error_set(r->error, KD_ENOMEM, "out of memory for %d scenes", n);
     spec->listed = true;
@@ -83,11 +83,31 @@ done:
     return status;
 }
 
+/* A scene with axes. */
+static enum kd_status read_sweep(struct reader *r)
+{
+    struct kd_job_spec *spec = r->spec;
+    struct kd_scene base = r->base;
+    enum kd_status status;
+    if (r->timeline.keyframes || r->frames || kd_timeline_manner(&r->timeline))
+        return kd_error_field(r->error, "/axes", "axes stand alone with their scene: keyframes, frames, interpolation, distances, angles, ease and look_at do not go with them");
+    if (r->scene)
+        KD_TRY(read_scene(r, r->scene, "/scene", &base));
+    KD_TRY(kd_sweep_read(r->axes, &base, r->assets, &spec->sweep, r->error));
+    spec->frames = spec->sweep->scenes;
+    if (spec->series->swept)
+        KD_TRY(kd_cube_check(spec->sweep, r->error));
+done:
+    return status;
+}
+
 static enum kd_status read_output(struct reader *r)
 {
     char known[200];
     if (r->output)
         r->spec->series = cJSON_IsString(r->output) ? kd_series_named(r->output->valuestring) : NULL;
+    if (r->spec->series && r->spec->series->swept && !r->axes)
+        return kd_error_field(r->error, "/output", "output is \"%s\", which takes axes, as in \"axes\": {\"spacetime.spin\": [0, 0.5, 0.9]}", r->spec->series->name);
     if (r->spec->series)
         return KD_OK;
     for (size_t i = 0, n = 0; i < kd_n_series && n < sizeof known; i++)
@@ -101,7 +121,7 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
     struct kd_job_spec spec = { .series = kd_series_all[0] };
     struct reader r = { .spec = &spec, .assets = assets, .error = error };
     const struct kd_member members[] = { { "scene", &r.scene }, { "scenes", &r.scenes }, { "frames", &r.frames },
-                                         { "output", &r.output }, KD_TIMELINE_MEMBERS(r.timeline) };
+                                         { "axes", &r.axes }, { "output", &r.output }, KD_TIMELINE_MEMBERS(r.timeline) };
     cJSON *root = NULL;
     kd_scene_defaults(&r.base);
     enum kd_status status;
@@ -112,7 +132,7 @@ enum kd_status kd_job_spec_parse(const char *text, size_t length, const char *pr
         KD_TRY(kd_member_refuse(root, "", "an object", error));
     KD_TRY(kd_members_read(root, "", members, sizeof members / sizeof *members, error));
     KD_TRY(read_output(&r));
-    KD_TRY(r.scenes ? read_list(&r) : read_sequence(&r));
+    KD_TRY(r.scenes ? read_list(&r) : r.axes ? read_sweep(&r) : read_sequence(&r));
 done:
     cJSON_Delete(root);
     if (status)
@@ -125,12 +145,15 @@ done:
 void kd_job_spec_finish(struct kd_job_spec *spec)
 {
     kd_timeline_finish(&spec->timeline);
+    kd_sweep_free(spec->sweep);
     *spec = (struct kd_job_spec) { 0 };
 }
 
 enum kd_status kd_job_spec_scene(const struct kd_job_spec *spec, unsigned frame, struct kd_scene *out, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
+    if (spec->sweep)
+        return kd_sweep_scene(spec->sweep, frame, out, error);
     if (!kd_timeline_scene(&spec->timeline, frame, out, &inner))
         return KD_OK;
     return kd_error_field(error, inner.pointer, "between keyframes, frame %u is no valid scene: %.380s", frame, inner.message);

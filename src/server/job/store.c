@@ -242,9 +242,10 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
         return false;
     if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* jobs of versions without have none */
         *out->preset = 0;
-    double attempts = number(o, "attempts"), frames = number(o, "frames");
+    double attempts = number(o, "attempts"), frames = number(o, "frames"), traced = number(o, "lens_maps_traced");
     out->attempts = attempts > 0 && attempts < 1e6 ? (unsigned)attempts : 0;
-    out->frames = frames > 0 && frames <= KD_JOB_FRAMES_MAX ? (unsigned)frames : 0;
+    out->frames = frames > 0 && frames <= KD_SWEEP_MOST ? (unsigned)frames : 0;
+    out->traced = traced > 0 && traced < 1e9 ? (unsigned)traced : 0;
     out->series = series_of(o);
     return out->series;
 }
@@ -379,6 +380,7 @@ static enum kd_status record_json(const struct kd_job_record *record, struct kd_
     kd_json_number(&json, "ended", record->ended);
     kd_json_number(&json, "attempts", record->attempts);
     kd_json_number(&json, "frames", record->frames);
+    kd_json_number(&json, "lens_maps_traced", record->traced);
     kd_json_string(&json, "output", record->series->name);
     kd_json_string(&json, "preset", record->preset);
     kd_json_string(&json, "error", record->error);

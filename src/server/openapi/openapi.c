@@ -106,8 +106,8 @@ static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+,[0-9.]+$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
     { "/v1/jobs/{id}/result", "format", NULL,
-      "json and csv are those of a light curve, the others of pictures" },
-    { "/v1/jobs/{id}/result", "frame", WHOLE, "with format=png: which" },
+      "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers" },
+    { "/v1/jobs/{id}/result", "frame", WHOLE, "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
 };
 
 static bool has_query(const struct kd_route *route)

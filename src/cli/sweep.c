@@ -1,0 +1,333 @@
+/* kerrd sweep renders a scene for all values of some fields, into one file. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "render/output/curve.h"
+#include "render/output/gather.h"
+#include "render/plan/sweep_order.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct arguments {
+    struct kd_scene_options scene;
+    const char *device, *output, **axes;
+    size_t n_axes;
+    uint64_t memory;
+    bool stats;
+};
+
+static const struct argp_option table[] = {
+    { "axis", 'x', "FIELD=VALUES", 0, "an axis: VALUE,VALUE,... or START:STOP:STEP or START:STOP/HOW MANY; again for each more, the last one fastest", 0 },
+    { "output", 'o', "FILE", 0, "the file to write: .fits or .npz, one array a layer; .zip, pictures; .csv or .json, their light (required)", 0 },
+    KD_CLI_MEMORY,
+    { "stats", 't', NULL, 0, "print scenes, lens maps and seconds as one line of JSON on standard error", 0 },
+    { 0 },
+};
+
+/* By the end of its name: what the scenes become, and what all of them do. */
+struct kind {
+    const char *end;
+    const struct kd_format *frame;
+    const struct kd_gather_format *whole; /* NULL: a table */
+};
+
+static const struct kind *kind_of(const char *path)
+{
+    static struct kind kinds[] = { { ".fits", &kd_format_fits, &kd_gather_fits }, { ".npz", &kd_format_fits, &kd_gather_npz },
+                                   { ".zip", &kd_format_png, &kd_gather_zip }, { ".csv", NULL, NULL }, { ".json", NULL, NULL } };
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
+        if (!strcmp(kinds[i].end, dot)) {
+            kinds[i].frame = kinds[i].whole ? kinds[i].frame : kd_light_curve.frame;
+            return &kinds[i];
+        }
+    return NULL;
+}
+
+static void add_axis(struct arguments *arguments, const char *text, const struct argp_state *state)
+{
+    const char **more = realloc(arguments->axes, (arguments->n_axes + 1) * sizeof *more);
+    if (!more)
+        argp_failure(state, KD_EXIT_FAILURE, 0, "out of memory");
+    arguments->axes = more;
+    more[arguments->n_axes++] = text;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->scene;
+        state->child_inputs[1] = &arguments->device;
+        return 0;
+    case 'x': add_axis(arguments, text, state); return 0;
+    case 'o': arguments->output = text; return 0;
+    case 't': arguments->stats = true; return 0;
+    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
+    case ARGP_KEY_END:
+        if (!arguments->n_axes)
+            argp_error(state, "--axis is missing: which field takes which values? As in --axis spacetime.spin=0,0.5,0.9");
+        else if (!arguments->output)
+            argp_error(state, "-o FILE is missing: where should the sweep go?");
+        else if (!kind_of(arguments->output))
+            argp_error(state, "output is \"%s\", allowed is a name that ends in .fits, .npz, .zip, .csv or .json", arguments->output);
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* The scenes' files lie one behind the other in a file that nobody else sees. */
+struct work {
+    const struct kd_sweep *sweep;
+    const struct kind *kind;
+    struct kd_renderer *renderer;
+    struct kd_sweep_order order;
+    struct kd_encoder encoder;
+    struct kd_progress progress;
+    int store;
+    uint64_t *places, *sizes, end;
+    unsigned done, traced;
+};
+
+static enum kd_status open_store(struct work *w, struct kd_error *error)
+{
+    const char *parent = getenv("TMPDIR");
+    char path[4096];
+    snprintf(path, sizeof path, "%s/kerrd-sweep-XXXXXX", parent && *parent ? parent : "/tmp");
+    w->store = mkstemp(path);
+    if (w->store < 0)
+        return kd_error_set(error, KD_EIO, "no file for the scenes can be made in TMPDIR: %s", strerror(errno));
+    unlink(path);
+    w->places = calloc(w->sweep->scenes, sizeof *w->places);
+    w->sizes = calloc(w->sweep->scenes, sizeof *w->sizes);
+    return w->places && w->sizes ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %u scenes", w->sweep->scenes);
+}
+
+static enum kd_status keep(struct work *w, unsigned scene, const struct kd_buffer *file, struct kd_error *error)
+{
+    w->places[scene] = w->end;
+    w->sizes[scene] = file->size;
+    for (size_t done = 0; done < file->size;) {
+        ssize_t n = pwrite(w->store, file->data + done, file->size - done, (off_t)(w->end + done));
+        if (n <= 0)
+            return kd_error_set(error, KD_EIO, "scene %u cannot be kept in TMPDIR: %s", scene, strerror(errno));
+        done += (size_t)n;
+    }
+    w->end += file->size;
+    return KD_OK;
+}
+
+static bool size_of(void *user, unsigned scene, uint64_t *out)
+{
+    *out = ((struct work *)user)->sizes[scene];
+    return true;
+}
+
+static bool read_scene(void *user, unsigned scene, uint64_t at, void *to, size_t size)
+{
+    const struct work *w = user;
+    if (at + size > w->sizes[scene])
+        return false;
+    for (size_t done = 0; done < size;) {
+        ssize_t n = pread(w->store, (char *)to + done, size - done, (off_t)(w->places[scene] + at + done));
+        if (n <= 0)
+            return false;
+        done += (size_t)n;
+    }
+    return true;
+}
+
+/* The plan of a scene; its error says which. */
+static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_error inner = { 0 };
+    kd_renderer_capacity(w->renderer, &capacity);
+    enum kd_status status = kd_sweep_scene(w->sweep, number, scene, error);
+    if (!status && (status = kd_format_plan(w->kind->frame, scene, &capacity, plan, &inner))) {
+        kd_error_field(error, inner.pointer, "scene %u: %.440s", number, inner.message);
+        error->status = status;
+    }
+    return status;
+}
+
+/* All are looked at before the first is rendered. */
+static enum kd_status check(struct work *w, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    double shared_ms;
+    for (unsigned i = 0; i < w->sweep->scenes && !status; i++) {
+        struct kd_scene scene;
+        struct kd_plan plan;
+        uint64_t group;
+        status = plan_of(w, i, &scene, &plan, error);
+        if (!status && (kd_plan_lens_group(&scene, &group) || kd_sweep_order_add(&w->order, group, 0)))
+            status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
+    }
+    if (!status && kd_sweep_order_end(&w->order, &shared_ms))
+        status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
+    return status;
+}
+
+static bool progress(void *user, double fraction)
+{
+    struct work *w = user;
+    return kd_progress_update(&w->progress, (w->done + fraction) / w->sweep->scenes);
+}
+
+static enum kd_status render(struct work *w, unsigned number, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_buffer file = { 0 };
+    enum kd_status status;
+    KD_TRY(plan_of(w, number, &scene, &plan, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    w->traced += !frame.lens_reused && plan.planes;
+    const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
+    KD_TRY(kd_encode(w->kind->frame, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
+    KD_TRY(keep(w, number, &file, error));
+done:
+    kd_buffer_finish(&file);
+    kd_frame_finish(&frame);
+    return status;
+}
+
+static enum kd_status render_all(struct work *w, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    kd_progress_init(&w->progress);
+    kd_progress_catch_signals();
+    for (; w->done < w->sweep->scenes && !status; w->done++)
+        status = render(w, w->order.frames[w->done], error);
+    kd_progress_finish(&w->progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    return status;
+}
+
+/* What is made of the store while it is written. */
+struct pour {
+    struct kd_gather gather;
+    struct kd_buffer out;
+    size_t at;
+    bool over;
+    enum kd_status status;
+    struct kd_error *error;
+};
+
+static size_t pour(void *user, void *to, size_t size)
+{
+    struct pour *p = user;
+    while (p->at == p->out.size && !p->over) {
+        p->out.size = p->at = 0;
+        p->status = kd_gather_next(&p->gather, &p->out, &p->over, p->error);
+        if (p->status)
+            return KD_FILE_STOP;
+    }
+    size_t left = p->out.size - p->at, n = left < size ? left : size;
+    if (n)
+        memcpy(to, p->out.data + p->at, n);
+    p->at += n;
+    return n;
+}
+
+static enum kd_status save_whole(struct work *w, const char *path, struct kd_error *error)
+{
+    const struct kd_gather_source source = { .user = w, .sweep = w->sweep, .frame = w->kind->frame, .n = w->sweep->scenes, .size = size_of, .read = read_scene };
+    struct kd_error made = { 0 };
+    struct pour p = { .error = &made };
+    enum kd_status status;
+    KD_TRY(kd_gather_open(w->kind->whole, &source, &p.gather, error));
+    status = kd_file_stream(path, pour, &p, error);
+    if (p.status) {
+        *error = made;
+        status = p.status;
+    }
+done:
+    kd_gather_close(&p.gather);
+    kd_buffer_finish(&p.out);
+    return status;
+}
+
+static enum kd_status save_table(struct work *w, const char *path, struct kd_error *error)
+{
+    const struct kd_table_format *format = kd_series_table(&kd_light_curve, w->kind->end + 1);
+    const size_t row = kd_light_curve.row_bytes;
+    char *rows = malloc(w->sweep->scenes * row);
+    struct kd_buffer text = { 0 };
+    bool read = rows;
+    for (unsigned i = 0; i < w->sweep->scenes && read; i++)
+        read = read_scene(w, i, 0, rows + i * row, row);
+    enum kd_status status = !rows ? KD_ENOMEM : read ? format->write(rows, w->sweep->scenes, w->sweep, &text) : KD_EIO;
+    status = status ? kd_error_set(error, status, status == KD_EIO ? "the scenes cannot be read again from TMPDIR" : "out of memory for %u rows", w->sweep->scenes)
+                    : kd_file_write(path, &text, error);
+    kd_buffer_finish(&text);
+    free(rows);
+    return status;
+}
+
+static enum kd_status run(struct arguments *arguments, struct kd_error *error)
+{
+    struct kd_scene scene;
+    struct kd_sweep *sweep = NULL;
+    struct work work = { .kind = kind_of(arguments->output), .store = -1 };
+    enum kd_status status;
+    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
+    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, &scene, &assets, &sweep, error));
+    work.sweep = sweep;
+    if (work.kind->frame == &kd_format_fits)
+        KD_TRY(kd_cube_check(sweep, error));
+    KD_TRY(kd_file_check(arguments->output, error));
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .memory_bytes = arguments->memory, .assets = &assets },
+                              &work.renderer, error));
+    KD_TRY(check(&work, error));
+    KD_TRY(open_store(&work, error));
+    const double began = kd_progress_clock();
+    KD_TRY(render_all(&work, error));
+    const double rendered = kd_progress_clock();
+    KD_TRY((work.kind->whole ? save_whole : save_table)(&work, arguments->output, error));
+    if (arguments->stats)
+        fprintf(stderr, "{\"scenes\":%u,\"lens_maps_traced\":%u,\"render_s\":%.3f,\"write_s\":%.3f}\n", sweep->scenes, work.traced, rendered - began,
+                kd_progress_clock() - rendered);
+done:
+    if (work.store >= 0)
+        close(work.store);
+    kd_encoder_finish(&work.encoder);
+    kd_sweep_order_finish(&work.order);
+    kd_renderer_destroy(work.renderer);
+    kd_sweep_free(sweep);
+    free(work.places);
+    free(work.sizes);
+    return status;
+}
+
+int kd_cli_sweep(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = KD_SCENE_ARGS_DOC,
+        .doc = "Render a scene for all combinations of values of some fields: its axes.\v"
+               "A range START:STOP:STEP holds STOP if a whole number of steps leads there. Scenes that share a lens map are rendered one after the "
+               "other, whatever the order of the axes. A job of a server makes the same file.",
+        .children = kd_scene_device_children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    enum kd_status status = run(&arguments, &error);
+    kd_scene_options_finish(&arguments.scene);
+    free(arguments.axes);
+    return kd_progress_exit(status, &error);
+}

@@ -1,0 +1,250 @@
+#include "render/output/cube.h"
+
+#include "image/fits.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HEAD_MOST (1u << 20) /* bytes of a header: a scene's has some 20000 */
+#define AT_ONCE 32           /* scenes, some milliseconds */
+
+static enum kd_status unreadable(unsigned scene, struct kd_error *error)
+{
+    return kd_error_set(error, KD_EIO, "the file of scene %u cannot be read, or is not as the others are", scene);
+}
+
+static enum kd_status no_memory(struct kd_error *error) { return kd_error_set(error, KD_ENOMEM, "out of memory for a cube"); }
+
+enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error)
+{
+    static const char *const shapes[] = { "image.width", "image.height", "image.layers", "camera.stereo" };
+    char pointer[100];
+    for (size_t i = 0; i < sweep->n_axes; i++)
+        for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+            if (kd_scene_same_path(sweep->axes[i].path, shapes[k])) {
+                snprintf(pointer, sizeof pointer, "/axes/%s", shapes[k]);
+                return kd_error_field(error, pointer, "%s is an axis, and no cube has pictures of several sizes or layers; allowed are files of their own, as "
+                                      "\"pictures\" or \"fits\"", shapes[k]);
+            }
+    return KD_OK;
+}
+
+enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error)
+{
+    *out = (struct kd_cube) { .source = source };
+    return source->sweep && source->n == source->sweep->scenes ? KD_OK : kd_error_set(error, KD_EINVAL, "only the scenes of a sweep make a cube");
+}
+
+void kd_cube_finish(struct kd_cube *cube)
+{
+    for (size_t i = 0; i < cube->n_sentences; i++)
+        free(cube->sentences[i]);
+    free(cube->places);
+    free(cube->piece);
+    *cube = (struct kd_cube) { 0 };
+}
+
+/* The header of a unit at a place of a scene's file. */
+static enum kd_status read_head(struct kd_cube *cube, unsigned scene, uint64_t at, struct kd_buffer *head, size_t *size, struct kd_error *error)
+{
+    const struct kd_gather_source *s = cube->source;
+    uint8_t block[8 * KD_FITS_BLOCK];
+    uint64_t whole;
+    head->size = 0;
+    *size = 0;
+    if (!s->size(s->user, scene, &whole))
+        return unreadable(scene, error);
+    while (!(*size = kd_fits_head_size(head->data, head->size))) {
+        uint64_t left = whole > at + head->size ? whole - at - head->size : 0;
+        size_t n = left < sizeof block ? (size_t)left : sizeof block;
+        if (!n || head->size > HEAD_MOST || !s->read(s->user, scene, at + head->size, block, n))
+            return unreadable(scene, error);
+        if (kd_buffer_append(head, block, n))
+            return no_memory(error);
+    }
+    return KD_OK;
+}
+
+/* A text of a card, "" where it is not there. */
+static void text_of(const struct kd_buffer *head, size_t size, const char *key, char *out, size_t room)
+{
+    struct kd_buffer text = { 0 };
+    bool there = !kd_fits_find(head->data, size, key, &text) && text.size < room;
+    snprintf(out, room, "%.*s", there ? (int)text.size : 0, there ? (const char *)text.data : "");
+    for (size_t n = strlen(out); n && out[n - 1] == ' ';) /* the standard's own */
+        out[--n] = 0;
+    kd_buffer_finish(&text);
+}
+
+struct unit {
+    struct kd_cube_layer layer;
+    long long width, height;
+};
+
+static bool read_unit(const struct kd_buffer *head, size_t size, struct unit *out)
+{
+    char sum[24];
+    long long axes = 0, channels = 1;
+    bool good = kd_fits_number(head->data, size, "NAXIS", &axes) && (axes == 2 || axes == 3) && kd_fits_number(head->data, size, "NAXIS1", &out->width) &&
+                kd_fits_number(head->data, size, "NAXIS2", &out->height) && (axes == 2 || kd_fits_number(head->data, size, "NAXIS3", &channels));
+    text_of(head, size, "EXTNAME", out->layer.name, sizeof out->layer.name);
+    text_of(head, size, "BUNIT", out->layer.unit, sizeof out->layer.unit);
+    text_of(head, size, "DATASUM", sum, sizeof sum);
+    out->layer.channels = (unsigned)channels;
+    out->layer.sum = (uint32_t)strtoul(sum, NULL, 10);
+    return good && *sum && out->width > 0 && out->width <= 1 << 20 && out->height > 0 && out->height <= 1 << 20 && channels > 0 && channels <= 4;
+}
+
+/* The first scene says what all have. */
+static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene, struct kd_error *error)
+{
+    if (scene == 0 && layer < KD_WORDS_MOST) {
+        cube->layers[layer] = unit->layer;
+        cube->n_layers = layer + 1;
+        cube->width = layer ? cube->width : (unsigned)unit->width;
+        cube->height = layer ? cube->height : (unsigned)unit->height;
+    }
+    struct kd_cube_layer *known = &cube->layers[layer];
+    if (layer >= cube->n_layers || strcmp(known->name, unit->layer.name) || known->channels != unit->layer.channels || cube->width != (unsigned)unit->width ||
+        cube->height != (unsigned)unit->height)
+        return unreadable(scene, error);
+    if (scene)
+        known->sum = kd_fits_add_sums(known->sum, unit->layer.sum);
+    return KD_OK;
+}
+
+static enum kd_status keep_sentence(struct kd_cube *cube, const char *text, struct kd_error *error)
+{
+    for (size_t i = 0; i < cube->n_sentences; i++)
+        if (!strcmp(cube->sentences[i], text))
+            return KD_OK;
+    char *copy = cube->n_sentences < KD_CUBE_SENTENCES ? strdup(text) : NULL;
+    if (!copy)
+        return no_memory(error);
+    cube->sentences[cube->n_sentences++] = copy;
+    return KD_OK;
+}
+
+static bool same_axes(const struct kd_wcs_axis a[2], const struct kd_wcs_axis b[2])
+{
+    bool same = true;
+    for (int i = 0; i < 2; i++)
+        same = same && a[i].type == b[i].type && a[i].pixel == b[i].pixel && a[i].value == b[i].value && a[i].step == b[i].step;
+    return same;
+}
+
+static bool same_world(const struct kd_wcs *a, const struct kd_wcs *b)
+{
+    return a->known == b->known && a->far == b->far && same_axes(a->at, b->at) && (!a->far || same_axes(a->impact, b->impact)) &&
+           !memcmp(a->turn, b->turn, sizeof a->turn);
+}
+
+static enum kd_status compare_worlds(struct kd_cube *cube, unsigned number, struct kd_error *error)
+{
+    struct kd_scene scene;
+    enum kd_status status = kd_sweep_scene(cube->source->sweep, number, &scene, error);
+    const struct kd_wcs wcs = status ? cube->wcs : kd_wcs_of(&scene);
+    if (!number)
+        cube->wcs = wcs;
+    cube->wcs_differ = cube->wcs_differ || !same_world(&wcs, &cube->wcs);
+    return status;
+}
+
+static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const struct kd_buffer *head, size_t size, struct kd_error *error)
+{
+    char key[16], text[600], row[KD_CUBE_ROW] = { 0 };
+    enum kd_status status = compare_worlds(cube, scene, error);
+    if (!scene)
+        text_of(head, size, "KDDEVICE", cube->device, sizeof cube->device);
+    if (!*cube->credit)
+        text_of(head, size, "KDCREDIT", cube->credit, sizeof cube->credit);
+    for (unsigned i = 1; !status; i++) {
+        snprintf(key, sizeof key, "KDAPPR%u", i);
+        text_of(head, size, key, text, sizeof text);
+        if (!*text)
+            break;
+        status = keep_sentence(cube, text, error);
+    }
+    if (!status)
+        status = kd_cube_row(cube, scene, row, error);
+    cube->rows_sum = kd_fits_sum(cube->rows_sum, row, sizeof row);
+    return status;
+}
+
+enum kd_status kd_cube_row(struct kd_cube *cube, unsigned scene, char out[KD_CUBE_ROW], struct kd_error *error)
+{
+    struct kd_buffer head = { 0 };
+    char hash[KD_CUBE_HASH + 1], accuracy[KD_CUBE_ACCURACY + 1];
+    size_t size;
+    enum kd_status status = read_head(cube, scene, 0, &head, &size, error);
+    if (!status) {
+        text_of(&head, size, "KDHASH", hash, sizeof hash);
+        text_of(&head, size, "KDACCUR", accuracy, sizeof accuracy);
+        memset(out, 0, KD_CUBE_ROW);
+        memcpy(out, hash, strlen(hash));
+        memcpy(out + KD_CUBE_HASH, accuracy, strlen(accuracy));
+    }
+    kd_buffer_finish(&head);
+    return status;
+}
+
+static enum kd_status look_at(struct kd_cube *cube, unsigned scene, struct kd_error *error)
+{
+    const struct kd_gather_source *s = cube->source;
+    uint64_t places[KD_WORDS_MOST], whole = 0, at = 0;
+    struct kd_buffer head = { 0 };
+    size_t layer = 0, size;
+    enum kd_status status = s->size(s->user, scene, &whole) ? KD_OK : unreadable(scene, error);
+    for (; !status && at < whole; layer++) {
+        struct unit unit;
+        KD_TRY(read_head(cube, scene, at, &head, &size, error));
+        if (layer == KD_WORDS_MOST || !read_unit(&head, size, &unit))
+            KD_TRY(unreadable(scene, error));
+        KD_TRY(enter(cube, layer, &unit, scene, error));
+        if (!layer)
+            KD_TRY(look_at_notes(cube, scene, &head, size, error));
+        places[layer] = at + size;
+        at += size + kd_cube_slice(cube, layer);
+        at += kd_fits_padding(kd_cube_slice(cube, layer));
+    }
+    if (!status && layer != cube->n_layers)
+        KD_TRY(unreadable(scene, error));
+    if (!status && !scene)
+        cube->places = calloc((size_t)s->n * cube->n_layers, sizeof *cube->places);
+    if (!status && !cube->places)
+        KD_TRY(no_memory(error));
+    if (!status)
+        memcpy(cube->places + scene * cube->n_layers, places, cube->n_layers * sizeof *places);
+done:
+    kd_buffer_finish(&head);
+    return status;
+}
+
+enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (unsigned i = 0; i < AT_ONCE && cube->seen < cube->source->n && !status; i++)
+        status = look_at(cube, cube->seen++, error);
+    *over = cube->seen == cube->source->n;
+    if (status || !*over || cube->piece)
+        return status;
+    size_t row = 4ull * 4 * cube->width;
+    cube->piece_bytes = row > KD_GATHER_PIECE ? row : KD_GATHER_PIECE;
+    cube->piece = malloc(cube->piece_bytes);
+    return cube->piece ? KD_OK : no_memory(error);
+}
+
+enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, uint64_t at, void *to, size_t size, struct kd_error *error)
+{
+    const struct kd_gather_source *s = cube->source;
+    return s->read(s->user, scene, cube->places[scene * cube->n_layers + layer] + at, to, size) ? KD_OK : unreadable(scene, error);
+}
+
+size_t kd_cube_longest(const struct kd_sweep_axis *axis)
+{
+    size_t longest = 1;
+    for (size_t i = 0; i < axis->n; i++)
+        longest = strlen(axis->values[i].text) > longest ? strlen(axis->values[i].text) : longest;
+    return longest;
+}

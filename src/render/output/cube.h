@@ -1,0 +1,55 @@
+/* A cube is an array of each layer with all scenes of a sweep, made of the FITS files of the scenes: what cube_fits.c and cube_npz.c share. It is looked
+ * through before anything is written, since sums and sentences stand before the numbers.
+ *
+ * In FITS an image of each layer has the picture's axes, of "rgb" the three colours, then the axes of the sweep from the last to the first; in NumPy the
+ * shape is (axes of the sweep, height, width[, 3]). Internal to render/output. */
+#ifndef KD_RENDER_OUTPUT_CUBE_H
+#define KD_RENDER_OUTPUT_CUBE_H
+
+#include "render/output/gather.h"
+#include "render/output/wcs.h"
+#include "render/plan/layer_kinds.h"
+#include "scene/sweep.h"
+
+#define KD_CUBE_SENTENCES 128
+enum { KD_CUBE_HASH = 64, KD_CUBE_ACCURACY = 320, KD_CUBE_ROW = KD_CUBE_HASH + KD_CUBE_ACCURACY }; /* bytes told of each scene; NULs behind each */
+
+struct kd_cube_layer {
+    char name[KD_LAYER_NAME], unit[24];
+    unsigned channels;
+    uint32_t sum; /* kd_fits_sum of the numbers of all scenes */
+};
+
+struct kd_cube {
+    const struct kd_gather_source *source;
+    unsigned width, height;
+    struct kd_cube_layer layers[KD_WORDS_MOST];
+    size_t n_layers;
+    unsigned seen;         /* scenes that it has been through */
+    uint64_t *places;      /* of the numbers in the files: n_layers a scene */
+    struct kd_wcs wcs;     /* of the first; */
+    bool wcs_differ;       /* not of all */
+    char *sentences[KD_CUBE_SENTENCES]; /* of approximations that are in force in some scene */
+    size_t n_sentences;
+    char device[256], credit[256];
+    uint32_t rows_sum;     /* kd_fits_sum of the rows of all scenes */
+    uint8_t *piece;        /* KD_GATHER_PIECE bytes and more: a row of numbers fits */
+    size_t piece_bytes;
+};
+
+enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error);
+void kd_cube_finish(struct kd_cube *cube);
+/* Looks through some more scenes. *over: through all. */
+enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
+/* What is told of a scene: its hash, and what its picture's accuracy is. */
+enum kd_status kd_cube_row(struct kd_cube *cube, unsigned scene, char out[KD_CUBE_ROW], struct kd_error *error);
+/* Bytes of a layer's numbers in one scene. */
+static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)
+{
+    return 4ull * cube->layers[layer].channels * cube->width * cube->height;
+}
+enum kd_status kd_cube_read(struct kd_cube *cube, unsigned scene, size_t layer, uint64_t at, void *to, size_t size, struct kd_error *error);
+/* The longest text of an axis' values, in bytes; at least 1. */
+size_t kd_cube_longest(const struct kd_sweep_axis *axis);
+
+#endif

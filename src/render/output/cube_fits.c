@@ -1,0 +1,273 @@
+/* This writes a cube as FITS: kd_gather_fits. An image a layer, named as it is, the first one with what is told of all; a table for each axis, named by its field, with
+ * its values in the column "value"; and the table SCENES with the hash and the accuracy of each scene, in their order. An axis of evenly spaced numbers is
+ * one of world coordinates too; others are counted from 1. */
+#include "render/output/cube.h"
+
+#include "image/fits.h"
+#include "render/output/fits_cards.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct writer {
+    struct kd_cube cube;
+    size_t unit;    /* layers, axes, scenes: one after the other */
+    bool begun;     /* its head is written */
+    unsigned scene; /* what comes next of it */
+    uint64_t at, written;
+};
+
+static enum kd_status no_memory(struct kd_error *error) { return kd_error_set(error, KD_ENOMEM, "out of memory for a FITS cube"); }
+
+static enum kd_status open_cube(const struct kd_gather_source *source, void **state, struct kd_error *error)
+{
+    struct writer *w = calloc(1, sizeof *w);
+    *state = w;
+    return w ? kd_cube_open(source, &w->cube, error) : no_memory(error);
+}
+
+static void close_cube(void *state)
+{
+    struct writer *w = state;
+    kd_cube_finish(&w->cube);
+    free(w);
+}
+
+/* As the standard spells it (section 4.3); M = G m/c^2 and stops are none that it knows. */
+static const char *unit_of(const struct kd_sweep_axis *axis)
+{
+    return !strcmp(axis->unit, "degrees") ? "deg" : !strcmp(axis->unit, "solar masses") ? "solMass" : strcmp(axis->unit, "1") ? axis->unit : "";
+}
+
+static enum kd_status put_line(struct kd_buffer *cards, unsigned number, double first, double step)
+{
+    char key[16];
+    enum kd_status status;
+    snprintf(key, sizeof key, "CRPIX%u", number);
+    KD_TRY(kd_fits_real(cards, key, 1, NULL));
+    snprintf(key, sizeof key, "CRVAL%u", number);
+    KD_TRY(kd_fits_real(cards, key, first, NULL));
+    snprintf(key, sizeof key, "CDELT%u", number);
+    KD_TRY(kd_fits_real(cards, key, step, NULL));
+done:
+    return status;
+}
+
+/* number: the axis' in the file. */
+static enum kd_status put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number)
+{
+    const double first = axis->even ? axis->values[0].number : 1;
+    const double step = axis->even && axis->n > 1 ? (axis->values[axis->n - 1].number - first) / (double)(axis->n - 1) : 1;
+    char key[16];
+    enum kd_status status;
+    snprintf(key, sizeof key, "CTYPE%u", number);
+    KD_TRY(kd_fits_text(cards, key, axis->even ? axis->path : "INDEX", axis->even ? NULL : "of the values in the table of that name"));
+    snprintf(key, sizeof key, "CNAME%u", number);
+    KD_TRY(kd_fits_text(cards, key, axis->path, NULL));
+    KD_TRY(put_line(cards, number, first, step));
+    snprintf(key, sizeof key, "CUNIT%u", number);
+    if (axis->even && !strcmp(unit_of(axis), "deg"))
+        KD_TRY(kd_fits_text(cards, key, "deg", NULL));
+done:
+    return status;
+}
+
+static enum kd_status put_json(struct kd_buffer *cards, const struct kd_sweep *sweep)
+{
+    struct kd_buffer axes = { 0 }, scene = { 0 };
+    struct kd_json json = kd_json_begin(&axes);
+    kd_sweep_axes_json(sweep, &json, NULL);
+    enum kd_status status;
+    KD_TRY(kd_json_finish(&json));
+    KD_TRY(kd_fits_text(cards, "KDAXES", (const char *)axes.data, NULL));
+    KD_TRY(kd_scene_to_json(&sweep->base, &scene));
+    KD_TRY(kd_fits_text(cards, "KDSCENE", (const char *)scene.data, NULL));
+done:
+    kd_buffer_finish(&axes);
+    kd_buffer_finish(&scene);
+    return status;
+}
+
+static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_cube *cube)
+{
+    const struct kd_sweep *sweep = cube->source->sweep;
+    char key[32];
+    enum kd_status status;
+    KD_TRY(kd_fits_text(cards, "ORIGIN", "kerrd " KD_VERSION, NULL));
+    KD_TRY(kd_fits_put_scene(cards, &sweep->base, sweep));
+    KD_TRY(kd_fits_text(cards, "LONGSTRN", "OGIP 1.0", "texts may go on: CONTINUE"));
+    KD_TRY(kd_fits_text(cards, "KDDEVICE", cube->device, NULL));
+    for (size_t i = 0; i < cube->n_sentences; i++) {
+        snprintf(key, sizeof key, "KDAPPR%zu", i + 1);
+        KD_TRY(kd_fits_text(cards, key, cube->sentences[i], NULL));
+    }
+    if (*cube->credit)
+        KD_TRY(kd_fits_text(cards, "KDCREDIT", cube->credit, NULL));
+    KD_TRY(kd_fits_comment(cards, "KDSCENE is the scene, of which the fields in KDAXES take their values"));
+    KD_TRY(put_json(cards, sweep));
+done:
+    return status;
+}
+
+static enum kd_status begin_layer(struct writer *w, struct kd_buffer *out)
+{
+    const struct kd_cube *cube = &w->cube;
+    const struct kd_cube_layer *layer = &cube->layers[w->unit];
+    const struct kd_sweep *sweep = cube->source->sweep;
+    struct kd_fits_shape shape = { .primary = w->unit == 0, .n_axes = 2, .axes = { cube->width, cube->height } };
+    struct kd_buffer cards = { 0 };
+    enum kd_status status;
+    if (layer->channels > 1)
+        shape.axes[shape.n_axes++] = layer->channels;
+    KD_TRY(kd_fits_put_layer(&cards, layer->name, layer->unit, layer->channels > 1, cube->wcs_differ ? NULL : &cube->wcs));
+    if (layer->channels > 1)
+        KD_TRY(put_line(&cards, 3, 1, 1));
+    for (size_t i = sweep->n_axes; i-- > 0;) {
+        shape.axes[shape.n_axes++] = sweep->axes[i].n;
+        KD_TRY(put_axis(&cards, &sweep->axes[i], shape.n_axes));
+    }
+    if (shape.primary)
+        KD_TRY(put_notes(&cards, cube));
+    KD_TRY(kd_fits_head(out, &shape, &cards, layer->sum));
+done:
+    kd_buffer_finish(&cards);
+    return status;
+}
+
+static enum kd_status end_unit(struct writer *w, struct kd_buffer *out)
+{
+    static const uint8_t zeros[KD_FITS_BLOCK];
+    enum kd_status status = kd_buffer_append(out, zeros, kd_fits_padding(w->written));
+    w->unit++;
+    w->begun = false;
+    w->scene = 0;
+    w->at = w->written = 0;
+    return status;
+}
+
+/* The numbers of a scene's file are as they are in the cube. */
+static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, struct kd_error *error)
+{
+    uint64_t slice = kd_cube_slice(&w->cube, w->unit);
+    size_t n = slice - w->at < w->cube.piece_bytes ? (size_t)(slice - w->at) : w->cube.piece_bytes;
+    enum kd_status status = kd_cube_read(&w->cube, w->scene, w->unit, w->at, w->cube.piece, n, error);
+    if (status)
+        return status;
+    w->at += n;
+    w->written += n;
+    if (w->at == slice) {
+        w->at = 0;
+        w->scene++;
+    }
+    if (kd_buffer_append(out, w->cube.piece, n) || (w->scene == w->cube.source->n && end_unit(w, out)))
+        return no_memory(error);
+    return KD_OK;
+}
+
+static void put_double(uint8_t to[8], double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, 8);
+    for (int i = 0; i < 8; i++)
+        to[i] = (uint8_t)(bits >> (56 - 8 * i));
+}
+
+/* The values of an axis as rows of its table; their sum is of whole words, which zeros behind do not change. */
+static enum kd_status put_values(const struct kd_sweep_axis *axis, size_t row, struct kd_buffer *out)
+{
+    enum kd_status status = KD_OK;
+    uint8_t number[8];
+    char *text = calloc(1, row + 1);
+    for (size_t i = 0; i < axis->n && !status; i++) {
+        put_double(number, axis->values[i].number);
+        if (text && !axis->numeric)
+            strncpy(text, axis->values[i].text, row + 1);
+        status = !text ? KD_ENOMEM : kd_buffer_append(out, axis->numeric ? (void *)number : text, row);
+    }
+    free(text);
+    return status;
+}
+
+static enum kd_status put_axis_table(const struct kd_sweep_axis *axis, struct kd_buffer *out)
+{
+    static const uint8_t zeros[KD_FITS_BLOCK];
+    const size_t row = axis->numeric ? 8 : kd_cube_longest(axis);
+    const struct kd_fits_shape shape = { .table = true, .columns = 1, .n_axes = 2, .axes = { row, axis->n } };
+    struct kd_buffer cards = { 0 }, values = { 0 };
+    char form[24] = "1D";
+    enum kd_status status;
+    if (!axis->numeric)
+        snprintf(form, sizeof form, "%zuA", row);
+    KD_TRY(kd_fits_text(&cards, "EXTNAME", axis->path, "field of the scene"));
+    KD_TRY(kd_fits_text(&cards, "TTYPE1", "value", NULL));
+    KD_TRY(kd_fits_text(&cards, "TFORM1", form, NULL));
+    if (axis->numeric && *unit_of(axis))
+        KD_TRY(kd_fits_text(&cards, "TUNIT1", unit_of(axis), NULL));
+    KD_TRY(put_values(axis, row, &values));
+    KD_TRY(kd_buffer_append(&values, zeros, kd_fits_padding(values.size)));
+    KD_TRY(kd_fits_head(out, &shape, &cards, kd_fits_sum(0, values.data, values.size)));
+    KD_TRY(kd_buffer_append(out, values.data, values.size));
+done:
+    kd_buffer_finish(&cards);
+    kd_buffer_finish(&values);
+    return status;
+}
+
+static enum kd_status begin_scenes(const struct kd_cube *cube, struct kd_buffer *out)
+{
+    const struct kd_fits_shape shape = { .table = true, .columns = 2, .n_axes = 2, .axes = { KD_CUBE_ROW, cube->source->n } };
+    struct kd_buffer cards = { 0 };
+    char form[24];
+    enum kd_status status;
+    KD_TRY(kd_fits_text(&cards, "EXTNAME", "SCENES", "in the order of the cube"));
+    KD_TRY(kd_fits_text(&cards, "TTYPE1", "hash", NULL));
+    snprintf(form, sizeof form, "%dA", KD_CUBE_HASH);
+    KD_TRY(kd_fits_text(&cards, "TFORM1", form, NULL));
+    KD_TRY(kd_fits_text(&cards, "TTYPE2", "accuracy", NULL));
+    snprintf(form, sizeof form, "%dA", KD_CUBE_ACCURACY);
+    KD_TRY(kd_fits_text(&cards, "TFORM2", form, NULL));
+    KD_TRY(kd_fits_head(out, &shape, &cards, cube->rows_sum));
+done:
+    kd_buffer_finish(&cards);
+    return status;
+}
+
+static enum kd_status go_on_with_scenes(struct writer *w, struct kd_buffer *out, struct kd_error *error)
+{
+    char row[KD_CUBE_ROW];
+    enum kd_status status = kd_cube_row(&w->cube, w->scene, row, error);
+    if (status)
+        return status;
+    w->written += sizeof row;
+    w->scene++;
+    if (kd_buffer_append(out, row, sizeof row) || (w->scene == w->cube.source->n && end_unit(w, out)))
+        return no_memory(error);
+    return KD_OK;
+}
+
+static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over, struct kd_error *error)
+{
+    struct writer *w = state;
+    const struct kd_sweep *sweep = w->cube.source->sweep;
+    bool looked;
+    enum kd_status status = kd_cube_look(&w->cube, &looked, error);
+    if (status || !looked)
+        return status;
+    const bool layer = w->unit < w->cube.n_layers, axis = !layer && w->unit < w->cube.n_layers + sweep->n_axes;
+    if (axis)
+        return put_axis_table(&sweep->axes[w->unit++ - w->cube.n_layers], out) ? no_memory(error) : KD_OK;
+    *over = w->unit > w->cube.n_layers + sweep->n_axes;
+    if (*over)
+        return KD_OK;
+    if (!w->begun) {
+        w->begun = true;
+        return (layer ? begin_layer(w, out) : begin_scenes(&w->cube, out)) ? no_memory(error) : KD_OK;
+    }
+    return layer ? go_on_with_layer(w, out, error) : go_on_with_scenes(w, out, error);
+}
+
+const struct kd_gather_format kd_gather_fits = {
+    .name = "fits", .media_type = "application/fits", .of = &kd_format_fits, .open = open_cube, .next = next_piece, .close = close_cube,
+};

@@ -1,0 +1,108 @@
+/* This file has the cards of FITS headers that several files have. */
+#include "render/output/fits_cards.h"
+
+#include "image/fits.h"
+#include "physics/scale.h"
+#include "scene/table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static enum kd_status put_axes(struct kd_buffer *cards, const struct kd_wcs *wcs, const struct kd_wcs_axis axes[2], const char *alternate)
+{
+    static const char *const names[] = { "CTYPE", "CRPIX", "CRVAL", "CDELT", "CUNIT" };
+    enum kd_status status;
+    for (int i = 0; i < 2; i++) {
+        const double numbers[] = { 0, axes[i].pixel, axes[i].value, axes[i].step };
+        char key[16];
+        for (int k = 0; k < 5; k++) {
+            snprintf(key, sizeof key, "%s%d%s", names[k], i + 1, alternate);
+            if (k == 0 || k == 4) {
+                const char *text = k ? axes[i].unit : axes[i].type;
+                if (*text)
+                    KD_TRY(kd_fits_text(cards, key, text, NULL));
+            } else {
+                KD_TRY(kd_fits_real(cards, key, numbers[k], NULL));
+            }
+        }
+        for (int j = 0; j < 2 && wcs->turn[0][0] != 1; j++) {
+            snprintf(key, sizeof key, "PC%d_%d%s", i + 1, j + 1, alternate);
+            KD_TRY(kd_fits_real(cards, key, wcs->turn[i][j], NULL));
+        }
+    }
+    return KD_OK;
+done:
+    return status;
+}
+
+static enum kd_status put_world(struct kd_buffer *cards, const struct kd_wcs *wcs)
+{
+    enum kd_status status = KD_OK;
+    if (!wcs)
+        return kd_fits_comment(cards, "world coordinates of the pictures: they differ from scene to scene");
+    if (!wcs->known)
+        return kd_fits_comment(cards, "no world coordinates: a ring, or two pictures side by side");
+    KD_TRY(put_axes(cards, wcs, wcs->at, ""));
+    if (!wcs->far) {
+        KD_TRY(kd_fits_text(cards, "WCSNAME", "camera", "to the right of its axis, and above it"));
+        return KD_OK;
+    }
+    KD_TRY(put_axes(cards, wcs, wcs->impact, "A"));
+    KD_TRY(kd_fits_text(cards, "WCSNAMEA", "impact parameters", "M"));
+done:
+    return status;
+}
+
+enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb, const struct kd_wcs *wcs)
+{
+    enum kd_status status;
+    KD_TRY(kd_fits_text(cards, "EXTNAME", name, "word of image.layers"));
+    if (*unit)
+        KD_TRY(kd_fits_text(cards, "BUNIT", unit, *unit == 'M' ? "G m/c^2" : NULL));
+    KD_TRY(put_world(cards, wcs));
+    if (rgb) {
+        KD_TRY(kd_fits_text(cards, "CTYPE3", "RGB", "linear sRGB"));
+        KD_TRY(kd_fits_comment(cards, "in units of the brightest surface brightness of the disk at g = 1"));
+    }
+done:
+    return status;
+}
+
+static enum kd_status put_number(struct kd_buffer *cards, const char *key, double value, const char *comment)
+{
+    return isfinite(value) ? kd_fits_real(cards, key, value, comment) : kd_fits_text(cards, key, "infinity", comment);
+}
+
+static double microarcseconds(const struct kd_scene *s) { return kd_scale_microarcseconds(s->spacetime.mass_msun, s->spacetime.distance_pc); }
+
+static bool varies(const struct kd_sweep *sweep, const char *path)
+{
+    for (size_t i = 0; sweep && i < sweep->n_axes; i++)
+        if (kd_scene_same_path(sweep->axes[i].path, path))
+            return true;
+    return false;
+}
+
+enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene *s, const struct kd_sweep *sweep)
+{
+    const struct { const char *key; double value; const char *comment, *of[2]; } numbers[] = {
+        { "SPIN", s->spacetime.spin, "a/M", { "spacetime.spin" } },
+        { "MASS", s->spacetime.mass_msun, "solar masses", { "spacetime.mass_msun" } },
+        { "DISTANCE", s->spacetime.distance_pc, "pc", { "spacetime.distance_pc" } },
+        { "M_UAS", microarcseconds(s), "M on the sky, microarcseconds", { "spacetime.mass_msun", "spacetime.distance_pc" } },
+        { "CAM_R", s->camera.r, "M; Boyer-Lindquist radius of the observer", { "camera.r" } },
+        { "CAM_INCL", s->camera.inclination_deg, "deg; from the axis of spin", { "camera.inclination_deg" } },
+        { "CAM_AZIM", s->camera.azimuth_deg, "deg", { "camera.azimuth_deg" } },
+        { "TIME_M", s->top.time, "M; coordinate time of the scene", { "time" } },
+    };
+    enum kd_status status;
+    KD_TRY(kd_fits_text(cards, "OBJECT", "Kerr black hole", NULL));
+    KD_TRY(kd_fits_real(cards, "OBSRA", 0, "deg; the hole is taken to be there"));
+    KD_TRY(kd_fits_real(cards, "OBSDEC", 0, "deg"));
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!varies(sweep, numbers[i].of[0]) && !(numbers[i].of[1] && varies(sweep, numbers[i].of[1])))
+            KD_TRY(put_number(cards, numbers[i].key, numbers[i].value, numbers[i].comment));
+done:
+    return status;
+}

@@ -1,0 +1,53 @@
+/* Files of many frames become one file, piece by piece: nothing of the size of all of them is ever held in memory. One thread each.
+ *
+ *     kd_gather_open(&kd_gather_zip, &source, &gather, &error);
+ *     for (bool over = false; !over && !status;)
+ *         status = kd_gather_next(gather, &out, &over, &error);      and take what it has put into out
+ *     kd_gather_close(gather);
+ *
+ * The same frames give the same bytes, whoever keeps them and whenever they were made. */
+#ifndef KD_RENDER_OUTPUT_GATHER_H
+#define KD_RENDER_OUTPUT_GATHER_H
+
+#include "render/output/format.h"
+#include "scene/sweep.h"
+
+#define KD_GATHER_PIECE (256u << 10) /* bytes that one call gives, about */
+
+/* The frames' files, all of which are there. It lives as long as what is made of them. */
+struct kd_gather_source {
+    void *user;
+    const struct kd_sweep *sweep;  /* whose scenes they are; NULL: of none, for a ZIP alone */
+    const struct kd_format *frame; /* what they are */
+    unsigned n;
+    bool (*size)(void *user, unsigned frame, uint64_t *out);
+    bool (*read)(void *user, unsigned frame, uint64_t at, void *to, size_t size); /* all of these bytes, or false */
+};
+
+/* What they become. */
+struct kd_gather_format {
+    const char *name, *media_type;
+    const struct kd_format *of; /* of frames of this format; NULL: of any */
+    enum kd_status (*open)(const struct kd_gather_source *source, void **state, struct kd_error *error);
+    enum kd_status (*next)(void *state, struct kd_buffer *out, bool *over, struct kd_error *error);
+    void (*close)(void *state);
+};
+
+/* "000012.png" ... of a sequence; of a sweep names that tell values, behind index.json with the scene, the axes and these names. */
+extern const struct kd_gather_format kd_gather_zip;
+/* Cubes: an array of each layer, of all scenes of a sweep, with an array of the values of each axis (cube.h). */
+extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
+
+/* Whether the scenes of a sweep make a cube: all of them are of the same size and have the same layers. KD_EINVAL at the axis that makes them differ. */
+enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error);
+
+struct kd_gather {
+    const struct kd_gather_format *format;
+    void *state;
+};
+enum kd_status kd_gather_open(const struct kd_gather_format *format, const struct kd_gather_source *source, struct kd_gather *out, struct kd_error *error);
+/* Appends more; it may append nothing now and then. *over: that was all. KD_ENOMEM, and KD_EIO where a frame's file is not what it was. */
+enum kd_status kd_gather_next(struct kd_gather *gather, struct kd_buffer *out, bool *over, struct kd_error *error);
+void kd_gather_close(struct kd_gather *gather); /* one that was never opened too */
+
+#endif

@@ -1,0 +1,81 @@
+#include "render/plan/sweep_order.h"
+
+#include "render/plan/plan.h"
+
+#include <stdlib.h>
+
+enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms)
+{
+    if (!(order->n & (order->n - 1))) { /* room for twice as many */
+        struct kd_sweep_order_item *more = realloc(order->items, (order->n ? 2 * (size_t)order->n : 1) * sizeof *more);
+        if (!more)
+            return KD_ENOMEM;
+        order->items = more;
+    }
+    order->items[order->n] = (struct kd_sweep_order_item) { group, order->n, order->n, trace_ms };
+    order->n++;
+    return KD_OK;
+}
+
+static int by_number(unsigned a, unsigned b) { return (a > b) - (a < b); }
+
+static int by_group(const void *a, const void *b)
+{
+    const struct kd_sweep_order_item *x = a, *y = b;
+    return x->group != y->group ? (x->group < y->group ? -1 : 1) : by_number(x->frame, y->frame);
+}
+
+static int by_first(const void *a, const void *b)
+{
+    const struct kd_sweep_order_item *x = a, *y = b;
+    return x->first != y->first ? by_number(x->first, y->first) : by_number(x->frame, y->frame);
+}
+
+enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_ms)
+{
+    struct kd_sweep_order_item *items = order->items;
+    *shared_ms = 0;
+    if (!order->n)
+        return KD_OK;
+    order->frames = malloc(order->n * sizeof *order->frames);
+    if (!order->frames)
+        return KD_ENOMEM;
+    qsort(items, order->n, sizeof *items, by_group);
+    for (unsigned i = 1; i < order->n; i++)
+        if (items[i].group == items[i - 1].group) {
+            items[i].first = items[i - 1].first;
+            *shared_ms += items[i].trace_ms;
+        }
+    qsort(items, order->n, sizeof *items, by_first);
+    for (unsigned i = 0; i < order->n; i++)
+        order->frames[i] = items[i].frame;
+    free(items);
+    order->items = NULL;
+    return KD_OK;
+}
+
+enum kd_status kd_sweep_order_of(const struct kd_sweep *sweep, struct kd_sweep_order *out)
+{
+    double shared_ms;
+    enum kd_status status = KD_OK;
+    *out = (struct kd_sweep_order) { 0 };
+    for (unsigned i = 0; sweep && i < sweep->scenes; i++) {
+        struct kd_scene scene;
+        uint64_t group = 0;
+        if (!kd_sweep_scene(sweep, i, &scene, NULL)) /* one that is none fails when its turn comes */
+            KD_TRY(kd_plan_lens_group(&scene, &group));
+        KD_TRY(kd_sweep_order_add(out, group, 0));
+    }
+    KD_TRY(kd_sweep_order_end(out, &shared_ms));
+done:
+    if (status)
+        kd_sweep_order_finish(out);
+    return status;
+}
+
+void kd_sweep_order_finish(struct kd_sweep_order *order)
+{
+    free(order->items);
+    free(order->frames);
+    *order = (struct kd_sweep_order) { 0 };
+}

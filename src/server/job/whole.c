@@ -1,0 +1,103 @@
+#include "server/job/whole.h"
+
+#include "base/log.h"
+#include "server/http/reply.h"
+#include "server/job/routes.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct whole {
+    struct kd_job *job; /* a reference */
+    struct kd_gather_source source;
+    struct kd_gather gather;
+    struct kd_buffer out; /* made and not yet taken, from `at` on */
+    size_t at;
+    bool over;
+    int fd; /* of the file that was read last, -1: none */
+    unsigned frame;
+    uint64_t size;
+};
+
+static bool open_frame(struct whole *w, unsigned frame)
+{
+    if (w->fd >= 0 && w->frame == frame)
+        return true;
+    if (w->fd >= 0)
+        close(w->fd);
+    w->frame = frame;
+    w->fd = kd_job_frame(w->job, frame, &w->size);
+    return w->fd >= 0;
+}
+
+static bool size_of(void *user, unsigned frame, uint64_t *out)
+{
+    struct whole *w = user;
+    bool there = open_frame(w, frame);
+    *out = there ? w->size : 0;
+    return there;
+}
+
+static bool read_frame(void *user, unsigned frame, uint64_t at, void *to, size_t size)
+{
+    struct whole *w = user;
+    char *out = to;
+    ssize_t n = 1;
+    if (!open_frame(w, frame))
+        return false;
+    for (; size && n > 0; size -= (size_t)n, at += (uint64_t)n, out += n)
+        n = pread(w->fd, out, size, (off_t)at);
+    return n > 0;
+}
+
+static void release(void *cls)
+{
+    struct whole *w = cls;
+    kd_gather_close(&w->gather);
+    if (w->fd >= 0)
+        close(w->fd);
+    kd_buffer_finish(&w->out);
+    kd_job_release(w->job);
+    free(w);
+}
+
+/* 0 while nothing has come yet: libmicrohttpd asks again once it has looked after others. */
+static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
+{
+    struct whole *w = cls;
+    struct kd_error error = { 0 };
+    (void)position;
+    if (w->at == w->out.size) {
+        w->out.size = w->at = 0;
+        if (!w->over && kd_gather_next(&w->gather, &w->out, &w->over, &error)) {
+            kd_log(KD_LOG_ERROR, "job %.4s...: %s", kd_job_id(w->job), error.message);
+            return MHD_CONTENT_READER_END_WITH_ERROR;
+        }
+    }
+    size_t left = w->out.size - w->at, n = left < size ? left : size;
+    if (!n)
+        return w->over ? MHD_CONTENT_READER_END_OF_STREAM : 0;
+    memcpy(to, w->out.data + w->at, n);
+    w->at += n;
+    return (ssize_t)n;
+}
+
+enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format)
+{
+    struct kd_error error = { 0 };
+    kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
+    struct whole *w = request->head ? NULL : calloc(1, sizeof *w);
+    if (!w) {
+        kd_job_release(job);
+        return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
+                             : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    *w = (struct whole) { .job = job, .fd = -1, .source = { .user = w, .sweep = status->sweep, .frame = status->series->frame, .n = status->frames,
+                                                             .size = size_of, .read = read_frame } };
+    if (!kd_gather_open(format, &w->source, &w->gather, &error))
+        return kd_job_stream(request, format->media_type, produce, w, release);
+    release(w);
+    const struct kd_problem problem = kd_problem_from(&error);
+    return kd_reply_problem(request, &problem);
+}

@@ -1,0 +1,11 @@
+/* Answers with all files of a job that is done as one (render/output/gather.h), piece by piece. HTTP thread. */
+#ifndef KD_SERVER_JOB_WHOLE_H
+#define KD_SERVER_JOB_WHOLE_H
+
+#include "server/http/request.h"
+#include "server/job/jobs.h"
+
+/* Takes the reference over. */
+enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format);
+
+#endif

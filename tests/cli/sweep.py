@@ -1,0 +1,163 @@
+"""Sweeps: a cube as astropy and numpy read it, to the bit what single renders give; axes, world coordinates, tables; pictures and light by axes; what is refused."""
+import csv
+import io
+import itertools
+import json
+import shutil
+import subprocess
+import sys
+import warnings
+import zipfile
+
+import support
+
+try:
+    import numpy
+    from astropy.io import fits
+    from astropy.wcs import WCS
+except ImportError as missing:
+    print(f"left out: {missing}; scripts/setup --browser installs it")
+    sys.exit(77)
+
+SCENE = [*support.SMALL, "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
+LAYERS = ["rgb", "r", "g_1"]
+AXES = {"disk.outer": ["20", "30"], "camera.inclination_deg": ["30", "45", "60"], "disk.model": ["novikov-thorne", "particles"]}
+ARGUMENTS = ["-x", "disk.outer=20,30", "-x", "camera.inclination_deg=30:60:15", "-x", "disk.model=novikov-thorne,particles"]
+SHAPE = (2, 3, 2)
+MADE = {}
+
+
+def bits(array):
+    return numpy.ascontiguousarray(array, numpy.float32).view(numpy.uint32)
+
+
+class Sweep(support.Case):
+    def setUp(self):
+        """The same cube in both formats, made once: cube.fits, cube.npz, and what the command line says of each."""
+        super().setUp()
+        if not MADE:
+            for name in "cube.fits", "cube.npz":
+                self.stats = self.swept(name)
+                MADE[name] = (self.read(name), self.stats)
+        for name, (data, self.stats) in MADE.items():
+            self.write(name, data)
+
+    def swept(self, name, *more, layers=LAYERS, axes=ARGUMENTS):
+        done = support.run("sweep", *SCENE, "--set", "image.layers=" + ",".join(layers), *axes, *more, "-t", "-o", self.path(name))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stderr)
+
+    def opened(self, name):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            units = fits.open(self.path(name), checksum=True)
+            units.verify("exception")
+        self.addCleanup(units.close)
+        return units
+
+    def test_a_cube_is_its_scenes(self):
+        """In both formats, against a file of each scene by itself."""
+        self.assertEqual((self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6))  # three inclinations, of two disks that need different things of a map
+        units, arrays = self.opened("cube.fits"), numpy.load(self.path("cube.npz"))
+        self.assertEqual([unit.header["EXTNAME"] for unit in units], [*LAYERS, *AXES, "SCENES"])
+        hashes = units["SCENES"].data["hash"].reshape(SHAPE)
+        for at in itertools.product(*(range(n) for n in SHAPE)):
+            chosen = [f"{path}={values[i]}" for (path, values), i in zip(AXES.items(), at)]
+            self.good("render", *SCENE, *(part for text in chosen for part in ("--set", text)), "--set", "image.layers=" + ",".join(LAYERS), "-o", self.path("b.npz"))
+            alone = numpy.load(self.path("b.npz"))
+            for name in LAYERS:
+                self.assertTrue(numpy.array_equal(bits(arrays[name][at]), bits(alone[name])), (name, chosen))
+                rows = units[name].data[at][..., ::-1, :]
+                self.assertTrue(numpy.array_equal(bits(numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows), bits(alone[name])), (name, chosen))
+            notes = json.loads(alone["notes.json"])
+            self.assertEqual((hashes[at], arrays["scene_hash"][at].decode()), (notes["hash"], notes["hash"]))
+            self.assertIn("sampled=", arrays["scene_accuracy"][at].decode())
+            told = json.loads(arrays["notes.json"])
+            self.assertLessEqual(set(notes["approximations"]), set(told["approximations"]))
+        self.assertGreater(len(told["approximations"]), len(notes["approximations"]))
+        self.assertFalse(numpy.array_equal(bits(arrays["rgb"][0, 0, 0]), bits(arrays["rgb"][1, 0, 0])))
+
+    def test_axes(self):
+        units, arrays = self.opened("cube.fits"), numpy.load(self.path("cube.npz"))
+        self.assertEqual(units["r"].data.shape, (*SHAPE, 36, 64))
+        self.assertEqual(units["rgb"].data.shape, (*SHAPE, 3, 36, 64))
+        for path, values in AXES.items():
+            expected = values if path == "disk.model" else [float(v) for v in values]
+            self.assertEqual([*units[path].data["value"]], expected)
+            self.assertEqual([*arrays[path]], expected)
+        self.assertEqual(units["camera.inclination_deg"].columns["value"].unit, "deg")
+        told = json.loads(arrays["notes.json"])
+        self.assertEqual(told["axes"], {"disk.outer": [20, 30], "camera.inclination_deg": [30, 45, 60], "disk.model": AXES["disk.model"]})
+        header = units[0].header
+        self.assertEqual((json.loads(header["KDAXES"]), json.loads(header["KDSCENE"])), (told["axes"], told["scene"]))
+        self.assertEqual((header["SPIN"], "CAM_INCL" in header), (0.7, False))
+        # world coordinates by astropy: the second outer radius, the third inclination, the first disk, of the layer r
+        self.swept("b.fits", axes=ARGUMENTS[:2] + ARGUMENTS[4:])
+        for name in "cube.fits", "b.fits":
+            world = WCS(self.opened(name)["r"].header)
+            types = [*world.wcs.ctype]
+            self.assertEqual(types[2:], ["INDEX", *(["camera.inclination_deg"] if name == "cube.fits" else []), "disk.outer"])
+            self.assertEqual(world.wcs.cname[2], "disk.model")
+            pixel = [0, 35, 0, 2, 1] if name == "cube.fits" else [0, 35, 0, 1]
+            at = world.all_pix2world([pixel], 0)[0]
+            self.assertEqual([*at[2:]], [1, 60, 30] if name == "cube.fits" else [1, 30])
+        self.assertTrue(types[0].startswith("RA---"))
+
+    def test_world_coordinates_that_differ_are_left_out(self):
+        self.swept("a.fits", layers=["r"], axes=["-x", "camera.field_m=20,40"])
+        header = self.opened("a.fits")[0].header
+        self.assertEqual((header.get("CTYPE1"), header["CTYPE3"]), (None, "camera.field_m"))
+        self.assertIn("differ from scene to scene", str(header["COMMENT"]))
+
+    def test_the_standard(self):
+        if not shutil.which("fitsverify"):
+            self.skipTest("fitsverify is missing")
+        for layers in (["r"], ["rgb", "g"]):
+            self.swept("a.fits", layers=layers)
+            done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
+
+    def test_style_and_disk_take_one_lens_map(self):
+        """A hundred scenes."""
+        axes = ["-x", "disk.outer=15:24:1", "-x", "style.exposure=-1:1/5", "-x", "camera.azimuth_deg=0,90"]
+        self.assertEqual(self.swept("a.npz", layers=["rgb"], axes=axes)["lens_maps_traced"], 1)
+        self.assertEqual(numpy.load(self.path("a.npz"))["rgb"].shape, (10, 5, 2, 36, 64, 3))
+
+    def test_pictures(self):
+        stats = self.swept("a.zip", layers=["rgb"], axes=["-x", "style.exposure=0,1", "-x", "spacetime.spin=0,0.5,0.9"])
+        self.assertEqual(stats["lens_maps_traced"], 3)
+        with zipfile.ZipFile(self.path("a.zip")) as pictures:
+            self.assertIsNone(pictures.testzip())
+            index = json.loads(pictures.read("index.json"))
+            self.assertEqual(index["axes"], {"style.exposure": [0, 1], "spacetime.spin": [0, 0.5, 0.9]})
+            self.assertEqual(pictures.namelist(), ["index.json", *index["files"]])
+            self.assertEqual(index["files"][4], "000004 exposure=1 spin=0.5.png")
+            self.write("one.png", pictures.read(index["files"][4]))
+        self.good("render", *SCENE, "--set", "style.exposure=1", "--set", "spacetime.spin=0.5", "-o", self.path("alone.png"))
+        self.assertEqual(self.read("one.png"), self.read("alone.png"))
+
+    def test_light(self):
+        axes = ["-x", "disk.model=novikov-thorne,none", "-x", "camera.inclination_deg=20,70"]
+        for name in "a.csv", "a.json":
+            self.swept(name, layers=["rgb"], axes=axes)
+        rows = [*csv.DictReader(io.StringIO(self.read("a.csv").decode()))]
+        self.assertEqual([*rows[0]][:4], ["frame", "disk.model", "camera.inclination_deg", "t"])
+        told = json.loads(self.read("a.json"))["frames"]
+        self.assertEqual([(r["disk.model"], float(r["camera.inclination_deg"]), float(r["flux"])) for r in rows],
+                         [(r["disk.model"], r["camera.inclination_deg"], r["flux"]) for r in told])
+        self.good("light-curve", *SCENE, "--set", "camera.inclination_deg=70", "-n", "2", "-b", "1", "-o", self.path("b.json"))
+        self.assertEqual(told[1]["flux"], json.loads(self.read("b.json"))["frames"][0]["flux"])
+        self.assertEqual([r["flux"] for r in told[2:]], [0, 0])
+
+    def test_what_is_refused(self):
+        out = ["-o", self.path("a.fits")]
+        for words, *arguments in (("--axis is missing", *out), ("-o FILE is missing", "-x", "time=0,1"), ("allowed is a name that ends in", "-x", "time=0,1", "-o", "a.png"),
+                                  ("spacetime.spin is 2, allowed", "-x", "spacetime.spin=0,2", *out), ("no cube has pictures of several sizes", "-x", "image.width=32,64", *out),
+                                  ("with spacetime.spin 0 and disk.inner 2: disk.inner is 2 M", "-x", "spacetime.spin=0.998,0", "-x", "disk.inner=2", *out),
+                                  ("an axis is \"spin\"", "-x", "spin", *out), ("holds 0.5 twice", "-x", "spacetime.spin=0.5,0.50", *out)):
+            with self.subTest(words):
+                self.bad(2, words, "sweep", *SCENE, *arguments)
+
+
+support.main(needs_device=True)
