@@ -1,4 +1,4 @@
-// "Fall in": the observer falls freely through the horizon, while its clock, the starlight behind it and the black disk before it are told. Where it
+// "Fall in": the observer falls freely through the horizon, while its clock, the redshift of the sky and the black disk before it are told. Where it
 // is after which of its own time the server says (/v1/physics/infall); the page moves the camera along.
 import { byId, latest, still } from './dom.js';
 import { duration, number, t, tell } from './i18n.js';
@@ -16,7 +16,6 @@ const rates = ['azimuth_rate_deg', 'time_rate', 'proper_time_rate'].map(name => 
 // It takes these from the scene, and gives them back.
 const taken = [...['r', 'azimuth_deg', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(name => 'camera.' + name), 'sky.model', 'time', ...rates];
 
-const angle = radians => `${number((radians * 180) / Math.PI, 3)}°`;
 const turn = degrees => Math.round((degrees - 360 * Math.round(degrees / 360)) * 1e3) / 1e3;
 const falls = scene => scene.get('camera.r') !== 'infinity' && scene.get('camera.observer') === 'infall';
 
@@ -88,11 +87,14 @@ export function buildFall(scene) {
     return way.end ? t('The inner horizon, where the model ends', 'L’orizzonte interno, dove il modello finisce') : t('The singularity: the end', 'La singolarità: la fine');
   }
 
-  // The black disk from where the camera is.
+  // The sky from where the camera is, and the black disk before it.
   const measure = latest(async place => {
     const { mass_msun, ...who } = faller(scene),
-      { values } = await physics('shadow', { ...who, observer: 'infall', observer_r: Number(place.r.toPrecision(3)), angle_deg: 0 });
-    byId('fall-disk').textContent = values.width == null ? '–' : t(`${angle(values.width)} wide`, `largo ${angle(values.width)}`);
+      { values } = await physics('sky', { ...who, observer: 'infall', observer_r: Number(place.r.toPrecision(3)), yaw_deg: 180 }),
+      wide = number(2 * values.dark_radius_deg, 3),
+      part = number(100 * values.dark_share, 2);
+    byId('fall-sky').textContent = t(`× ${number(values.g_least, 3)} to ${number(values.g_greatest, 3)}`, `da × ${number(values.g_least, 3)} a ${number(values.g_greatest, 3)}`);
+    byId('fall-disk').textContent = t(`${wide}° wide, ${part} % of sky`, `largo ${wide}°, ${part} % del cielo`);
   });
 
   function show(place) {
@@ -106,7 +108,7 @@ export function buildFall(scene) {
     at.value = (1000 * Math.log(time / first())) / Math.log(last() / first());
     at.setAttribute('aria-valuetext', `${byId('fall-r').textContent}, ${now}`);
     play.textContent = playing ? t('Pause', 'Pausa') : time > last() ? t('Go on', 'Continua') : t('Again', 'Di nuovo');
-    measure(place).catch(() => (byId('fall-disk').textContent = '–')); // the others are as good without
+    measure(place).catch(() => (byId('fall-sky').textContent = byId('fall-disk').textContent = '–')); // the others are as good without
   }
 
   function put(left) {

@@ -39,12 +39,18 @@ class Falling(Browser):
 
     def test_the_disk_at_the_horizon(self):
         """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it at an angle from straight ahead
-        with r sin = b (1 - v cos): 42.1 degrees at r = 2."""
+        with r sin = b (1 - v cos): 42.1 degrees at r = 2. Starlight comes from there at 1/(1 - v cos) of its frequency."""
         page = self.open(SKY + '&camera.observer=infall&camera.r=2.001', viewport={'width': 400, 'height': 300}, reduced_motion='reduce')
         page.click('#fall-in')
         self.assertTrue(daemon.eventually(lambda: self.told(page, 'disk') not in ('', '–')))
         self.assertEqual(page.inner_text('#fall-play'), 'Go on', 'who wants no motion has none')
-        self.assertAlmostEqual(value(self.told(page, 'disk').split('°')[0]), 2 * 42.1, delta=0.15)
+        wide, part = self.told(page, 'disk').split('° wide, ')
+        self.assertAlmostEqual(value(wide), 2 * 42.1, delta=0.15)
+        speed, half = math.sqrt(2 / 2.001), math.radians(value(wide) / 2)
+        self.assertAlmostEqual(value(part.split(' %')[0]), 50 * (1 - math.cos(half)), delta=0.55)
+        least, most = (value(word) for word in self.told(page, 'sky')[2:].split(' to '))
+        self.assertAlmostEqual(least, 1 / (1 + speed), delta=1e-3)  # from behind
+        self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)  # next to the disk
         self.assertEqual(self.told(page, 'where'), 'Falling freely')
         page.focus('#fall-at')
         page.keyboard.press('ArrowRight')
