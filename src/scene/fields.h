@@ -83,7 +83,7 @@
     REAL(disk, outer, MODEL, FRONT, 22.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                    \
     REAL(disk, taper, MODEL, REST, 0.7, 0.0, 1.0, "1",                                                               \
          "the outer fraction of the radius over which the disk fades out; 0 cuts it sharply")                        \
-    REAL(disk, opacity, MODEL, FRONT, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")           \
+    REAL(disk, opacity, MODEL, REST, 1.0, 0.0, 1.0, "1", "opacity of one crossing; 1 is optically thick")            \
     REAL(disk, emission_opacity, MODEL, REST, 10.0, 0.0, 1e6, "1",                                                    \
          "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - exp(-depth/cos) of " \
          "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere")             \
@@ -98,7 +98,7 @@
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC,                                                                 \
          "brightness: bolometric, g^4 F; or visible, the luminance of the Planck spectrum as the eye weighs it",     \
          "bolometric|visible")                                                                                       \
-    BOOL(disk, doppler, PHYSICS, FRONT, true, "the Doppler shift and beaming of the orbiting gas")                   \
+    BOOL(disk, doppler, PHYSICS, REST, true, "the Doppler shift and beaming of the orbiting gas")                    \
     BOOL(disk, redshift, PHYSICS, REST, true, "gravitational redshift and time dilation of the orbiting gas")        \
     INT(disk, particles, MODEL, REST, 300000, 1000, 10000000, "1", "number of particles (model: particles)")         \
     INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", "another number, other particles (model: particles)")        \
