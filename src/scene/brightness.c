@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include <math.h>
+
 #define ALONE 0.2    /* in a picture that is exposed for it */
 #define BEHIND 0.01  /* bright stars beside a disk, not a white sky */
 
@@ -14,4 +16,15 @@ double kd_scene_sky_brightness(const struct kd_scene *scene)
     if (isfinite(scene->sky.brightness))
         return scene->sky.brightness;
     return scene->sky.model != KD_SKY_GRID && shines_before(scene) ? BEHIND : ALONE;
+}
+
+#define DARK 0.25 /* of white: the sky's unit at most, so that space is black between what shines */
+
+double kd_scene_exposure_most(const struct kd_scene *scene)
+{
+    const double brightness = kd_scene_sky_brightness(scene);
+    const bool chosen = isfinite(scene->sky.brightness) && shines_before(scene);
+    if (scene->sky.model == KD_SKY_NONE || scene->sky.model == KD_SKY_GRID || scene->style.palette != KD_PALETTE_COLOUR || chosen || !(brightness > 0))
+        return INFINITY;
+    return log2(DARK / brightness);
 }

@@ -130,6 +130,11 @@ double kd_scene_width_uas(const struct kd_scene *scene);
 /* Gives sky.brightness, and what "auto" stands for. */
 double kd_scene_sky_brightness(const struct kd_scene *scene);
 
+/* Gives the stops that style.exposure "auto" does not go beyond, so that a sky without anything brighter before it is not lifted to grey: those at which
+ * 21 magnitudes a square arcsecond are a quarter of white. INFINITY without stars or a Milky Way, in false colour, and where sky.brightness is given
+ * beside what shines more: then that ratio is what is wanted. */
+double kd_scene_exposure_most(const struct kd_scene *scene);
+
 /* Finds the spots that are on, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 

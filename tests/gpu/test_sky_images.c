@@ -216,6 +216,52 @@ static void white(void **state)
     }
 }
 
+/* An automatic exposure does not lift a sky that stands alone: looked at away from the Milky Way, most of it is black, with stars in it. */
+static void space_is_black(void **state)
+{
+    (void)state;
+    static const int models[] = { KD_SKY_STARS, KD_SKY_CATALOGUE, KD_SKY_IMAGE };
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        struct kd_scene scene = scene_of(models[i], "");
+        uint32_t counts[256] = { 0 }, below = 0, median = 0;
+        scene.camera.r = 40;
+        scene.camera.projection = KD_PROJECTION_AUTO;
+        scene.camera.pitch_deg = 80;
+        scene.sky.limit_mag = 14;
+        scene.sky.brightness = i ? 1 : INFINITY; /* whatever it is: */
+        scene.style.exposure = INFINITY;
+        struct kd_frame frame = shot(&scene);
+        const uint8_t *shown = frame.layers[0].data;
+        for (size_t k = 0; k < (size_t)WIDTH * HEIGHT; k++)
+            counts[shown[3 * k + 1]]++;
+        for (; (below += counts[median]) < (uint32_t)WIDTH * HEIGHT / 2;)
+            median++;
+        uint32_t bright = 0;
+        for (int level = 128; level < 256; level++)
+            bright += counts[level];
+        printf("model %d: %.3f stops, median %u of 255, %u pixels above 127\n", models[i], frame.exposure, median, bright);
+        assert_true(frame.exposure <= log2(0.25 / (i ? 1 : 0.2)) + 1e-12 && median <= 8 && (models[i] == KD_SKY_IMAGE || bright > 500));
+        kd_frame_finish(&frame);
+    }
+}
+
+/* What is wanted brighter is: false colour, the grid, and a sky whose brightness is given beside a disk. */
+static void lifted_all_the_same(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(KD_SKY_CATALOGUE, "");
+    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* of brightness 1 to a quarter */
+    scene.style.palette = KD_PALETTE_HEAT;
+    assert_true(isinf(kd_scene_exposure_most(&scene)));
+    scene = scene_of(KD_SKY_GRID, "");
+    assert_true(isinf(kd_scene_exposure_most(&scene)));
+    scene = scene_of(KD_SKY_CATALOGUE, "");
+    scene.disk.model = KD_DISK_NOVIKOV_THORNE;
+    assert_true(isinf(kd_scene_exposure_most(&scene)));
+    scene.sky.brightness = INFINITY; /* a hundredth beside a disk */
+    assert_true(fabs(kd_scene_exposure_most(&scene) - log2(25)) < 1e-12);
+}
+
 static double largest(const struct kd_frame *a, const struct kd_frame *b, const struct kd_frame *sum)
 {
     double worst = 0;
@@ -338,7 +384,7 @@ int main(void)
         return skip;
     void *image = (void *)marked();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(marks_and_stars, image), cmocka_unit_test(white), cmocka_unit_test_prestate(stars_over_pictures, image),
+        cmocka_unit_test_prestate(marks_and_stars, image), cmocka_unit_test(white), cmocka_unit_test(space_is_black), cmocka_unit_test(lifted_all_the_same), cmocka_unit_test_prestate(stars_over_pictures, image),
         cmocka_unit_test_prestate(here_and_gone, image), cmocka_unit_test_prestate(credit_in_files, image), cmocka_unit_test_prestate(memory, image),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,8 +61,9 @@ enum kd_status kd_frame_expose(struct kd_frame_job *j)
     if (!isinf(scene->style.exposure))
         return KD_OK;
     enum kd_status status = measure(j);
-    if (!status)
-        j->frame->exposure =
-            kd_plan_exposure(j->plan, auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->beam.cell));
+    if (!status) {
+        const double stops = auto_exposure(kd_vk_buffer_map(j->store->counts), scene->style.tone_map, j->plan->beam.cell);
+        j->frame->exposure = kd_plan_exposure(j->plan, fmin(stops, kd_scene_exposure_most(scene)));
+    }
     return status;
 }
