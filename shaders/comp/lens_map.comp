@@ -31,6 +31,34 @@ layout(set = 0, binding = 1) buffer Given { uint undecided; }; /* rays given up 
 
 const float EPSILON = 6e-8; /* unit roundoff */
 
+/* Boole's weights of five places. */
+float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
+
+/* A group of four steps in which a ray turns that goes back to the horizon. */
+struct kd_turn {
+    kd_state start;
+    float part, drag; /* the steps up to the turn, 0 to 4; what Boole's rule gave the group: to be done again */
+    float w;          /* where it turns */
+    bool any, last;   /* none comes after it in its half period */
+};
+
+/* The drag of that group in two parts, in ingoing coordinates up to the turn and from there on in outgoing ones, which are smooth there and have no pole on their way. */
+float kd_drag_turning(kd_geodesic m, float e, float h, inout kd_turn t)
+{
+    kd_state z = t.start;
+    float sum = 0.0;
+    for (uint j = 0; j < (t.any ? 10 : 0); j++) { /* a loop, for it alone skips work */
+        uint k = j < 5 ? j : j - 5;
+        float of = j < 5 ? 0.25 * t.part : 1.0 - 0.25 * t.part;
+        z = kd_radial_step(m, z, k == 0 ? 0.0 : of * h);
+        z.dw = z.w > cam.horizon && z.dw < 0.0 ? kd_leaving(m, z.w, e) : z.dw;
+        t.w = j == 5 ? z.w : t.w;
+        float beside = INGOING || (k > 0 && k < 4) || k == (j < 5 ? 4 : 0) || (j == 9 && t.last) ? 0.0 : j == 0 ? -7.0 : 7.0; /* groups share a place where they meet */
+        sum += (of * kd_boole(k) + beside) * kd_drag_ingoing(m, z, e, cam.spin, cam.root, j < 5 ? -1.0 : 1.0);
+    }
+    return sum;
+}
+
 void main()
 {
     kd_camera_read();
@@ -74,23 +102,26 @@ void main()
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
+        kd_turn turn = kd_turn(y, 0.0, 0.0, 0.0, false, false);
         if (!INGOING && (PHI || SKY) && way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
-            way = kd_way(barrier, y);
+            returns = y.dw < 0.0 && !kd_flies_out(barrier, y);
+            way = returns ? -1.0 : kd_way(barrier, y);
             fallen = -way * kd_drag_fall(y.w, cam.spin, cam.root);
         }
         if (!INGOING && (PHI || SKY))
             sum = 7.0 * kd_drag(m, y, ray.e, cam.spin, cam.root, way);
         for (uint i = 0; i < STEPS; i += 4) {
-            if (INGOING && (PHI || SKY)) {
-                if (returns && way < 0.0 && y.dw > 0.0) { /* it has turned, and goes back to the horizon: from here on in outgoing coordinates */
-                    way = 1.0;
-                    fallen -= 2.0 * kd_drag_fall(y.w, cam.spin, cam.root);
-                }
+            const kd_state before = y;
+            const float whole = sum;
+            float part = -1.0;
+            if (INGOING && (PHI || SKY))
                 sum += 7.0 * kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way);
-            }
             /* Boole's rule on each four steps. */
             for (uint j = 0; j < 4; j++) {
+                const float speed = y.dw;
                 y = kd_radial_step(m, y, h);
+                if (speed < 0.0 && y.dw >= 0.0)
+                    part = float(j) + speed / (speed - y.dw);
                 if (INGOING && y.w > cam.horizon && y.dw < 0.0)
                     y.dw = kd_leaving(m, y.w, ray.e);
                 /* Beyond the horizon the numbers mean nothing: keep them finite. */
@@ -103,6 +134,15 @@ void main()
                     sum += (j == 3 ? (i + 4 == STEPS ? 7.0 : 14.0) : j == 1 ? 12.0 : 32.0) *
                            kd_drag(m, y, ray.e, cam.spin, cam.root, way);
             }
+            if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) { /* from here on in outgoing coordinates */
+                way = 1.0;
+                turn = kd_turn(before, part, sum - whole, 0.0, true, i + 4 == STEPS);
+            }
+        }
+        if (PHI || SKY) {
+            float drag = kd_drag_turning(m, ray.e, h, turn);
+            sum += turn.any ? drag - turn.drag : 0.0;
+            fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
         alive = low >= 0.0 && high < cam.horizon && y.w > 0.0;
         if (alive) {

@@ -207,10 +207,8 @@ static void judge(const struct seer *seer, int face, int k, const float *planes,
         if (!sure || (has && (want.r[order] > 1e4 || want.r[order] < 1.01 * kd_kerr_horizon(seer->spin))))
             continue;
         o->wrong += (w > 0) != has && !(w > 0 && w < 1e-4);
-        /* The azimuth of what turns outside and comes back towards the horizon diverges, and its quadrature with it. */
-        bool back = !want.falls[order] && want.r[order] < 1.9 * kd_kerr_horizon(seer->spin);
         if (w > 0 && has)
-            o->errors[o->n++] = (fabs(1 / w / want.r[order] - 1) + (back ? 0 : fabs(turn(phi - want.phi[order])))) /
+            o->errors[o->n++] = (fabs(1 / w / want.r[order] - 1) + fabs(turn(phi - want.phi[order]))) /
                                 (1 + (fabs(log(beside.r[order] / want.r[order])) + fabs(turn(beside.phi[order] - want.phi[order]))) / nudge);
     }
     const float *end = planes + 2 * ORDERS * RAYS + k;
