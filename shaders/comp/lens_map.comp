@@ -35,7 +35,7 @@ const float EPSILON = 6e-8; /* unit roundoff */
 float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 
 /* A group of four steps in which a ray turns that goes back to the horizon. */
-struct kd_turn {
+struct kd_turning {
     kd_state start;
     float part, drag; /* the steps up to the turn, 0 to 4; what Boole's rule gave the group: to be done again */
     float w;          /* where it turns */
@@ -43,7 +43,7 @@ struct kd_turn {
 };
 
 /* The drag of that group in two parts, in ingoing coordinates up to the turn and from there on in outgoing ones, which are smooth there and have no pole on their way. */
-float kd_drag_turning(kd_geodesic m, float e, float h, inout kd_turn t)
+float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
     float sum = 0.0;
@@ -102,7 +102,7 @@ void main()
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
-        kd_turn turn = kd_turn(y, 0.0, 0.0, 0.0, false, false);
+        kd_turning turn = kd_turning(y, 0.0, 0.0, 0.0, false, false);
         if (!INGOING && (PHI || SKY) && way == 0.0) { /* from here on in ingoing coordinates, or outgoing ones? */
             returns = y.dw < 0.0 && !kd_flies_out(barrier, y);
             way = returns ? -1.0 : kd_way(barrier, y);
@@ -136,11 +136,11 @@ void main()
             }
             if ((PHI || SKY) && returns && way < 0.0 && part >= 0.0) { /* from here on in outgoing coordinates */
                 way = 1.0;
-                turn = kd_turn(before, part, sum - whole, 0.0, true, i + 4 == STEPS);
+                turn = kd_turning(before, part, sum - whole, 0.0, true, i + 4 == STEPS);
             }
         }
         if (PHI || SKY) {
-            float drag = kd_drag_turning(m, ray.e, h, turn);
+            float drag = kd_drag_about_turn(m, ray.e, h, turn);
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
