@@ -102,11 +102,18 @@ enum kd_status kd_asset_options_resolve(struct kd_asset_options *options, struct
         KD_TRY(read_asset(&options->list[i], error));
     }
     KD_TRY(kd_scene_resolve(scene, &assets, error));
-    for (size_t i = 0; i < options->n; i++)
-        if (!options->list[i].used)
-            KD_TRY(kd_error_set(error, KD_EINVAL, "--asset %s: no field of the scene names it", options->list[i].name));
+    if (!options->later)
+        KD_TRY(kd_asset_options_check(options, error));
 done:
     return status;
+}
+
+enum kd_status kd_asset_options_check(const struct kd_asset_options *options, struct kd_error *error)
+{
+    for (size_t i = 0; i < options->n; i++)
+        if (!options->list[i].used)
+            return kd_error_set(error, KD_EINVAL, "--asset %s: no field of the scene names it", options->list[i].name);
+    return KD_OK;
 }
 
 void kd_asset_options_finish(struct kd_asset_options *options)

@@ -281,9 +281,11 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     struct kd_sweep *sweep = NULL;
     struct work work = { .kind = kind_of(arguments->output), .store = -1 };
     enum kd_status status;
+    arguments->scene.assets.later = true;
     KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
     KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, &scene, &assets, &sweep, error));
+    KD_TRY(kd_asset_options_check(&arguments->scene.assets, error));
     work.sweep = sweep;
     if (work.kind->frame == &kd_format_fits)
         KD_TRY(kd_cube_check(sweep, error));

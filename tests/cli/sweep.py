@@ -4,10 +4,12 @@ import io
 import itertools
 import json
 import shutil
+import struct
 import subprocess
 import sys
 import warnings
 import zipfile
+import zlib
 
 import support
 
@@ -108,6 +110,24 @@ class Sweep(support.Case):
         header = self.opened("a.fits")[0].header
         self.assertEqual((header.get("CTYPE1"), header["CTYPE3"]), (None, "camera.field_m"))
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
+
+    def test_every_credit_is_told(self):
+        """Of two photographs of the sky, each by somebody else; one name is long."""
+        names = ["Ada " + "of Somewhere " * 12, "Bo"]
+        for name, text, grey in zip("ab", names, (90, 200)):
+            parts = ((b"IHDR", struct.pack(">IIBBBBB", 32, 16, 8, 0, 0, 0, 0)), (b"tEXt", b"Author\0" + text.strip().encode()), (b"IDAT", zlib.compress((b"\0" + bytes([grey] * 32)) * 16)),
+                     (b"IEND", b""))
+            self.write(name + ".png", b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(d)) + k + d + struct.pack(">I", zlib.crc32(k + d)) for k, d in parts))
+        sky = ["--set", "sky.model=image", "--set", "sky.image=a", *(part for n in "ab" for part in ("--asset", f"{n}={self.path(n)}.png")), "-x", "sky.image=a,b"]
+        self.swept("a.fits", layers=["rgb"], axes=sky)
+        self.swept("a.npz", layers=["rgb"], axes=sky)
+        units = self.opened("a.fits")
+        for text in units[0].header["KDCREDIT"], json.loads(numpy.load(self.path("a.npz"))["notes.json"])["credit"]:
+            for name in names:
+                self.assertIn(name.strip(), text)
+        self.assertTrue(all(len(value) == 64 for value in units["sky.image"].data["value"]))
+        self.assertEqual(units["rgb"].data.shape, (2, 3, 36, 64))
+        self.bad(2, "--asset b: no field of the scene names it", "sweep", *SCENE, *sky[:-1], "sky.image=a", "-o", self.path("b.fits"))
 
     def test_the_standard(self):
         if not shutil.which("fitsverify"):

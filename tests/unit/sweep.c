@@ -154,11 +154,14 @@ static void names_and_documents(void **state)
 static void those_that_share_a_lens_map_follow_one_another(void **state)
 {
     struct kd_sweep *s = good("{\"style.exposure\": [0, 1], \"camera.inclination_deg\": [10, 20, 30], \"camera.azimuth_deg\": [0, 40], \"spacetime.spin\": [0, 0.5]}");
-    struct kd_sweep_order order;
+    struct kd_sweep_order order = { 0 };
     unsigned changes = 0;
     char seen[24] = "";
     (void)state;
-    assert_int_equal(kd_sweep_order_of(s, &order), KD_OK);
+    assert_int_equal(kd_sweep_order_go_on(&order, s, 0), KD_OK); /* it is past that: a piece */
+    assert_null(order.frames);
+    assert_int_equal(kd_sweep_order_go_on(&order, s, INFINITY), KD_OK);
+    assert_non_null(order.frames);
     for (unsigned i = 0; i < s->scenes; i++) {
         unsigned frame = order.frames[i], before = i ? order.frames[i - 1] : 0;
         assert_int_equal(seen[frame]++, 0);
@@ -167,8 +170,6 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     assert_int_equal(changes, 6);
     assert_int_equal(order.frames[0], 0);
     kd_sweep_order_finish(&order);
-    assert_int_equal(kd_sweep_order_of(NULL, &order), KD_OK);
-    assert_null(order.frames);
     kd_sweep_free(s);
 }
 

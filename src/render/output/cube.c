@@ -1,6 +1,7 @@
 #include "render/output/cube.h"
 
 #include "image/fits.h"
+#include "render/output/notes.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +9,8 @@
 
 #define HEAD_MOST (1u << 20) /* bytes of a header: a scene's has some 20000 */
 #define AT_ONCE 32           /* scenes, some milliseconds */
+
+_Static_assert(KD_CUBE_ACCURACY >= KD_ACCURACY_TEXT, "all of it");
 
 static enum kd_status unreadable(unsigned scene, struct kd_error *error)
 {
@@ -38,8 +41,11 @@ enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cub
 
 void kd_cube_finish(struct kd_cube *cube)
 {
-    for (size_t i = 0; i < cube->n_sentences; i++)
-        free(cube->sentences[i]);
+    struct kd_cube_texts *const texts[] = { &cube->sentences, &cube->credits, &cube->devices };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        for (size_t k = 0; k < texts[i]->n; k++)
+            free(texts[i]->at[k]);
+    free(cube->rows);
     free(cube->places);
     free(cube->piece);
     *cube = (struct kd_cube) { 0 };
@@ -114,16 +120,38 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
     return KD_OK;
 }
 
-static enum kd_status keep_sentence(struct kd_cube *cube, const char *text, struct kd_error *error)
+/* Keeps the text of a card if it is not known yet. *there: there is one. */
+static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key, bool *there, struct kd_error *error)
 {
-    for (size_t i = 0; i < cube->n_sentences; i++)
-        if (!strcmp(cube->sentences[i], text))
-            return KD_OK;
-    char *copy = cube->n_sentences < KD_CUBE_SENTENCES ? strdup(text) : NULL;
-    if (!copy)
-        return no_memory(error);
-    cube->sentences[cube->n_sentences++] = copy;
-    return KD_OK;
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_fits_find(head->data, size, key, &text);
+    while (!status && text.size && text.data[text.size - 1] == ' ') /* the standard's own */
+        text.size--;
+    *there = !status && text.size;
+    if (status == KD_ENOMEM || (*there && kd_buffer_append(&text, "", 1))) /* with the NUL */
+        KD_TRY(no_memory(error));
+    status = KD_OK;
+    for (size_t i = 0; i < texts->n && *there; i++)
+        if (!strcmp(texts->at[i], (const char *)text.data))
+            goto done;
+    if (*there && texts->n == KD_CUBE_TEXTS)
+        KD_TRY(kd_error_set(error, KD_ETOOBIG, "the scenes tell more than %d different texts in %.6s, allowed are as many", KD_CUBE_TEXTS, key));
+    char *copy = *there ? strdup((const char *)text.data) : NULL;
+    if (*there && !copy)
+        KD_TRY(no_memory(error));
+    if (*there)
+        texts->at[texts->n++] = copy;
+done:
+    kd_buffer_finish(&text);
+    return status;
+}
+
+enum kd_status kd_cube_join(const struct kd_cube_texts *texts, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_append(out, "", 0);
+    for (size_t i = 0; i < texts->n && !status; i++)
+        status = kd_buffer_printf(out, "%s%s", i ? "; " : "", texts->at[i]);
+    return status;
 }
 
 static bool same_axes(const struct kd_wcs_axis a[2], const struct kd_wcs_axis b[2])
@@ -153,39 +181,23 @@ static enum kd_status compare_worlds(struct kd_cube *cube, unsigned number, stru
 
 static enum kd_status look_at_notes(struct kd_cube *cube, unsigned scene, const struct kd_buffer *head, size_t size, struct kd_error *error)
 {
-    char key[16], text[600], row[KD_CUBE_ROW] = { 0 };
-    enum kd_status status = compare_worlds(cube, scene, error);
-    if (!scene)
-        text_of(head, size, "KDDEVICE", cube->device, sizeof cube->device);
-    if (!*cube->credit)
-        text_of(head, size, "KDCREDIT", cube->credit, sizeof cube->credit);
-    for (unsigned i = 1; !status; i++) {
+    char key[16], hash[KD_CUBE_HASH + 1], accuracy[KD_CUBE_ACCURACY + 1], *row = cube->rows + (size_t)scene * KD_CUBE_ROW;
+    bool there = true;
+    enum kd_status status;
+    KD_TRY(compare_worlds(cube, scene, error));
+    KD_TRY(keep_text(&cube->devices, head, size, "KDDEVICE", &there, error));
+    KD_TRY(keep_text(&cube->credits, head, size, "KDCREDIT", &there, error));
+    there = true;
+    for (unsigned i = 1; there; i++) {
         snprintf(key, sizeof key, "KDAPPR%u", i);
-        text_of(head, size, key, text, sizeof text);
-        if (!*text)
-            break;
-        status = keep_sentence(cube, text, error);
+        KD_TRY(keep_text(&cube->sentences, head, size, key, &there, error));
     }
-    if (!status)
-        status = kd_cube_row(cube, scene, row, error);
-    cube->rows_sum = kd_fits_sum(cube->rows_sum, row, sizeof row);
-    return status;
-}
-
-enum kd_status kd_cube_row(struct kd_cube *cube, unsigned scene, char out[KD_CUBE_ROW], struct kd_error *error)
-{
-    struct kd_buffer head = { 0 };
-    char hash[KD_CUBE_HASH + 1], accuracy[KD_CUBE_ACCURACY + 1];
-    size_t size;
-    enum kd_status status = read_head(cube, scene, 0, &head, &size, error);
-    if (!status) {
-        text_of(&head, size, "KDHASH", hash, sizeof hash);
-        text_of(&head, size, "KDACCUR", accuracy, sizeof accuracy);
-        memset(out, 0, KD_CUBE_ROW);
-        memcpy(out, hash, strlen(hash));
-        memcpy(out + KD_CUBE_HASH, accuracy, strlen(accuracy));
-    }
-    kd_buffer_finish(&head);
+    text_of(head, size, "KDHASH", hash, sizeof hash);
+    text_of(head, size, "KDACCUR", accuracy, sizeof accuracy);
+    memcpy(row, hash, strlen(hash)); /* NULs are behind */
+    memcpy(row + KD_CUBE_HASH, accuracy, strlen(accuracy));
+    cube->rows_sum = kd_fits_sum(cube->rows_sum, row, KD_CUBE_ROW);
+done:
     return status;
 }
 
@@ -196,6 +208,8 @@ static enum kd_status look_at(struct kd_cube *cube, unsigned scene, struct kd_er
     struct kd_buffer head = { 0 };
     size_t layer = 0, size;
     enum kd_status status = s->size(s->user, scene, &whole) ? KD_OK : unreadable(scene, error);
+    if (!cube->rows && !(cube->rows = calloc(s->n, KD_CUBE_ROW)))
+        KD_TRY(no_memory(error));
     for (; !status && at < whole; layer++) {
         struct unit unit;
         KD_TRY(read_head(cube, scene, at, &head, &size, error));

@@ -11,7 +11,7 @@
 #include "render/plan/layer_kinds.h"
 #include "scene/sweep.h"
 
-#define KD_CUBE_SENTENCES 128
+#define KD_CUBE_TEXTS 128
 enum { KD_CUBE_HASH = 64, KD_CUBE_ACCURACY = 320, KD_CUBE_ROW = KD_CUBE_HASH + KD_CUBE_ACCURACY }; /* bytes told of each scene; NULs behind each */
 
 struct kd_cube_layer {
@@ -29,10 +29,10 @@ struct kd_cube {
     uint64_t *places;      /* of the numbers in the files: n_layers a scene */
     struct kd_wcs wcs;     /* of the first; */
     bool wcs_differ;       /* not of all */
-    char *sentences[KD_CUBE_SENTENCES]; /* of approximations that are in force in some scene */
-    size_t n_sentences;
-    char device[256], credit[256];
-    uint32_t rows_sum;     /* kd_fits_sum of the rows of all scenes */
+    struct kd_cube_texts { char *at[KD_CUBE_TEXTS]; size_t n; } sentences, credits, devices; /* approximations that are in force in some scene, whose work is in
+                                                                                                * some, and what made them: each once */
+    char *rows;            /* of all scenes: KD_CUBE_ROW each */
+    uint32_t rows_sum;     /* kd_fits_sum of them */
     uint8_t *piece;        /* KD_GATHER_PIECE bytes and more: a row of numbers fits */
     size_t piece_bytes;
 };
@@ -42,7 +42,9 @@ void kd_cube_finish(struct kd_cube *cube);
 /* Looks through some more scenes. *over: through all. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
 /* What is told of a scene: its hash, and what its picture's accuracy is. */
-enum kd_status kd_cube_row(struct kd_cube *cube, unsigned scene, char out[KD_CUBE_ROW], struct kd_error *error);
+static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene) { return cube->rows + (size_t)scene * KD_CUBE_ROW; }
+/* All of these, one after the other: "a; b". */
+enum kd_status kd_cube_join(const struct kd_cube_texts *texts, struct kd_buffer *out);
 /* Bytes of a layer's numbers in one scene. */
 static inline uint64_t kd_cube_slice(const struct kd_cube *cube, size_t layer)
 {

@@ -93,21 +93,26 @@ done:
 static enum kd_status put_notes(struct kd_buffer *cards, const struct kd_cube *cube)
 {
     const struct kd_sweep *sweep = cube->source->sweep;
+    struct kd_buffer devices = { 0 }, credits = { 0 };
     char key[32];
     enum kd_status status;
+    KD_TRY(kd_cube_join(&cube->devices, &devices));
+    KD_TRY(kd_cube_join(&cube->credits, &credits));
     KD_TRY(kd_fits_text(cards, "ORIGIN", "kerrd " KD_VERSION, NULL));
     KD_TRY(kd_fits_put_scene(cards, &sweep->base, sweep));
     KD_TRY(kd_fits_text(cards, "LONGSTRN", "OGIP 1.0", "texts may go on: CONTINUE"));
-    KD_TRY(kd_fits_text(cards, "KDDEVICE", cube->device, NULL));
-    for (size_t i = 0; i < cube->n_sentences; i++) {
+    KD_TRY(kd_fits_text(cards, "KDDEVICE", (const char *)devices.data, NULL));
+    for (size_t i = 0; i < cube->sentences.n; i++) {
         snprintf(key, sizeof key, "KDAPPR%zu", i + 1);
-        KD_TRY(kd_fits_text(cards, key, cube->sentences[i], NULL));
+        KD_TRY(kd_fits_text(cards, key, cube->sentences.at[i], NULL));
     }
-    if (*cube->credit)
-        KD_TRY(kd_fits_text(cards, "KDCREDIT", cube->credit, NULL));
+    if (credits.size)
+        KD_TRY(kd_fits_text(cards, "KDCREDIT", (const char *)credits.data, NULL));
     KD_TRY(kd_fits_comment(cards, "KDSCENE is the scene, of which the fields in KDAXES take their values"));
     KD_TRY(put_json(cards, sweep));
 done:
+    kd_buffer_finish(&devices);
+    kd_buffer_finish(&credits);
     return status;
 }
 
@@ -234,17 +239,13 @@ done:
     return status;
 }
 
-static enum kd_status go_on_with_scenes(struct writer *w, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status put_scenes(struct writer *w, struct kd_buffer *out)
 {
-    char row[KD_CUBE_ROW];
-    enum kd_status status = kd_cube_row(&w->cube, w->scene, row, error);
-    if (status)
-        return status;
-    w->written += sizeof row;
-    w->scene++;
-    if (kd_buffer_append(out, row, sizeof row) || (w->scene == w->cube.source->n && end_unit(w, out)))
-        return no_memory(error);
-    return KD_OK;
+    const unsigned left = w->cube.source->n - w->scene, fit = KD_GATHER_PIECE / KD_CUBE_ROW, n = left < fit ? left : fit;
+    enum kd_status status = kd_buffer_append(out, kd_cube_row(&w->cube, w->scene), (size_t)n * KD_CUBE_ROW);
+    w->written += (uint64_t)n * KD_CUBE_ROW;
+    w->scene += n;
+    return status || w->scene < w->cube.source->n ? status : end_unit(w, out);
 }
 
 static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over, struct kd_error *error)
@@ -265,7 +266,9 @@ static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over,
         w->begun = true;
         return (layer ? begin_layer(w, out) : begin_scenes(&w->cube, out)) ? no_memory(error) : KD_OK;
     }
-    return layer ? go_on_with_layer(w, out, error) : go_on_with_scenes(w, out, error);
+    if (layer)
+        return go_on_with_layer(w, out, error);
+    return put_scenes(w, out) ? no_memory(error) : KD_OK;
 }
 
 const struct kd_gather_format kd_gather_fits = {

@@ -140,16 +140,13 @@ static enum kd_status go_on_with_layer(struct writer *w, size_t layer, struct kd
 }
 
 /* Some of what is told of each scene. */
-static enum kd_status go_on_with_scenes(struct writer *w, const char *name, size_t from, uint32_t size, struct kd_error *error)
+static enum kd_status put_scenes(struct writer *w, const char *name, size_t from, uint32_t size)
 {
-    char row[KD_CUBE_ROW];
     const struct kd_npy array = array_of(w, KD_NPY_BYTES, size);
-    if (!w->begun)
-        return begin_array(w, name, &array) ? no_memory(error) : KD_OK;
-    enum kd_status status = kd_cube_row(&w->cube, w->scene, row, error);
-    if (!status && kd_zip_append(w->zip, row + from, size))
-        return no_memory(error);
-    if (++w->scene == w->cube.source->n)
+    enum kd_status status = w->begun ? KD_OK : begin_array(w, name, &array);
+    for (unsigned i = 0; i < KD_GATHER_PIECE / KD_CUBE_ROW && w->scene < w->cube.source->n && !status; i++)
+        status = kd_zip_append(w->zip, kd_cube_row(&w->cube, w->scene++) + from, size);
+    if (w->scene == w->cube.source->n)
         end_member(w);
     return status;
 }
@@ -157,18 +154,20 @@ static enum kd_status go_on_with_scenes(struct writer *w, const char *name, size
 static enum kd_status put_notes(struct writer *w)
 {
     const struct kd_cube *cube = &w->cube;
-    struct kd_buffer text = { 0 }, scene = { 0 };
+    struct kd_buffer text = { 0 }, scene = { 0 }, devices = { 0 }, credits = { 0 };
     enum kd_status status;
+    KD_TRY(kd_cube_join(&cube->devices, &devices));
+    KD_TRY(kd_cube_join(&cube->credits, &credits));
     KD_TRY(kd_scene_to_json(&cube->source->sweep->base, &scene));
     struct kd_json json = kd_json_begin(&text);
     kd_json_object(&json, NULL);
     kd_json_raw(&json, "scene", (const char *)scene.data, scene.size);
     kd_sweep_axes_json(cube->source->sweep, &json, "axes");
     kd_json_string(&json, "version", KD_VERSION);
-    kd_json_string(&json, "device", cube->device);
+    kd_json_string(&json, "device", (const char *)devices.data);
     kd_json_array(&json, "approximations");
-    for (size_t i = 0; i < cube->n_sentences; i++)
-        kd_json_string(&json, NULL, cube->sentences[i]);
+    for (size_t i = 0; i < cube->sentences.n; i++)
+        kd_json_string(&json, NULL, cube->sentences.at[i]);
     kd_json_end(&json);
     kd_json_object(&json, "units");
     for (size_t i = 0; i < cube->n_layers; i++)
@@ -176,8 +175,8 @@ static enum kd_status put_notes(struct writer *w)
     for (size_t i = 0; i < cube->source->sweep->n_axes; i++)
         kd_json_string(&json, cube->source->sweep->axes[i].path, cube->source->sweep->axes[i].unit);
     kd_json_end(&json);
-    if (*cube->credit)
-        kd_json_string(&json, "credit", cube->credit);
+    if (credits.size)
+        kd_json_string(&json, "credit", (const char *)credits.data);
     kd_json_end(&json);
     KD_TRY(kd_json_finish(&json));
     KD_TRY(kd_zip_add(w->zip, "notes.json", text.data, text.size));
@@ -185,6 +184,8 @@ static enum kd_status put_notes(struct writer *w)
 done:
     kd_buffer_finish(&text);
     kd_buffer_finish(&scene);
+    kd_buffer_finish(&devices);
+    kd_buffer_finish(&credits);
     return status;
 }
 
@@ -201,9 +202,9 @@ static enum kd_status advance(struct writer *w, bool *over, struct kd_error *err
     if (w->member < layers)
         return go_on_with_layer(w, w->member - axes, error);
     if (w->member == layers)
-        return go_on_with_scenes(w, "scene_hash", 0, KD_CUBE_HASH, error);
+        return put_scenes(w, "scene_hash", 0, KD_CUBE_HASH) ? no_memory(error) : KD_OK;
     if (w->member == layers + 1)
-        return go_on_with_scenes(w, "scene_accuracy", KD_CUBE_HASH, KD_CUBE_ACCURACY, error);
+        return put_scenes(w, "scene_accuracy", KD_CUBE_HASH, KD_CUBE_ACCURACY) ? no_memory(error) : KD_OK;
     if (w->member == layers + 2)
         return put_notes(w) ? no_memory(error) : KD_OK;
     *over = true;

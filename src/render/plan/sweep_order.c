@@ -1,5 +1,6 @@
 #include "render/plan/sweep_order.h"
 
+#include "base/clock.h"
 #include "render/plan/plan.h"
 
 #include <stdlib.h>
@@ -54,22 +55,22 @@ enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_m
     return KD_OK;
 }
 
-enum kd_status kd_sweep_order_of(const struct kd_sweep *sweep, struct kd_sweep_order *out)
+#define AT_LEAST 16 /* scenes, a millisecond */
+
+enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms)
 {
     double shared_ms;
     enum kd_status status = KD_OK;
-    *out = (struct kd_sweep_order) { 0 };
-    for (unsigned i = 0; sweep && i < sweep->scenes; i++) {
+    for (unsigned i = 1; order->n < sweep->scenes && (i % AT_LEAST || kd_clock_ms() < until_ms); i++) {
         struct kd_scene scene;
         uint64_t group = 0;
-        if (!kd_sweep_scene(sweep, i, &scene, NULL)) /* one that is none fails when its turn comes */
+        if (!kd_sweep_scene(sweep, order->n, &scene, NULL)) /* one that is none fails when its turn comes */
             KD_TRY(kd_plan_lens_group(&scene, &group));
-        KD_TRY(kd_sweep_order_add(out, group, 0));
+        KD_TRY(kd_sweep_order_add(order, group, 0));
     }
-    KD_TRY(kd_sweep_order_end(out, &shared_ms));
+    if (order->n == sweep->scenes && !order->frames)
+        KD_TRY(kd_sweep_order_end(order, &shared_ms));
 done:
-    if (status)
-        kd_sweep_order_finish(out);
     return status;
 }
 

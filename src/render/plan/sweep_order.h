@@ -15,8 +15,8 @@ struct kd_sweep_order {
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms);
 /* All are there. *shared_ms: what is not spent because lens maps are shared. KD_ENOMEM. */
 enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_ms);
-/* All of that, from nothing. sweep: NULL: of none, they stay as they are numbered. KD_ENOMEM. */
-enum kd_status kd_sweep_order_of(const struct kd_sweep *sweep, struct kd_sweep_order *out);
+/* All of that, from where the order is, until it is time (kd_clock_ms), for a few more scenes at least; it is made once order->frames is there. KD_ENOMEM. */
+enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms);
 void kd_sweep_order_finish(struct kd_sweep_order *order);
 
 #endif

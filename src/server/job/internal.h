@@ -25,6 +25,7 @@ struct kd_job {
     struct kd_job_record record;
     struct kd_job_spec spec; /* empty where this version cannot read the request */
     struct kd_sweep_order order;
+    bool unordered; /* it is still being made, after a restart (watch.c), before which no frame is begun */
     const struct kd_series *series;
     unsigned frames, next, finished; /* next: a place in the order, none before which has still to be begun */
     unsigned char *have;             /* which are in their files */
@@ -33,6 +34,7 @@ struct kd_job {
     double began_ms;                 /* by this server; 0: not yet */
     double due_ms;                   /* not before; on kd_clock_ms */
     double delay_ms;                 /* before the next try, once something has run out; 0: nothing has */
+    double counted_ms;               /* when lens maps were last written to its record */
     double ended_ms;                 /* on kd_clock_ms, whatever happens to the clock on the wall */
     char delayed[160];               /* why it waits until due_ms */
     bool struck;                     /* by this server: one attempt of the record is for it */

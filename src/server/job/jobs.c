@@ -199,8 +199,7 @@ static void resume(void *user, const struct kd_job_record *known, struct kd_buff
         job->record.series = job->series;
     }
     find_frames(job);
-    if (job->record.state == KD_JOB_ACTIVE && kd_sweep_order_of(job->spec.sweep, &job->order))
-        kd_log(KD_LOG_WARN, "no memory to put the frames of job %.4s... in order: they share fewer lens maps", known->id);
+    job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
     append(all, job);
     if (job->record.state != KD_JOB_ACTIVE) {
         job->ended_ms = kd_clock_ms() - age_ms(all, known);

@@ -117,7 +117,7 @@ void kd_jobs_pump(struct kd_jobs *all)
         return;
     double now = kd_clock_ms();
     for (struct kd_job *job = all->first; job; job = job->link)
-        if (kd_job_is_active(job) && now >= job->due_ms && begin(job))
+        if (kd_job_is_active(job) && !job->unordered && now >= job->due_ms && begin(job))
             return;
 }
 
@@ -127,14 +127,18 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
         atomic_store(&all->rendering->render.drop, true);
 }
 
-/* Counts the lens map of a frame. Of a sweep that is kept at once, for who asks after a restart; each takes longer than that. */
+#define COUNTED_MS 500.0 /* from one writing of the lens maps of a sweep to the next, at least */
+
+/* Counts the lens map of a frame. Of a sweep that is kept, now and then, for who asks after a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     if (render->status || render->frame.lens_reused || !render->plan.planes)
         return;
     job->record.traced++;
-    if (job->spec.sweep && kd_job_is_active(job))
-        kd_job_write(job);
+    if (!job->spec.sweep || !kd_job_is_active(job) || kd_clock_ms() < job->counted_ms + COUNTED_MS)
+        return;
+    kd_job_write(job);
+    job->counted_ms = kd_clock_ms();
 }
 
 static void finished(struct kd_job *job, unsigned number, uint64_t size)

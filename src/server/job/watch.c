@@ -76,8 +76,34 @@ static struct kd_job *take_old(struct kd_jobs *all)
     return NULL;
 }
 
+#define ORDER_MS 20.0 /* a sweep of the jobs */
+
+/* Goes on with the order of a sweep's frames after a restart. Unlocked. */
+static void put_in_order(struct kd_jobs *all)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_job *job = all->first;
+    while (job && !job->unordered)
+        job = job->link;
+    if (job)
+        job->references++;
+    pthread_mutex_unlock(&all->lock);
+    if (!job)
+        return;
+    enum kd_status status = kd_sweep_order_go_on(&job->order, job->spec.sweep, kd_clock_ms() + ORDER_MS);
+    if (status) {
+        kd_log(KD_LOG_WARN, "no memory to put the frames of job %.4s... in order: they share fewer lens maps", job->record.id);
+        kd_sweep_order_finish(&job->order);
+    }
+    pthread_mutex_lock(&all->lock);
+    job->unordered = !status && !job->order.frames;
+    pthread_mutex_unlock(&all->lock);
+    kd_job_release(job);
+}
+
 void kd_jobs_sweep(struct kd_jobs *all)
 {
+    put_in_order(all);
     double now = kd_clock_ms();
     pthread_mutex_lock(&all->lock);
     for (struct kd_job *job = all->first; job; job = job->link)

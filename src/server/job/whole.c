@@ -8,8 +8,13 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Cubes that may be under way at once: each is looked through first, and holds some 400 bytes a scene meanwhile. */
+enum { CUBES = 8, CUBES_OF_ONE = 3 };
+
 struct whole {
     struct kd_job *job; /* a reference */
+    char client[KD_CLIENT];
+    struct whole *next; /* of the cubes */
     struct kd_gather_source source;
     struct kd_gather gather;
     struct kd_buffer out; /* made and not yet taken, from `at` on */
@@ -19,6 +24,39 @@ struct whole {
     unsigned frame;
     uint64_t size;
 };
+
+static struct whole *cubes; /* of the HTTP thread alone */
+
+static void enter(struct whole *w)
+{
+    w->next = cubes;
+    cubes = w;
+}
+
+static void leave(const struct whole *w)
+{
+    struct whole **link = &cubes;
+    while (*link && *link != w)
+        link = &(*link)->next;
+    if (*link)
+        *link = w->next;
+}
+
+/* Whether one more cube of this client may be made now. */
+static bool admit(struct kd_request *request, enum MHD_Result *refused)
+{
+    unsigned all = 0, own = 0;
+    for (const struct whole *w = cubes; w; w = w->next) {
+        all++;
+        own += !strcmp(w->client, request->client);
+    }
+    if (all < CUBES && own < CUBES_OF_ONE)
+        return true;
+    const struct kd_problem problem = { .type = own < CUBES_OF_ONE ? KD_PROBLEM_QUEUE_FULL : KD_PROBLEM_QUOTA, .retry_after = 2,
+                                        .detail = own < CUBES_OF_ONE ? "as many cubes are being fetched as may" : "as many of your cubes are being fetched as one client may have" };
+    *refused = kd_reply_problem(request, &problem);
+    return false;
+}
 
 static bool open_frame(struct whole *w, unsigned frame)
 {
@@ -54,6 +92,7 @@ static bool read_frame(void *user, unsigned frame, uint64_t at, void *to, size_t
 static void release(void *cls)
 {
     struct whole *w = cls;
+    leave(w);
     kd_gather_close(&w->gather);
     if (w->fd >= 0)
         close(w->fd);
@@ -86,6 +125,11 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format)
 {
     struct kd_error error = { 0 };
+    enum MHD_Result refused;
+    if (format->of && !request->head && !admit(request, &refused)) {
+        kd_job_release(job);
+        return refused;
+    }
     kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
     struct whole *w = request->head ? NULL : calloc(1, sizeof *w);
     if (!w) {
@@ -95,6 +139,9 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
     }
     *w = (struct whole) { .job = job, .fd = -1, .source = { .user = w, .sweep = status->sweep, .frame = status->series->frame, .n = status->frames,
                                                              .size = size_of, .read = read_frame } };
+    memcpy(w->client, request->client, sizeof w->client);
+    if (format->of)
+        enter(w);
     if (!kd_gather_open(format, &w->source, &w->gather, &error))
         return kd_job_stream(request, format->media_type, produce, w, release);
     release(w);
