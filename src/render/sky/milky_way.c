@@ -48,21 +48,37 @@ static float octaves(const struct clouds *c, const float n[3], float cells, int 
     return sum;
 }
 
+/* What all directions of one longitude have in common, and of one latitude, in degrees. */
+struct along { float l, cos, sin, inwards, inner; };
+struct across { float b, cos, sin, near, far, contrast, halo; };
+
+static struct along along_of(float l)
+{
+    const float deg = l / DEGREE;
+    return (struct along) { deg, cosf(l), sinf(l), expf(-deg * deg / (2 * 62 * 62)), 0.45f + 0.55f * expf(-deg * deg / (2 * 75 * 75)) };
+}
+
+/* The contrast is that of star clouds: far from the plane there are none. */
+static struct across across_of(float b)
+{
+    const float deg = b / DEGREE, above = fabsf(deg);
+    return (struct across) { deg, cosf(b), sinf(b), expf(-above / 4.2f), expf(-above / 11), 1.1f * expf(-above / 22), 0.018f * expf(-above / 26) };
+}
+
 /* What a direction has before dust: the band, reddish towards the middle. */
-static void starlight(const struct clouds *c, const float n[3], float l, float b, float rgb[3])
+static void starlight(const struct clouds *c, const float n[3], const struct along *l, const struct across *b, float rgb[3])
 {
     static const float band[] = { 0.97f, 1.0f, 1.06f }, old[] = { 1.22f, 0.97f, 0.68f };
-    const float inwards = expf(-l * l / (2 * 62 * 62)), above = fabsf(b), bulge2 = l * l / (15 * 15) + b * b / (7.5f * 7.5f);
-    const float thin = (0.16f + 0.62f * inwards) * (0.75f * expf(-above / 4.2f) + 0.25f * expf(-above / 11));
-    const float contrast = 1.1f * expf(-above / 22); /* far from the plane there are none */
-    const float star_clouds = contrast > 0.1f ? expf(contrast * octaves(c, n, 7, 5, 0.62f, false) - 0.17f * contrast * contrast) : 1;
-    const float bulge = 1.25f * expf(-powf(bulge2, 0.75f)), far = 0.018f * expf(-above / 26);
+    const float bulge2 = l->l * l->l / (15 * 15) + b->b * b->b / (7.5f * 7.5f);
+    const float thin = (0.16f + 0.62f * l->inwards) * (0.75f * b->near + 0.25f * b->far);
+    const float star_clouds = b->contrast > 0.1f ? expf(b->contrast * octaves(c, n, 7, 5, 0.62f, false) - 0.17f * b->contrast * b->contrast) : 1;
+    const float bulge = 1.25f * expf(-powf(bulge2, 0.75f));
     for (int k = 0; k < 3; k++)
-        rgb[k] = band[k] * (thin * star_clouds + far) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
+        rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
 }
 
 /* Optical depth of the dust, of green light. Lanes wander about the plane; spurs leave it. */
-static float dust(const struct clouds *c, const float n[3], float l, float b)
+static float dust(const struct clouds *c, const float n[3], const struct along *l, float b)
 {
     if (fabsf(b) > 32)
         return 0;
@@ -70,26 +86,26 @@ static float dust(const struct clouds *c, const float n[3], float l, float b)
     const float warp[3] = { n[0] + 0.05f * octaves(c, n, 9, 3, 0.55f, false), n[1] + 0.05f * noise(c, (float[]) { 20 * n[0] + 900, 20 * n[1] + 300, 20 * n[2] + 500 }), n[2] };
     const float filaments = octaves(c, warp, 5, 6, 0.66f, true), patches = octaves(c, n, 3.1f, 3, 0.6f, false);
     const float lane = expf(-off * off / (2 * 3.6f * 3.6f)), spurs = 0.38f * expf(-fabsf(off) / 9);
-    const float inner = 0.45f + 0.55f * expf(-l * l / (2 * 75 * 75));
-    return inner * (lane + spurs) * expf(fminf(1.55f * filaments + 1.1f * patches, 2.2f));
+    return l->inner * (lane + spurs) * expf(fminf(1.55f * filaments + 1.1f * patches, 2.2f));
 }
 
-static void look(const struct clouds *c, float l, float b, float rgb[3])
+static void look(const struct clouds *c, const struct along *l, const struct across *b, float rgb[3])
 {
     static const float reddening[] = { 0.72f, 1, 1.35f };
-    const float n[3] = { cosf(b) * cosf(l), cosf(b) * sinf(l), sinf(b) };
-    starlight(c, n, l / DEGREE, b / DEGREE, rgb);
-    const float depth = 1.5f * dust(c, n, l / DEGREE, b / DEGREE);
-    for (int k = 0; k < 3; k++)
+    const float n[3] = { b->cos * l->cos, b->cos * l->sin, b->sin };
+    starlight(c, n, l, b, rgb);
+    const float depth = 1.5f * dust(c, n, l, b->b);
+    for (int k = 0; depth > 0 && k < 3; k++) /* dust is at most 32 degrees from the plane */
         rgb[k] *= 0.06f + 0.94f * expf(-reddening[k] * depth); /* some stars are in front */
 }
 
-static void paint(const struct clouds *c, const struct kd_sky_picture *out)
+static void paint(const struct clouds *c, const struct along *columns, const struct kd_sky_picture *out)
 {
-    for (uint32_t y = 0; y < out->height; y++)
+    for (uint32_t y = 0; y < out->height; y++) {
+        const struct across row = across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / (float)out->height));
         for (uint32_t x = 0; x < out->width; x++)
-            look(c, (float)M_PI * (1 - 2 * ((float)x + 0.5f) / (float)out->width), (float)M_PI * (0.5f - ((float)y + 0.5f) / (float)out->height),
-                 &out->texels[3 * ((size_t)y * out->width + x)]);
+            look(c, &columns[x], &row, &out->texels[3 * ((size_t)y * out->width + x)]);
+    }
 }
 
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error)
@@ -98,11 +114,15 @@ enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_
     struct clouds c = { malloc(n * sizeof *c.lattice) };
     struct kd_random random = { ((uint64_t)(uint32_t)seed << 32) + 1 };
     *out = (struct kd_sky_picture) { KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT, malloc(12ull * KD_MILKY_WAY_WIDTH * KD_MILKY_WAY_HEIGHT) };
-    bool good = c.lattice && out->texels;
+    struct along *columns = malloc(KD_MILKY_WAY_WIDTH * sizeof *columns);
+    bool good = c.lattice && out->texels && columns;
     for (size_t i = 0; good && i < n; i++)
         c.lattice[i] = (float)(2 * kd_random(&random) - 1);
+    for (uint32_t x = 0; good && x < out->width; x++)
+        columns[x] = along_of((float)M_PI * (1 - 2 * ((float)x + 0.5f) / (float)out->width));
     if (good)
-        paint(&c, out);
+        paint(&c, columns, out);
+    free(columns);
     free(c.lattice);
     if (good)
         return KD_OK;

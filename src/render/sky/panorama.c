@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void kd_sky_picture_finish(struct kd_sky_picture *picture)
 {
@@ -11,19 +12,41 @@ void kd_sky_picture_finish(struct kd_sky_picture *picture)
 
 enum { BIAS = 15, BITS = 9, LARGEST = (1 << BITS) - 1 };
 
+static float larger(float a, float b) { return a > b ? a : b; }
+static float smaller(float a, float b) { return a < b ? a : b; }
+
+static uint32_t bits_of(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* 2^exponent, of a number that is not denormal. */
+static float power(int exponent)
+{
+    const uint32_t bits = (uint32_t)(exponent + 127) << 23;
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x, at least 0 and below 2^22, to the nearest whole number: behind 2^23 there is no room for less. */
+static uint32_t rounded(float x) { return bits_of(x + 0x1p23f) & 0x7fffff; }
+
+/* There are millions of them, and frexpf, ldexpf and lrintf are calls. */
 uint32_t kd_panorama_pack(const float rgb[3])
 {
-    float most = fmaxf(fmaxf(rgb[0], rgb[1]), rgb[2]);
-    int exponent = 0;
+    float most = smaller(larger(larger(rgb[0], rgb[1]), rgb[2]), 65000);
     if (!(most > 0x1p-25f))
         return 0;
-    frexpf(fminf(most, 65000), &exponent); /* most < 2^exponent */
-    if (lrintf(ldexpf(fminf(most, 65000), BITS - exponent)) > LARGEST)
-        exponent++;
+    int exponent = (int)(bits_of(most) >> 23) - 126; /* most < 2^exponent */
+    exponent += rounded(most * power(BITS - exponent)) > LARGEST;
     exponent = exponent > -BIAS ? exponent : -BIAS;
+    const float scale = power(BITS - exponent);
     uint32_t word = (uint32_t)(exponent + BIAS) << (3 * BITS);
     for (int c = 0; c < 3; c++)
-        word |= (uint32_t)lrintf(ldexpf(fminf(fmaxf(rgb[c], 0), 65000), BITS - exponent)) << (c * BITS);
+        word |= rounded(scale * smaller(larger(rgb[c], 0), 65000)) << (c * BITS);
     return word;
 }
 
