@@ -6,6 +6,7 @@ import shutil
 import struct
 import tempfile
 import threading
+import time
 import unittest
 import zlib
 
@@ -335,6 +336,21 @@ class Scenes(Case):
             self.assertIn(answer.status, (200, 201, 202), answer.body)
             self.end(answer)
         self.delete(asset)
+
+    def test_others_go_on_while_one_is_read(self):
+        """Here, until a picture without it has been rendered: nothing would ever come if that waited for the device."""
+        scene, answers = self.scene(self.made(png(64, 32, 9))['sha256']), []
+        scene['sky']['seed'] = 4711
+        server = daemon.Daemon('--drain-ms', 10)
+        self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
+        self.assertEqual(self.put(png(64, 32, 9), server=server).status, 201)
+        waits = threading.Thread(target=lambda: answers.append(server.post('/v1/render', scene)))
+        waits.start()
+        while not server.metrics()['kerrd_renders_unfinished'] and not answers:
+            time.sleep(0.01)
+        self.assertEqual(server.get('/v1/render?image.width=32&image.height=18').status, 200)
+        waits.join()
+        self.assertEqual(answers[0].status, 200, answers[0].body)
 
     def test_one_that_is_not(self):
         for image in ('0' * 64, 'milky-way'):

@@ -3,13 +3,15 @@
  *
  * The scene's time chooses what happens: t >= 0 takes t milliseconds, in slices of 10; -1 loses the device,
  * -2 runs out of memory, -3 fails. The exposure that is "auto" is 1 stop and -1 by turns. Rays on the device cross once, at
- * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond. */
+ * 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a millisecond.
+ * The picture of a sky of seed 4711 is under way until another picture is rendered. */
 #include "render/device/accuracy_store.h"
 #include "render/rays/device.h"
 #include "render/frame/frame.h"
 #include "render/frame/tell.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -17,7 +19,10 @@
 struct kd_renderer {
     char lens_key[65];
     bool measured, slow, held, bright;
+    struct kd_renderer_params params;
+    _Atomic bool read; /* the picture of that sky */
 };
+enum { UNREAD = 4711 };
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
@@ -25,6 +30,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     if (params->device && !strcmp(params->device, "none"))
         return kd_error_set(error, KD_EDEVICE, "there is no device called none");
     *out = calloc(1, sizeof **out);
+    if (*out)
+        (*out)->params = *params;
     if (*out)
         (*out)->measured = params->device && !strcmp(params->device, "measured");
     if (*out)
@@ -38,6 +45,18 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
 {
     free(renderer);
 }
+
+bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
+{
+    return kd_renderer_sky_is_under_way(renderer, scene);
+}
+
+bool kd_renderer_sky_is_under_way(struct kd_renderer *renderer, const struct kd_scene *scene)
+{
+    return scene->sky.seed == UNREAD && !atomic_load(&renderer->read);
+}
+
+void kd_renderer_sky_stop(struct kd_renderer *renderer) { (void)renderer; }
 
 /* Whoever plans asks for it: a device called "held" holds that thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
@@ -118,6 +137,10 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          struct kd_frame *out, struct kd_error *error)
 {
     enum kd_status status = mishap(scene->top.time, error);
+    if (kd_renderer_sky_is_under_way(renderer, scene))
+        return kd_error_set(error, KD_EIO, "a picture has the device while its sky is read");
+    if (!atomic_exchange(&renderer->read, true))
+        renderer->params.sky_made(renderer->params.sky_user);
     if (!status)
         status = pass_time(scene->top.time, progress, user, error);
     if (status)

@@ -13,18 +13,6 @@ static enum kd_status take(const struct kd_assets *assets, const char *hash, str
                           assets ? assets->allowed : "none where there are no assets");
 }
 
-/* Bytes of a hash never change: what is no sound picture never will be one. */
-static enum kd_status refuse(struct kd_panoramas *all, const char *hash, const struct kd_error *why, struct kd_error *error)
-{
-    if (why->status == KD_EINVAL) {
-        memcpy(all->broken, hash, sizeof all->broken);
-        all->why = *why;
-    }
-    if (error)
-        *error = *why;
-    return why->status;
-}
-
 static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture, struct kd_error *error)
 {
     p->columns = picture->width;
@@ -33,86 +21,212 @@ static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture
     return p->words ? kd_panorama_fill(picture, p->words, error) : kd_error_set(error, KD_ENOMEM, "out of memory for a panorama");
 }
 
-/* The place of the one that was asked for longest ago, emptied. */
+static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky *sky, struct kd_sky_picture *picture, char *credit, struct kd_error *error)
+{
+    struct kd_asset_bytes bytes;
+    if (!*sky->image)
+        return kd_milky_way(sky->seed, picture, error);
+    enum kd_status status = take(assets, sky->image, &bytes, error);
+    if (status)
+        return status;
+    status = kd_sky_image(bytes.data, bytes.size, picture, credit, error);
+    assets->give_back(assets->user, &bytes);
+    return status;
+}
+
+static enum kd_status make(const struct kd_assets *assets, const struct kd_panorama_key *key, struct kd_panorama *out, struct kd_error *error)
+{
+    struct kd_sky_picture picture = { 0 };
+    *out = (struct kd_panorama) { 0 };
+    snprintf(out->of, sizeof out->of, "%s", key->of);
+    enum kd_status status = paint(assets, &key->sky, &picture, out->credit, error);
+    if (!status)
+        status = fill(out, &picture, error);
+    kd_sky_picture_finish(&picture);
+    if (status)
+        free(out->words);
+    return status;
+}
+
+/* The place of the one that was asked for longest ago, emptied. Place is made before a panorama is: memory for four is not for three. */
 static struct kd_panorama *room(struct kd_panoramas *all)
 {
-    struct kd_panorama *oldest = all->at;
-    for (int i = 1; i < KD_PANORAMAS; i++)
-        if (all->at[i].used < oldest->used)
-            oldest = &all->at[i];
+    struct kd_panorama *oldest = all->given == all->at ? all->at + 1 : all->at;
+    for (struct kd_panorama *p = oldest; p < all->at + KD_PANORAMAS; p++)
+        if (p != all->given && p->used < oldest->used)
+            oldest = p;
     free(oldest->words);
     *oldest = (struct kd_panorama) { 0 };
     return oldest;
 }
 
-static const struct kd_panorama *kept(struct kd_panoramas *all, const char *of)
+/* With the lock, which is left while it is made. */
+static void make_first(struct kd_panoramas *all)
 {
-    for (int i = 0; i < KD_PANORAMAS; i++)
-        if (!strcmp(all->at[i].of, of)) {
-            all->at[i].used = ++all->used;
-            return &all->at[i];
-        }
+    const struct kd_panorama_key key = all->asked[0];
+    struct kd_panorama *place = room(all), made;
+    struct kd_error why = { 0 };
+    pthread_mutex_unlock(&all->lock);
+    enum kd_status status = make(all->assets, &key, &made, &why);
+    pthread_mutex_lock(&all->lock);
+    if (status) {
+        memcpy(all->broken, key.of, sizeof all->broken);
+        all->why = why;
+    } else {
+        *place = made;
+        place->used = ++all->used;
+    }
+    memmove(all->asked, all->asked + 1, --all->n_asked * sizeof *all->asked);
+    pthread_cond_broadcast(&all->changed);
+}
+
+static void *run(void *user)
+{
+    struct kd_panoramas *all = user;
+    pthread_mutex_lock(&all->lock);
+    while (all->n_asked) {
+        make_first(all);
+        if (!all->made)
+            continue;
+        pthread_mutex_unlock(&all->lock);
+        all->made(all->user);
+        pthread_mutex_lock(&all->lock);
+    }
+    all->runs = false;
+    pthread_cond_broadcast(&all->changed);
+    pthread_mutex_unlock(&all->lock);
     return NULL;
 }
 
-/* Puts a panorama of this picture into a place that is empty. */
-static enum kd_status keep(struct kd_panoramas *all, const char *of, const char *credit, struct kd_sky_picture *picture, struct kd_panorama *place,
-                           struct kd_error *error)
+static bool has_one(const struct kd_scene *scene)
 {
-    struct kd_panorama made = { .used = ++all->used };
-    enum kd_status status = fill(&made, picture, error);
-    if (status) {
-        free(made.words);
-        return status;
-    }
-    snprintf(made.of, sizeof made.of, "%s", of);
-    snprintf(made.credit, sizeof made.credit, "%s", credit);
-    *place = made;
-    return KD_OK;
+    return scene->sky.model != KD_SKY_NONE && scene->sky.model != KD_SKY_GRID && scene->sky.milky_way > 0;
 }
 
-/* Place is made for it before it is there: memory for four is not for three. */
-static enum kd_status of_image(struct kd_panoramas *all, const char *hash, const struct kd_panorama **out, struct kd_error *error)
+static struct kd_panorama_key key_of(const struct kd_scene *scene)
 {
-    struct kd_asset_bytes bytes;
-    struct kd_sky_picture picture;
-    struct kd_error why = { 0 };
-    char credit[KD_SKY_CREDIT] = "";
-    if (!strcmp(all->broken, hash))
-        return refuse(all, hash, &all->why, error);
-    enum kd_status status = take(all->assets, hash, &bytes, error);
-    if (status)
-        return status;
-    struct kd_panorama *place = room(all);
-    status = kd_sky_image(bytes.data, bytes.size, &picture, credit, &why);
-    all->assets->give_back(all->assets->user, &bytes);
-    status = status ? refuse(all, hash, &why, error) : keep(all, hash, credit, &picture, place, error);
-    kd_sky_picture_finish(&picture);
-    *out = place;
-    return status;
+    struct kd_panorama_key key = { .sky = scene->sky };
+    if (*scene->sky.image)
+        snprintf(key.of, sizeof key.of, "%s", scene->sky.image);
+    else
+        snprintf(key.of, sizeof key.of, "seed %d", scene->sky.seed);
+    return key;
+}
+
+static struct kd_panorama *kept(struct kd_panoramas *all, const char *of)
+{
+    for (int i = 0; i < KD_PANORAMAS; i++)
+        if (!strcmp(all->at[i].of, of))
+            return &all->at[i];
+    return NULL;
+}
+
+static bool is_asked(const struct kd_panoramas *all, const char *of)
+{
+    for (unsigned i = 0; i < all->n_asked; i++)
+        if (!strcmp(all->asked[i].of, of))
+            return true;
+    return false;
+}
+
+/* Bytes of a hash never change: what is no sound picture never will be one. */
+static bool is_broken(const struct kd_panoramas *all, const char *of) { return all->why.status == KD_EINVAL && !strcmp(all->broken, of); }
+
+/* With the lock. Without memory for a thread nothing is begun. */
+static void begin(struct kd_panoramas *all, const struct kd_panorama_key *key)
+{
+    pthread_t thread;
+    if (kept(all, key->of) || is_asked(all, key->of) || is_broken(all, key->of) || all->n_asked == KD_PANORAMAS_ASKED)
+        return;
+    all->asked[all->n_asked++] = *key;
+    if (all->runs)
+        return;
+    if (pthread_create(&thread, NULL, run, all)) {
+        all->n_asked--;
+        return;
+    }
+    pthread_detach(thread);
+    all->runs = true;
+}
+
+bool kd_panorama_begin(struct kd_panoramas *all, const struct kd_scene *scene)
+{
+    const struct kd_panorama_key key = key_of(scene);
+    if (!has_one(scene))
+        return false;
+    pthread_mutex_lock(&all->lock);
+    begin(all, &key);
+    const bool asked = is_asked(all, key.of);
+    pthread_mutex_unlock(&all->lock);
+    return asked;
+}
+
+bool kd_panorama_is_under_way(struct kd_panoramas *all, const struct kd_scene *scene)
+{
+    const struct kd_panorama_key key = key_of(scene);
+    pthread_mutex_lock(&all->lock);
+    const bool asked = has_one(scene) && is_asked(all, key.of);
+    pthread_mutex_unlock(&all->lock);
+    return asked;
+}
+
+/* With the lock: waits for it, or makes it here where there is no thread for it. NULL: it has failed. */
+static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_panorama_key *key)
+{
+    if (!is_broken(all, key->of) && !strcmp(all->broken, key->of)) /* there may be memory by now */
+        *all->broken = 0;
+    while (!kept(all, key->of) && strcmp(all->broken, key->of)) {
+        begin(all, key);
+        if (is_asked(all, key->of) || all->runs) {
+            pthread_cond_wait(&all->changed, &all->lock);
+            continue;
+        }
+        all->asked[all->n_asked++] = *key;
+        make_first(all);
+    }
+    return kept(all, key->of);
 }
 
 enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error)
 {
-    char seed[KD_ASSET_NAME];
-    struct kd_sky_picture picture = { 0 };
-    snprintf(seed, sizeof seed, "seed %d", scene->sky.seed);
-    if ((*out = kept(all, *scene->sky.image ? scene->sky.image : seed)))
-        return KD_OK;
-    if (*scene->sky.image)
-        return of_image(all, scene->sky.image, out, error);
-    struct kd_panorama *place = room(all);
-    enum kd_status status = kd_milky_way(scene->sky.seed, &picture, error);
-    if (!status)
-        status = keep(all, seed, "", &picture, place, error);
-    kd_sky_picture_finish(&picture);
-    *out = place;
-    return status;
+    const struct kd_panorama_key key = key_of(scene);
+    struct kd_error why = { 0 };
+    pthread_mutex_lock(&all->lock);
+    struct kd_panorama *p = wait_for(all, &key);
+    if (p) {
+        p->used = ++all->used;
+        all->given = p;
+        *out = p;
+    } else {
+        why = all->why;
+    }
+    pthread_mutex_unlock(&all->lock);
+    if (why.status && error)
+        *error = why;
+    return why.status;
+}
+
+void kd_panoramas_init(struct kd_panoramas *all, const struct kd_assets *assets, void (*made)(void *user), void *user)
+{
+    *all = (struct kd_panoramas) { .assets = assets, .made = made, .user = user };
+    pthread_mutex_init(&all->lock, NULL);
+    pthread_cond_init(&all->changed, NULL);
+}
+
+void kd_panoramas_stop(struct kd_panoramas *all)
+{
+    pthread_mutex_lock(&all->lock);
+    all->n_asked = all->n_asked ? 1 : 0;
+    while (all->runs)
+        pthread_cond_wait(&all->changed, &all->lock);
+    pthread_mutex_unlock(&all->lock);
 }
 
 void kd_panoramas_finish(struct kd_panoramas *all)
 {
+    kd_panoramas_stop(all);
     for (int i = 0; i < KD_PANORAMAS; i++)
         free(all->at[i].words);
-    *all = (struct kd_panoramas) { 0 };
+    pthread_cond_destroy(&all->changed);
+    pthread_mutex_destroy(&all->lock);
 }

@@ -1,11 +1,14 @@
 /* Panoramas of skies on the host, as the device is given them: the Milky Way that is made up, by its seed, or sky.image. The renderer keeps the last
- * KD_PANORAMAS that were asked for, up to 45 MB each, as long as it lives. Render thread only. */
+ * KD_PANORAMAS that were asked for, up to 45 MB each, as long as it lives. A thread of its own makes them, one after the other, and ends when none is
+ * asked for: who has the device need not wait meanwhile. Any thread, but for what says otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 
 #include "base/error.h"
 #include "render/sky/image.h"
 #include "scene/asset.h"
+
+#include <pthread.h>
 
 struct kd_panorama {
     char of[KD_ASSET_NAME];       /* the asset's hash, or "seed N"; "": there is none here */
@@ -14,18 +17,34 @@ struct kd_panorama {
     char credit[KD_SKY_CREDIT];   /* whose picture it is; "": nobody says */
     uint64_t used;                /* the larger, the later */
 };
-enum { KD_PANORAMAS = 3 };
+enum { KD_PANORAMAS = 3, KD_PANORAMAS_ASKED = 16 };
+
+/* One that is to be made: as `of` above, and what it is made from. */
+struct kd_panorama_key { char of[KD_ASSET_NAME]; struct kd_sky sky; };
 struct kd_panoramas {
-    struct kd_panorama at[KD_PANORAMAS];
+    pthread_mutex_t lock; /* guards all of it */
+    pthread_cond_t changed;
+    struct kd_panorama at[KD_PANORAMAS], *given; /* given: by kd_panorama_of, last; it stays */
     uint64_t used;
-    char broken[KD_ASSET_NAME]; /* the last asset that was no sound picture, which is not looked at again; "": none was */
+    struct kd_panorama_key asked[KD_PANORAMAS_ASKED]; /* the first one is being made */
+    unsigned n_asked;
+    bool runs; /* the thread */
+    char broken[KD_ASSET_NAME]; /* the last one that could not be made; what is no sound picture is not looked at again. "": none was */
     struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
+    void (*made)(void *user);       /* called by the thread, without the lock, whenever one is there or has failed; may be NULL */
+    void *user;
 };
+void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user), void *user);
 
-/* Finds, or makes, the panorama of a scene whose sky has one: some tenths of a second for a Milky Way, a second for a large picture. It stays until
- * others are asked for. KD_EINVAL at /sky/image: the asset is not here any more, or is no sound picture; KD_ENOMEM. */
+/* Begins to make the panorama of a scene, if that has one, and it is not there. Whether it is under way now. */
+bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
+bool kd_panorama_is_under_way(struct kd_panoramas *panoramas, const struct kd_scene *scene);
+/* Finds the panorama of a scene whose sky has one, or waits for it: some tenths of a second for a Milky Way, a second for a large picture. It stays until
+ * the next call. Render thread only. KD_EINVAL at /sky/image: the asset is not here any more, or is no sound picture; KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error);
+/* Waits for the one that is being made, and forgets those that are asked for: nobody is called any more, unless another is begun. */
+void kd_panoramas_stop(struct kd_panoramas *panoramas);
 void kd_panoramas_finish(struct kd_panoramas *panoramas);
 
 #endif

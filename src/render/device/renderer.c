@@ -66,6 +66,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     }
     r->emit = emit;
     pthread_mutex_init(&r->lock, NULL);
+    kd_panoramas_init(&r->panoramas, params->assets, params->sky_made, params->sky_user);
     struct kd_vk_params vk = { .device = params->device, .cache_dir = params->cache_dir, .validate = params->validate };
     enum kd_status status = kd_vk_create(&vk, &r->vk, error);
     if (status) {
@@ -75,7 +76,6 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
     const struct kd_vk_info *info = kd_vk_info(r->vk);
     r->capacity = guess(info, params->memory_bytes);
     r->store.vk = r->vk;
-    r->panoramas.assets = params->assets;
     for (size_t i = 0; i < KD_ASIDES; i++)
         r->asides[i].store.vk = r->vk;
     load_accuracy(r);
@@ -118,6 +118,18 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     kd_panoramas_finish(&renderer->panoramas);
     free(renderer);
 }
+
+bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
+{
+    return *scene->sky.image && kd_panorama_begin(&renderer->panoramas, scene);
+}
+
+bool kd_renderer_sky_is_under_way(struct kd_renderer *renderer, const struct kd_scene *scene)
+{
+    return kd_panorama_is_under_way(&renderer->panoramas, scene);
+}
+
+void kd_renderer_sky_stop(struct kd_renderer *renderer) { kd_panoramas_stop(&renderer->panoramas); }
 
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {

@@ -129,6 +129,8 @@ done:
     return status;
 }
 
+static bool begin(struct kd_renderer *r, const struct kd_scene *scene) { return kd_panorama_begin(&r->panoramas, scene); }
+
 /* The panorama's size, and whose it is. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size, struct kd_error *error)
 {
@@ -159,4 +161,4 @@ static void finish(void *own, struct kd_vk *vk)
     *b = (struct kd_sky_buffers) { 0 };
 }
 
-const struct kd_own kd_own_sky = { sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish, tell };
+const struct kd_own kd_own_sky = { sizeof(struct kd_sky_buffers), prepare, buffers, forget, finish, begin, tell };

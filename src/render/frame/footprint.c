@@ -1,8 +1,11 @@
 /* This pass finds the footprints of a lens map from differences of its rays: after they are traced, before light needs them. */
 #include "render/frame/job.h"
 
-static enum kd_status kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
+enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, const struct kd_vk_pipeline **out)
 {
+    *out = NULL;
+    if (!kd_plan_has_footprints(j->plan))
+        return KD_OK;
     const struct kd_critical_neighbours n = l && l->generator ? kd_critical_neighbours(l) : (struct kd_critical_neighbours) { 0 };
     struct kd_spec_footprint spec = { .QUANTITIES = j->plan->quantities, .ORDERS = j->plan->orders };
     if (l) {
@@ -26,6 +29,6 @@ enum kd_status kd_frame_footprint(struct kd_frame_job *j, const struct kd_footpr
     const uint32_t n = area->push.end - area->push.first;
     d.groups[0] = kd_frame_groups(area->lattice ? n : area->push.width);
     d.groups[1] = area->lattice ? 1 : n;
-    enum kd_status status = kernel(j, area->lattice, &d.pipeline);
+    enum kd_status status = kd_frame_footprint_kernel(j, area->lattice, &d.pipeline);
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }

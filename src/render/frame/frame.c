@@ -4,6 +4,7 @@
 #include "render/lens/audit.h"
 #include "base/clock.h"
 #include "render/device/prepare.h"
+#include "render/frame/lens.h"
 
 #include <stdlib.h>
 
@@ -36,6 +37,21 @@ enum kd_status kd_frame_show(struct kd_frame_job *j)
     KD_TRY(kd_frame_expose(j));
     KD_TRY(kd_frame_bloom(j));
     KD_TRY(kd_frame_post(j));
+done:
+    return status;
+}
+
+/* Kernels are compiled while something is made on the host: those that take longest. */
+static enum kd_status compile_kernels(struct kd_frame_job *j)
+{
+    const struct kd_critical_lattice lattices[] = { { 0 }, kd_critical_lattice(j->plan->critical ? j->plan->critical : 1) };
+    const struct kd_vk_pipeline *made;
+    enum kd_status status = KD_OK;
+    for (int i = 0; i < (j->plan->critical ? 2 : 1); i++) {
+        KD_TRY(kd_frame_trace_kernel(j, &lattices[i], &made));
+        KD_TRY(kd_frame_footprint_kernel(j, i ? &lattices[i] : NULL, &made));
+        KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &made));
+    }
 done:
     return status;
 }

@@ -96,6 +96,8 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
+/* Its kernel; lattice: of listed pixels, NULL: of the grid. *out is NULL where no light needs footprints. */
+enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, const struct kd_vk_pipeline **out);
 /* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels; nothing where
  * that light is there from the frame before. Its map must be whole. The bands of a frame from the first to the last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);

@@ -91,6 +91,15 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
     return KD_OK;
 }
 
+/* Whoever waited for it may have the device now. */
+static void sky_made(void *user)
+{
+    struct kd_render_queue *queue = user;
+    pthread_mutex_lock(&queue->lock);
+    kd_render_next(queue);
+    pthread_mutex_unlock(&queue->lock);
+}
+
 enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
                                       struct kd_render_queue **out, struct kd_error *error)
 {
@@ -98,6 +107,8 @@ enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, u
     if (!queue)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     queue->params = *params;
+    queue->params.sky_made = sky_made;
+    queue->params.sky_user = queue;
     queue->limit = limit;
     queue->client_limit = client_limit;
     queue->jobs.end = &queue->jobs.first;
@@ -128,6 +139,8 @@ void kd_render_queue_destroy(struct kd_render_queue *queue)
         pthread_join(queue->lanes[i].thread, NULL);
     for (unsigned i = 0; i < queue->n_encoders; i++)
         pthread_join(queue->encoders[i], NULL);
+    if (queue->renderer)
+        kd_renderer_sky_stop(queue->renderer);
     if (!queue->lost)
         kd_renderer_destroy(queue->renderer);
     kd_buffer_finish(&queue->device_json);
@@ -227,6 +240,7 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     job->submitted_ms = job->away_ms = kd_clock_ms();
     job->claim.left_ms = job->plan.estimate_ms;
     job->stage = wants_lane(job) ? KD_RENDER_WAITS_FOR_LANE : KD_RENDER_WAITS;
+    job->sky = !job->run && kd_renderer_sky_begin(queue->renderer, &job->scene);
     pthread_mutex_lock(&queue->lock);
     kd_render_list_append(&queue->jobs, job);
     kd_shares_add(&queue->shares, &job->claim);

@@ -10,6 +10,8 @@
  * Each client has one lane for each class, and two more for what takes a few seconds at most, so that no client can have them all;
  * and long pictures begin when there is memory for their buffers beside those of the others. Until then they wait.
  *
+ * A picture before a sky whose picture has to be read first waits for that, which takes up to a second and no device.
+ *
  * Pictures are submitted by one thread, which makes kd_render_queue_admit's answer hold until kd_render_queue_push; other
  * work may come from others, and exceed the limit by as many of them as there are. */
 #ifndef KD_SERVER_RENDER_QUEUE_H
@@ -66,6 +68,7 @@ struct kd_render_job {
     struct kd_render_job *next;
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
+    bool sky; /* the picture of its sky was not there when it came */
     double submitted_ms, turn_ms, away_ms; /* turn_ms: when its turn began; away_ms: since when it has none */
 };
 
