@@ -225,7 +225,7 @@ export const fields = {
     'Stile',
     'Un insieme di valori per l’aspetto, che un documento imposta nominandolo, salvo i campi che imposta da sé; none: nessuno',
   ],
-  'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1'],
+  'style.exposure': ['Esposizione', 'Luminosità come potenza di due sulla massima brillanza del disco a g = 1; auto: secondo ciò che brilla, e per le sole stelle non oltre il nero dello spazio'],
   'style.tone_map': [
     'Curva dei toni',
     'aces: curva da pellicola; srgb: proporzionale alla luce, con taglio; neutral: mantiene i colori e comprime ciò che è vicino al bianco',

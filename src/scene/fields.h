@@ -192,7 +192,7 @@
          "a preset of what makes the look, which a document sets by naming it, but for the fields that it sets itself; none: nothing", \
          "none|film|raw|dngr|eht|starless")                                                                                       \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops",                                               \
-         "brightness as a power of two over the disk's brightest surface brightness at g = 1", "auto")               \
+         "brightness as a power of two over the disk's brightest surface brightness at g = 1; auto: by what shines, and stars alone no further than that space is black", "auto") \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES,                                                                 \
          "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is near white", \
          "aces|srgb|neutral")                                                                                        \

@@ -221,6 +221,7 @@ static void behind(const double *betas, size_t n, int rounds)
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
     for (size_t i = 0; i < n; i++) {
         double single = 0, both = 0, place = 0;
+        int images = 0;
         for (size_t t = 0; t < sizeof turns / sizeof *turns; t++) {
             struct kd_scene scene;
             if (!behind_by(&scene, betas[i], turns[t]))
@@ -236,11 +237,14 @@ static void behind(const double *betas, size_t n, int rounds)
                 place = fmax(place, hypot(b.x - want.x, b.y - want.y));
                 all += want.light;
                 is += b.light;
+                images++;
             }
-            both = fmax(both, fabs(is / all - 1));
+            if (all > 0)
+                both = fmax(both, fabs(is / all - 1));
             kd_frame_finish(&frame);
         }
-        printf("beta %g, %d rounds more: each image within %.5f of its light, both together within %.5f, places within %.4f pixels\n", betas[i], rounds, single, both, place);
+        printf("beta %g, %d rounds more: %d images, each within %.5f of its light, both together within %.5f, places within %.4f pixels\n", betas[i], rounds, images, single, both, place);
+        assert_true(images >= (!rounds ? 9 : betas[i] > 1 ? 3 : betas[i] == 1 ? 8 : 12));
         /* On the rim what numbers of 32 bits have lost is 4e-4 of a radian of the sky. */
         assert_true(single < (rounds ? 0.02 + 4e-4 / betas[i] : 0.01) && both < (rounds ? 0.02 + 4e-5 / betas[i] : 0.01) && place < (rounds ? 0.1 : 0.02));
     }
