@@ -107,7 +107,8 @@ static const struct kd_sentence sentences[] = {
     { "sky: stars of the Hipparcos catalogue, all at infinity; nearly complete to magnitude 8 alone, and without those that it lacks", listed },
     { "sky: stars shine as black bodies of the temperature that their colour stands for, and each image is spread over some 1.2 pixels", starry },
     { "sky: images of stars that would brighten their pixel by less than 0.03 of sky.brightness are left out", starry },
-    { "sky: images of stars nearer to the critical curve than 3e-5 of its radius are left out", rimmed },
+    { "sky: images of stars nearer to the critical curve than 3e-5 of its radius are left out; those that have gone "
+      "round once more have their light within 2 %, and 5 % or worse if the star is less than 0.01 rad from straight behind the hole", rimmed },
     { "sky: images of stars next to the critical curve are left out, in pixels whose rays stand for more than 0.15 rad of the sky", rimless },
     { "sky: the light between the stars is a Milky Way that is made up; no place in it is a place in the sky", milky },
     { "sky: sky.model is \"image\" and sky.image names none: the Milky Way that is made up stands in for it", stands_in },
