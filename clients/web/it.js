@@ -191,6 +191,17 @@ export const fields = {
   'volume.opacity': ['Opacità', 'Profondità ottica di una lunghezza M nel proprio riferimento'],
   'volume.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
   'volume.redshift': ['Redshift', 'Spostamento di frequenza della materia'],
+  jets: ['Getti'],
+  'jets.brightness': ['Luminosità', 'Luce di una lunghezza M nel proprio riferimento al bordo interno, in unità della massima del disco; 0: non ce ne sono'],
+  'jets.opening_deg': ['Apertura', 'Metà dell’angolo del cono'],
+  'jets.lorentz': ['Fattore di Lorentz', 'Quanto veloce la sorgente della luce va verso l’esterno'],
+  'jets.inner': ['Bordo interno', 'Dove comincia la luce'],
+  'jets.outer': ['Bordo esterno', 'Dove finisce; maggiore di quello interno'],
+  'jets.falloff': ['Calo', 'La luce lungo il getto va come r alla meno questo'],
+  'jets.sheath': ['Guaina', 'Da un asse luminoso, 0, a bordi luminosi, 1'],
+  'jets.spectral_index': ['Indice spettrale', 'La luminosità va come lo spostamento di frequenza alla 2 più questo'],
+  'jets.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, non spostato'],
+  'jets.counterjet': ['Controgetto', 'Anche il getto sotto il disco'],
   'sky.model': ['Cielo', 'Che cosa c’è all’infinito: nulla; un reticolo celeste che mostra la lente; stelle e una Via Lattea inventate; le stelle del catalogo Hipparcos su quella Via Lattea; o sky.image senza stelle'],
   'sky.brightness': [
     'Luminosità',
@@ -311,6 +322,7 @@ export const presets = {
   infall:
     'Una caduta libera da 20 M attraverso l’orizzonte, secondo l’orologio di chi cade, con la massa di Sagittarius A*; in una sessione prosegue',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
+  jet: 'Due getti da un buco in gas turbolento, davanti alle stelle: quello che viene verso di noi è il più luminoso; stilizzati',
   'hot-spot':
     'Un brillamento come li ha visti GRAVITY attorno al buco della nostra Galassia: una macchia su un’orbita circolare di un’ora, in senso orario, vista a 25 gradi dal suo asse, su un disco tenue; in una sessione gli eventi danno la curva di luce e il percorso',
   'photon-rings':
@@ -473,8 +485,10 @@ export const sentences = {
   sky: 'cielo',
   gas: 'gas',
   volume: 'volume',
+  jets: 'getti',
   'Disk of particles': 'Disco di particelle',
   'Hot spot': 'Macchia calda',
+  Jets: 'Getti',
   'A celestial grid behind.': 'Dietro, un reticolo celeste.',
   'Stars and a Milky Way behind.': 'Dietro, stelle e una Via Lattea.',
   'The stars of the Hipparcos catalogue and a Milky Way behind.': 'Dietro, le stelle del catalogo Hipparcos e una Via Lattea.',
@@ -562,6 +576,8 @@ export const sentences = {
     'cielo: da così vicino all’orizzonte è rumore: per la maggior parte dei pixel che lo vedono il successivo, o l’ultima cifra delle costanti del raggio, porta a più di 0,1 rad di distanza',
   'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature':
     'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta',
+  'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':
+    'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
     'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
   'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; a pixel\'s light is of the places on its rays and no mean over what they stand for':

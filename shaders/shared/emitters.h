@@ -32,7 +32,8 @@
     OVER(4, ringdown)                                                                                          \
     AT_END(5, sky)                                                                                             \
     AT_CROSSING(6, gas)                                                                                        \
-    ALONG(7, volume)
+    ALONG(7, volume)                                                                                           \
+    ALONG(8, jets)
 
 /* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B)

@@ -145,6 +145,18 @@
     REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g") \
     BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter")
 
+#define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
+    REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", "light of a length of M in its own frame at the inner edge, in units of the disk's brightest; 0: there are none") \
+    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "deg", "half of the angle of the cone")                    \
+    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "", "Lorentz factor: how fast the light's source flies outwards") \
+    REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", "where the light begins")                                     \
+    REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "where it ends; larger than the inner edge")                 \
+    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "", "light along the jet goes as r to minus this")            \
+    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "", "from a bright spine, 0, to bright edges, 1")                 \
+    REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "", "brightness goes as the frequency shift to 2 plus this") \
+    REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, not shifted") \
+    BOOL(jets, counterjet, MODEL, REST, true, "the jet below the disk, too")
+
 #define KD_SKY_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                     \
     ENUM(sky, model, MODEL, FRONT, KD_SKY_NONE,                                                                      \
          "what lies at infinity: nothing; a celestial grid that shows the lensing; stars and a Milky Way that are made up; the stars of the " \
@@ -246,6 +258,7 @@
     SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models")                              \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
+    SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis")                                          \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
     SECTION(image, KD_IMAGE_FIELDS, MORE, "the size of the picture")                                                 \
     SECTION(style, KD_STYLE_FIELDS, LOOK, "from brightness to the colours of the file")                              \
@@ -319,6 +332,8 @@
     WITH("volume.opacity", "model", KD_VOLUME_UNIFORM) SPAN("volume.opacity", 1e-4, 10)                              \
     WITH("volume.temperature_k", "model", KD_VOLUME_UNIFORM) SPAN("volume.temperature_k", 1000, 1e5)                  \
     WITH("volume.redshift", "model", KD_VOLUME_UNIFORM)                                                              \
+    SWITCH("jets.brightness") SPAN("jets.brightness", 0.001, 10) BUTTON("jets.brightness", 0.1, "Jets")              \
+    SPAN("jets.lorentz", 1, 10) SPAN("jets.outer", 5, 500) SPAN("jets.inner", 1, 50)                                 \
     SWITCH("sky.model")                                                                                              \
     SPAN("sky.brightness", 1e-4, 1) FIRST("sky.brightness", 0.01)                                                    \
     WITH("sky.grid_deg", "model", KD_SKY_GRID)                                                                       \

@@ -107,6 +107,11 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"r\":20,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02},"
       "\"motion\":{\"proper_time_rate\":2}}" },
+    { "jet", "Two jets from a hole in turbulent gas, before stars: the one that comes towards us is the brighter one; stylised",
+      false,
+      "{\"camera\":{\"inclination_deg\":66,\"field_m\":110,\"roll_deg\":-58},"
+      "\"jets\":{\"brightness\":0.2,\"opening_deg\":6,\"lorentz\":1.6,\"outer\":90,\"falloff\":1.3},"
+      "\"sky\":{\"model\":\"catalogue\"},\"motion\":{\"time_rate\":6}}" },
     { "gargantua-gas", "Turbulent gas round the hole of James et al. 2015, with the Doppler shift and the redshift left out as the film did",
       false,
       "{\"spacetime\":{\"spin\":0.999,\"mass_msun\":1e8},"

@@ -251,6 +251,15 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show_bound(least).text);
 }
 
+static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_jets *j = &scene->jets;
+    double least = fmax(j->inner, 1.05 * kd_kerr_horizon(scene->spacetime.spin));
+    if (!(j->brightness > 0) || j->outer > least)
+        return KD_OK;
+    return kd_error_field(error, "/jets/outer", "jets.outer is %s M, allowed is more than the inner edge, %s M", show(j->outer).text, show_bound(least).text);
+}
+
 static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_field *r = kd_field_find("spots", "r");
@@ -334,6 +343,7 @@ const struct kd_rule kd_rules[] = {
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, unless there is no volume.", volume },
+    { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },

@@ -40,6 +40,7 @@ static const struct shot {
     { "infall", "infall", "{" SIZE "}" },
     { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
+    { "jet", "jet", "{\"image\":{\"width\":160,\"height\":90,\"samples\":2}}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
     { "spots", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_light\":true},"

@@ -45,6 +45,7 @@ static const char *const scenes[] = {
     "{\"image\": {\"layers\": [\"g\"]}}",
     "{\"style\": {\"beam_uas\": 20}}",
     "{\"volume\": {\"model\": \"uniform\"}}",
+    "{\"jets\": {\"brightness\": 1}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

@@ -1,0 +1,56 @@
+/* Two jets, stylised, are optically thin light in cones along the spin axis, which flies outwards at one speed along the radius, past observers of
+ * zero angular momentum (Bardeen, Press & Teukolsky 1972). Those see of a photon the energy and radial momentum
+ *
+ *   e = (E - omega L) sqrt(A/(Sigma Delta)),   k_r = p_r sqrt(Delta/Sigma),   and the matter   -k.U = Gamma (e - beta k_r).
+ *
+ * A spectrum j_nu as nu^-alpha keeps its shape when it is shifted. j_nu/nu^2 is the same for all: along the observer's affine parameter light is
+ * g^(2 + alpha) j, g = 1/(-k.U), the D^(2 + alpha) of a steady jet (Lind & Blandford 1985, ApJ 295, 358).
+ *
+ * Across, with x = tan(theta)/tan(opening), a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2; along, (r/inner)^-falloff, which begins
+ * and ends smoothly. */
+#ifndef KD_BLOCK_jets
+#define KD_JETS_RISE 0.5 /* of the inner radius, over which light begins */
+#define KD_JETS_FADE 0.3 /* of the outer radius, over which it ends */
+#define KD_BLOCK_jets(F, U, A)                                                                                  \
+    F(inner) F(outer)      /* M */                                                                             \
+    F(cot)                 /* 1/tan of the opening angle */                                                    \
+    F(tan_)                /* and its tangent */                                                               \
+    F(brightness)          /* light of a length, 1/M, at the inner edge of the spine, in units of the disk's brightest surface */ \
+    F(sheath)              /* share of the sheath, 0 to 1 */                                                   \
+    F(falloff) F(power)    /* power: 2 + alpha */                                                              \
+    F(gamma) F(gamma_beta)                                                                                     \
+    F(counter)             /* light of the jet below, over that above */                                       \
+    F(temperature)         /* K, whose colour it has */
+#define KD_TABLES_jets(T)
+#define KD_TRAITS_jets(T)
+#define KD_BUFFERS_jets(B)
+#define KD_PASS_jets(P)
+#endif
+
+#ifdef KD_EMIT_CODE
+/* This is -k.U of its matter. */
+float kd_jets_energy(kd_midst p)
+{
+    float a = cam.spin, w2 = p.w * p.w, aw2 = a * a * w2, b = 1.0 + aw2, delta = max(kd_delta(p.w, cam.root), 1e-30);
+    float area = b * b - aw2 * delta * (1.0 - p.u * p.u), sigma = 1.0 + aw2 * p.u * p.u;
+    float e = (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * delta)), k = p.dw * inversesqrt(delta * sigma);
+    return max(emission.jets.gamma * e - emission.jets.gamma_beta * k, 1e-4);
+}
+
+kd_medium kd_jets_along(kd_midst p)
+{
+    float r = 1.0 / p.w, c = abs(p.u), s = sqrt(max(1.0 - p.u * p.u, 0.0)), x = min(s / max(c, 1e-6) * emission.jets.cot, 1e6);
+    float inner = emission.jets.inner, outer = emission.jets.outer, width = r * emission.jets.tan_;
+    float in_cone = max(1.0 - x * x, 0.0), across = in_cone * in_cone * (1.0 - emission.jets.sheath + emission.jets.sheath * 6.75 * x * x);
+    float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0), down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
+    float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
+    /* Both powers at once, within what a float holds whatever they are. */
+    float powers = exp2(clamp(-emission.jets.falloff * log2(r / inner) - emission.jets.power * log2(kd_jets_energy(p)), -100.0, 60.0));
+    float side = p.u > 0.0 ? 1.0 : emission.jets.counter;
+    float light = emission.jets.brightness * side * across * along * powers;
+    /* Outside, the way to the cone, and no shorter than what its edge, which is smooth, asks for. */
+    float away = max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
+    float grain = min(max(away, 0.25 * width), r);
+    return kd_medium(light * kd_colour_of(kd_colour_at(emission.jets.temperature)), 0.0, grain);
+}
+#endif

@@ -1,0 +1,62 @@
+/* These are two jets as an emitter: shaders/emit/jets.glsl. */
+#include "render/emit/emitter.h"
+
+#include "physics/kerr.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define CLEAR 1.05 /* of the horizon's radius: what flies outwards there is no longer seen */
+
+static bool present(const struct kd_scene *scene) { return scene->jets.brightness > 0; }
+
+static double inner(const struct kd_scene *scene) { return fmax(scene->jets.inner, CLEAR * kd_kerr_horizon(scene->spacetime.spin)); }
+
+static void reach(const struct kd_scene *scene, double radii[2])
+{
+    radii[0] = inner(scene);
+    radii[1] = scene->jets.outer;
+}
+
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    snprintf(out, KD_EMIT_TOLD, "%s along the axis, %.4g degrees wide, with a Lorentz factor of %.4g.", scene->jets.counterjet ? "Two jets" : "A jet",
+             2 * scene->jets.opening_deg, scene->jets.lorentz);
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    const struct kd_jets *j = &scene->jets;
+    const double slope = tan(j->opening_deg * (M_PI / 180));
+    out->jets = (struct kd_jets_block) {
+        .inner = (float)inner(scene),
+        .outer = (float)j->outer,
+        .cot = (float)(1 / slope),
+        .tan_ = (float)slope,
+        .brightness = (float)j->brightness,
+        .sheath = (float)j->sheath,
+        .falloff = (float)j->falloff,
+        .power = (float)(2 + j->spectral_index),
+        .gamma = (float)j->lorentz,
+        .gamma_beta = (float)sqrt((j->lorentz - 1) * (j->lorentz + 1)),
+        .counter = j->counterjet ? 1 : 0,
+        .temperature = (float)j->temperature_k,
+    };
+}
+
+static const struct kd_sentence sentences[] = {
+    { "jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular "
+      "momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted", NULL },
+};
+
+const struct kd_emitter kd_emit_jets = {
+    .name = "jets",
+    .title = "jets",
+    .tell = tell,
+    .present = present,
+    .reach = reach,
+    .fill = fill,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(jets) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+};
