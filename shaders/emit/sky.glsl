@@ -25,7 +25,7 @@
 #define KD_STAR_LIGHT 6      /* words a pixel: of red, green, blue the lower 32 bits and the upper ones */
 #define KD_STAR_UNIT 268435456.0 /* 2^28: of 1 in these words */
 #define KD_TABLES_sky(T)
-#define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS)
+#define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS) T(SPREAD)
 #define KD_BUFFERS_sky(B) B(1, uint, panorama) B(2, uint, point_light)
 #define KD_PASS_sky(P)
 #endif
