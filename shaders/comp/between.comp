@@ -85,7 +85,7 @@ bool straight(kd_biquadratic p, vec3 m)
 }
 
 /* Whether what the polynomial of crossing n leaves out, the third difference along x and y, is small beside its slopes. Each of the four rays
- * two pixels off tells it, if it has such a crossing. Where a map turns from one bend to the other the second difference is none. */
+ * two pixels off tells it, if it has such a crossing. A map that bends one way on one side of a pixel and the other way on its other side has no second difference there. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;

@@ -48,11 +48,6 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
 
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene)
 {
-    return kd_renderer_sky_is_under_way(renderer, scene);
-}
-
-bool kd_renderer_sky_is_under_way(struct kd_renderer *renderer, const struct kd_scene *scene)
-{
     return scene->sky.seed == UNREAD && !atomic_load(&renderer->read);
 }
 
@@ -137,7 +132,7 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
                          struct kd_frame *out, struct kd_error *error)
 {
     enum kd_status status = mishap(scene->top.time, error);
-    if (kd_renderer_sky_is_under_way(renderer, scene))
+    if (kd_renderer_sky_begin(renderer, scene))
         return kd_error_set(error, KD_EIO, "a picture has the device while its sky is read");
     if (!atomic_exchange(&renderer->read, true))
         renderer->params.sky_made(renderer->params.sky_user);

@@ -48,12 +48,19 @@ static enum kd_status make(const struct kd_assets *assets, const struct kd_panor
     return status;
 }
 
+/* Somebody waits for what has not been shown yet. */
+static bool goes_before(const struct kd_panorama *a, const struct kd_panorama *b)
+{
+    const bool promised = *a->of && !a->shown, other = *b->of && !b->shown;
+    return promised != other ? !promised : a->used < b->used;
+}
+
 /* The place of the one that was asked for longest ago, emptied. Place is made before a panorama is: memory for four is not for three. */
 static struct kd_panorama *room(struct kd_panoramas *all)
 {
     struct kd_panorama *oldest = all->given == all->at ? all->at + 1 : all->at;
     for (struct kd_panorama *p = oldest; p < all->at + KD_PANORAMAS; p++)
-        if (p != all->given && p->used < oldest->used)
+        if (p != all->given && goes_before(p, oldest))
             oldest = p;
     free(oldest->words);
     *oldest = (struct kd_panorama) { 0 };
@@ -161,15 +168,6 @@ bool kd_panorama_begin(struct kd_panoramas *all, const struct kd_scene *scene)
     return asked;
 }
 
-bool kd_panorama_is_under_way(struct kd_panoramas *all, const struct kd_scene *scene)
-{
-    const struct kd_panorama_key key = key_of(scene);
-    pthread_mutex_lock(&all->lock);
-    const bool asked = has_one(scene) && is_asked(all, key.of);
-    pthread_mutex_unlock(&all->lock);
-    return asked;
-}
-
 /* With the lock: waits for it, or makes it here where there is no thread for it. NULL: it has failed. */
 static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_panorama_key *key)
 {
@@ -181,8 +179,11 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
             pthread_cond_wait(&all->changed, &all->lock);
             continue;
         }
-        all->asked[all->n_asked++] = *key;
-        make_first(all);
+        all->asked[all->n_asked++] = *key; /* there are none without a thread */
+        all->runs = true;                  /* as the thread would be */
+        while (all->n_asked)
+            make_first(all);
+        all->runs = false;
     }
     return kept(all, key->of);
 }
@@ -195,6 +196,7 @@ enum kd_status kd_panorama_of(struct kd_panoramas *all, const struct kd_scene *s
     struct kd_panorama *p = wait_for(all, &key);
     if (p) {
         p->used = ++all->used;
+        p->shown = true;
         all->given = p;
         *out = p;
     } else {

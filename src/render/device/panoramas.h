@@ -16,6 +16,7 @@ struct kd_panorama {
     uint32_t columns, rows;       /* of the finest */
     char credit[KD_SKY_CREDIT];   /* whose picture it is; "": nobody says */
     uint64_t used;                /* the larger, the later */
+    bool shown;                   /* it was given to who asked for it */
 };
 enum { KD_PANORAMAS = 3, KD_PANORAMAS_ASKED = 16 };
 
@@ -37,9 +38,9 @@ struct kd_panoramas {
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user), void *user);
 
-/* Begins to make the panorama of a scene, if that has one, and it is not there. Whether it is under way now. */
+/* Begins to make the panorama of a scene, if that has one, and it is not there. Whether it is under way now. Places of those that nobody has been given
+ * are the last to be given up; who waits for one asks again, so that it is made again where it was. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
-bool kd_panorama_is_under_way(struct kd_panoramas *panoramas, const struct kd_scene *scene);
 /* Finds the panorama of a scene whose sky has one, or waits for it: some tenths of a second for a Milky Way, a second for a large picture. It stays until
  * the next call. Render thread only. KD_EINVAL at /sky/image: the asset is not here any more, or is no sound picture; KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error);

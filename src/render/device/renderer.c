@@ -124,11 +124,6 @@ bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *
     return *scene->sky.image && kd_panorama_begin(&renderer->panoramas, scene);
 }
 
-bool kd_renderer_sky_is_under_way(struct kd_renderer *renderer, const struct kd_scene *scene)
-{
-    return kd_panorama_is_under_way(&renderer->panoramas, scene);
-}
-
 void kd_renderer_sky_stop(struct kd_renderer *renderer) { kd_panoramas_stop(&renderer->panoramas); }
 
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)

@@ -21,7 +21,7 @@ struct kd_renderer_params {
     /* NULL, or kd_first_start (selftest/first_start.h): a device that is met for the first time is tested, half a second. */
     enum kd_status (*prove)(struct kd_renderer *renderer, struct kd_error *error);
     const struct kd_assets *assets; /* what scenes name (scene/asset.h); NULL: none */
-    void (*sky_made)(void *user);   /* by another thread: kd_renderer_sky_is_under_way may say otherwise now; may be NULL */
+    void (*sky_made)(void *user);   /* by another thread: kd_renderer_sky_begin may say otherwise now; may be NULL */
     void *sky_user;
     uint64_t memory_bytes;  /* most memory for pictures, those rendered aside included; 0: as the device and the host have it */
 };
@@ -32,9 +32,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer);
 /* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
 /* Begin to read the picture of a scene's sky, where it has one that is not there: up to a second. A render waits for it and keeps the device
- * meanwhile; who asks first, and renders afterwards, leaves the device to others. Whether it is under way. Any thread. */
+ * meanwhile; who asks until it is not under way, and renders then, leaves the device to others. Whether it is under way. Any thread. */
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
-bool kd_renderer_sky_is_under_way(struct kd_renderer *renderer, const struct kd_scene *scene);
 void kd_renderer_sky_stop(struct kd_renderer *renderer); /* afterwards none is, and sky_made is not called until another is begun */
 /* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);

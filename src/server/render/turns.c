@@ -58,7 +58,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
     return kd_render_has_begun(job) || queue->lost ||
-           (!(job->sky && kd_renderer_sky_is_under_way(queue->renderer, &job->scene)) && frame_fits(queue, job) && (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
+           (!(job->sky && kd_renderer_sky_begin(queue->renderer, &job->scene)) && frame_fits(queue, job) && (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
 /* One that only has to be told that it is over: that takes no time, and others may wait for it. A long one that has not begun needs
