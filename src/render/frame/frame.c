@@ -98,6 +98,8 @@ static enum kd_status run(struct kd_frame_job *j)
     enum kd_status status;
     kd_renderer_capacity(j->r, &c);
     j->march = j->plan->march;
+    if (kd_prepare_begin(j->r, j->scene, j->plan))
+        KD_TRY(compile_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);
