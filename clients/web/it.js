@@ -141,6 +141,11 @@ export const fields = {
     'Profondità ottica',
     'Profondità ottica lungo la normale dove il disco è più brillante, altrove come il suo flusso: un attraversamento assorbe 1 − exp(−profondità/cos) di disk.opacity, secondo l’angolo di emissione nel riferimento del gas; 0: l’opacità è ovunque la stessa',
   ],
+  'disk.height': [
+    'Altezza',
+    'Altezza del gas sulla distanza dall’asse, a 10 M: dove la densità è scesa a exp(−1/2); da cima a fondo ha la profondità ottica del disco sottile; 0: un disco sottile',
+  ],
+  'disk.flare': ['Svasatura', 'Potenza della distanza dall’asse con cui cresce il rapporto'],
   'disk.colour': ['Temperatura', 'Scala delle temperature: un picco scelto, oppure da massa e tasso di accrescimento'],
   'disk.peak_temperature_k': ['Temperatura di picco', 'Massima temperatura efficace del disco, nel suo riferimento'],
   'disk.mdot_edd': ['Accrescimento', 'Tasso di accrescimento: luminosità su quella di Eddington, con l’efficienza di questo spin'],
@@ -321,6 +326,7 @@ export const presets = {
   falling: 'Ciò che vede chi cade liberamente da lontano, a 6 M; camera.r continua oltre l’orizzonte',
   infall:
     'Una caduta libera da 20 M attraverso l’orizzonte, secondo l’orologio di chi cade, con la massa di Sagittarius A*; in una sessione prosegue',
+  'thick-disk': 'Un disco di gas turbolento alto un decimo della distanza dall’asse, con la luce seguita lungo ogni raggio; in una sessione gira',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
   jet: 'Due getti da un buco in gas turbolento, davanti alle stelle: quello che viene verso di noi è il più luminoso; stilizzati',
   'hot-spot':
@@ -433,6 +439,11 @@ const refusals = [
   // what is seen of emitters
   ['A thin disk from the ISCO to {}.', 'Un disco sottile dall’ISCO a {}.'],
   ['A thin disk from {} to {}.', 'Un disco sottile da {} a {}.'],
+  ['A thick disk of turbulent gas from the ISCO to {}.', 'Un disco spesso di gas turbolento dall’ISCO a {}.'],
+  ['A thick disk of turbulent gas from {} to {}.', 'Un disco spesso di gas turbolento da {} a {}.'],
+  ['A thick disk from the ISCO to {}.', 'Un disco spesso dall’ISCO a {}.'],
+  ['A thick disk from {} to {}.', 'Un disco spesso da {} a {}.'],
+  ['Matter all round from {} to {}.', 'Materia tutt’intorno da {} a {}.'],
   ['A thin disk of turbulent gas from the ISCO to {}.', 'Un disco sottile di gas turbolento dall’ISCO a {}.'],
   ['A thin disk of turbulent gas from {} to {}.', 'Un disco sottile di gas turbolento da {} a {}.'],
   ['A disk of {} particles from the ISCO to {}.', 'Un disco di {} particelle dall’ISCO a {}.'],
@@ -478,6 +489,7 @@ export const sentences = {
   'camera: each eye of a pair is an observer of its own, of the same kind, beside the middle by the first order of camera.eye_distance in the local frame, at the same time; their axes are parallel as in flat space':
     'camera: ogni occhio di una coppia è un osservatore a sé, dello stesso tipo, accanto al mezzo secondo il primo ordine di camera.eye_distance nel riferimento locale, allo stesso tempo; i loro assi sono paralleli come nello spazio piatto',
   'thin disk': 'disco sottile',
+  'thick disk': 'disco spesso',
   particles: 'particelle',
   'plunging gas': 'gas in caduta',
   spots: 'macchie',
@@ -574,6 +586,14 @@ export const sentences = {
     'cielo: un’immagine di tre colori non ha spettro: la sua luce è resa più intensa e colorata come quella di corpi neri di 5600 K',
   "sky: from so near the horizon it is noise: for most pixels that see it the next one, or the last digit of the ray's constants, leads more than 0.1 rad away":
     'cielo: da così vicino all’orizzonte è rumore: per la maggior parte dei pixel che lo vedono il successivo, o l’ultima cifra delle costanti del raggio, porta a più di 0,1 rad di distanza',
+  "thick disk: a chosen height, Gaussian, with the thin disk's temperature, flux and optical depth at each distance from the axis; no torus in equilibrium, and it ends at 4.5 heights":
+    'disco spesso: un’altezza scelta, gaussiana, con temperatura, flusso e profondità ottica del disco sottile a ogni distanza dall’asse; nessun toro in equilibrio, e finisce a 4,5 altezze',
+  'thick disk: its gas goes round with the angular velocity of the circular orbit in the plane at its distance from the axis, at whatever height':
+    'disco spesso: il suo gas gira con la velocità angolare dell’orbita circolare nel piano alla sua distanza dall’asse, a qualunque altezza',
+  "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a black body of the thin disk's temperature, from top to bottom":
+    'disco spesso: somma di emissione e assorbimento lungo ogni raggio, senza diffusione; emette come un corpo nero della temperatura del disco sottile, da cima a fondo',
+  'thick disk: shown at one coordinate time, whatever disk.slow_light says':
+    'disco spesso: mostrato a un solo tempo coordinato, qualunque cosa dica disk.slow_light',
   'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature':
     'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta',
   'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':

@@ -17,6 +17,7 @@
 #define KD_MARCH_WAY 0.5      /* longest stretch, of r: over it three places find the integral of r^2 to 4e-5 */
 #define KD_MARCH_DEPTH 1.0    /* and in optical depth */
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
+#define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
 #define KD_MARCH_OPAQUE 1e-5  /* what is let through no longer counts */
 
 /* A polynomial of the time within a step, from 0 to 1. */
@@ -61,20 +62,92 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
         to = from;
 }
 
-/* A step of the ray. */
-struct kd_stride { kd_quintic w, u; float h; };
+const bool KD_MARCH_TURNS = (KD_ALONG_TRAITS & KD_TRAIT_AZIMUTH) != 0u;
 
-kd_stride kd_stride_of(kd_geodesic m, kd_path p, kd_path q, float h)
+/* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning of a step, without what those leave
+ * out; and which they are: way, and what was left out before. */
+struct kd_march_drag { float chi, way, fallen; bool returns; };
+
+/* A step of the ray. chi grows by a cubic in it. */
+struct kd_stride { kd_quintic w, u, x, y; float h, c0, c1, c2, c3, way; };
+
+float kd_march_rate(kd_geodesic m, kd_ray ray, float w, float dw, float way)
 {
-    vec4 a = h * h * kd_path_pull(m, p.y), b = h * h * kd_path_pull(m, q.y);
-    return kd_stride(kd_quintic_of(p.y.w, h * p.v.w, a.w, q.y.w, h * q.v.w, b.w), kd_quintic_of(p.y.z, h * p.v.z, a.z, q.y.z, h * q.v.z, b.z), h);
+    kd_state y;
+    y.w = w;
+    y.dw = dw;
+    return INGOING ? kd_drag_ingoing(m, y, ray.e, cam.spin, cam.root, way) : kd_drag(m, y, ray.e, cam.spin, cam.root, way);
 }
 
-kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, float t)
+kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h, inout kd_march_drag drag)
+{
+    vec4 a = h * h * kd_path_pull(m, p.y), b = h * h * kd_path_pull(m, q.y);
+    kd_stride s;
+    s.w = kd_quintic_of(p.y.w, h * p.v.w, a.w, q.y.w, h * q.v.w, b.w);
+    s.u = kd_quintic_of(p.y.z, h * p.v.z, a.z, q.y.z, h * q.v.z, b.z);
+    s.h = h;
+    if (KD_MARCH_TURNS) {
+        s.x = kd_quintic_of(p.y.x, h * p.v.x, a.x, q.y.x, h * q.v.x, b.x);
+        s.y = kd_quintic_of(p.y.y, h * p.v.y, a.y, q.y.y, h * q.v.y, b.y);
+        if (INGOING && drag.returns && drag.way < 0.0 && p.v.w > 0.0) { /* as in comp/lens_map.comp */
+            drag.way = 1.0;
+            drag.fallen -= 2.0 * kd_drag_fall(p.y.w, cam.spin, cam.root);
+        }
+        s.way = INGOING ? drag.way : p.v.w > 0.0 && q.v.w > 0.0 ? 1.0 : p.v.w < 0.0 && q.v.w < 0.0 ? -1.0 : 0.0;
+        float r0 = h * kd_march_rate(m, ray, p.y.w, p.v.w, s.way), r2 = h * kd_march_rate(m, ray, q.y.w, q.v.w, s.way);
+        float r1 = h * kd_march_rate(m, ray, kd_quintic_at(s.w, 0.5), kd_quintic_slope(s.w, 0.5) / h, s.way);
+        s.c0 = drag.chi + (INGOING ? drag.fallen : -s.way * kd_drag_fall(p.y.w, cam.spin, cam.root));
+        s.c1 = r0;
+        s.c2 = 0.5 * (4.0 * r1 - 3.0 * r0 - r2);
+        s.c3 = (2.0 / 3.0) * (r0 - 2.0 * r1 + r2);
+        drag.chi += s.c1 + s.c2 + s.c3 + (INGOING ? 0.0 : s.way * (kd_drag_fall(q.y.w, cam.spin, cam.root) - kd_drag_fall(p.y.w, cam.spin, cam.root)));
+    }
+    return s;
+}
+
+kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
+{
+    kd_march_drag drag = kd_march_drag(INGOING ? 0.0 : -cam.twist, -1.0, 0.0, false);
+    if (INGOING) {
+        kd_state y;
+        y.w = ray.w;
+        y.dw = ray.dw;
+        kd_barrier b = kd_barrier_beside(m, kd_barrier_of(m, ray, cam.spin, cam.u, cam.horizon, cam.root, 6e-8), y, ray.e, cam.horizon);
+        drag.returns = !kd_flies_out(b, y);
+        drag.way = drag.returns && y.dw > 0.0 ? 1.0 : -1.0;
+        drag.fallen = drag.way > 0.0 ? -2.0 * cam.twist : 0.0;
+    }
+    return drag;
+}
+
+/* What a ray stands for at its crossing n of the plane, across the ray: the ellipse there, whose axis along the ray is shorter by the cosine to the
+ * normal. outwards: 1 if it is traced that way, -1 if inwards. Nothing is known of what a ray does not cross. */
+vec3 kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
+{
+    uint k = at + min(n, ORDERS - 1u) * slice.stride;
+    float w = lens[k], size = quantity(KD_LENS_FOOTPRINT, k);
+    uint bits = floatBitsToUint(quantity(KD_LENS_SHAPE, k));
+    float i = float(bits & 2047u) * (1.0 / 2047.0), j = float((bits >> 11) & 2047u) * (2.0 / 2047.0) - 1.0;
+    float both = sqrt(i * (1.0 - i)), apart = i - 0.5, all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
+    vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
+    /* The ray's direction as if space were flat: r'^2 = R(w)/w^4, the turn about the axis L, and sqrt(Q) along the normal, over r. */
+    float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0), round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
+    float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2);
+    vec2 d = vec2(outwards * sqrt(out2), round_) * inversesqrt(plane2);
+    vec2 md = vec2(flat_.x * d.x + flat_.y * d.y, flat_.y * d.x + flat_.z * d.y);
+    float dd = dot(d, md) * less * less;
+    vec3 across = flat_ - less * vec3(2.0 * d.x * md.x, d.x * md.y + d.y * md.x, 2.0 * d.y * md.y) + dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
+    return w > 0.0 && size < KD_FOOTPRINT_EDGE ? across : vec3(0.0);
+}
+
+kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float t)
 {
     float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h, du = kd_quintic_slope(s.u, t) / s.h;
     float r = 1.0 / w, fall = dw * r, turn = max(m.q + m.momentum * m.momentum + m.energy2 * u * u, 0.0);
-    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn));
+    float phi = 0.0;
+    if (KD_MARCH_TURNS)
+        phi = -(kd_atan2(kd_quintic_at(s.y, t), kd_quintic_at(s.x, t)) + s.c0 + t * (s.c1 + t * (s.c2 + t * s.c3)) + s.way * kd_drag_fall(w, cam.spin, cam.root));
+    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread);
 }
 
 /* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages (Hairer, Norsett & Wanner 1993,
@@ -88,24 +161,25 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 }
 
 /* Goes through a part of a step that lies in the volumes. */
-void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, float from, float to)
+void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float from, float to)
 {
     const float coarse = 4.0 / float(FINE);
     float wish = 0.0; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     while (from < to && beam.through > KD_MARCH_OPAQUE) {
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 4096.0)) : 0.0, most = 1.0;
         kd_beam trial = beam;
+        float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
         for (int k = 0; k < 3; k++) {
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
-            kd_midst p = kd_midst_of(m, ray, s, from + x * length_);
+            kd_midst p = kd_midst_of(m, ray, s, spread, from + x * length_);
             kd_medium medium = kd_medium_at(p);
             float r = 1.0 / p.w, au = cam.spin * p.u, way = (r * r + au * au) * s.h;
             kd_beam_along(trial, medium, weight * length_ * way);
             one = two;
             two = three;
             three = weight * length_ * way * vec4(medium.light, medium.depth);
-            float allowed = min(min(medium.grain, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
+            float allowed = min(min(medium.grain * far, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
             most = min(most, coarse * allowed);
         }
         wish = max(most, KD_MARCH_SHORTEST);
@@ -126,9 +200,9 @@ bool kd_march_meets(kd_geodesic m, kd_ray ray)
 }
 
 /* Goes through one step. side: of the plane that the ray is on, crossed: how often it has crossed it. */
-void kd_march_step(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h, inout float side, inout uint crossed, uvec2 place, uint at)
+void kd_march_step(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h, inout kd_march_drag drag, inout float side, inout uint crossed, uvec2 place, uint at)
 {
-    kd_stride s = kd_stride_of(m, p, q, h);
+    kd_stride s = kd_stride_of(m, ray, p, q, h, drag);
     const float none = 2.0;
     bool meets = q.y.z * side < 0.0;
     float turn_w = p.v.w * q.v.w < 0.0 ? kd_quintic_root(kd_quintic_derived(s.w), 0.0, 0.0, 1.0) : none;
@@ -145,8 +219,14 @@ void kd_march_step(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_path p, kd_
         kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);
         kd_quintic_clip(s.u, emission.frame.along_u, -1.0, from, to);
         kd_quintic_clip(s.u, -emission.frame.along_u, 1.0, from, to);
+        vec3 spread = vec3(0.0);
+        if (KD_MARCH_TURNS && ORDERS > 0) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
+            uint passed = crossed + (t >= plane ? 1u : 0u);
+            bool leaves = passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
+            spread = kd_march_spread(m, ray, leaves ? passed - 1u : passed, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
+        }
         KD_TELL_BEFORE(beam)
-        kd_march_part(beam, m, ray, s, from, to);
+        kd_march_part(beam, m, ray, s, spread, from, to);
         KD_TELL_STRETCH(s, from, to, beam)
         if (end == plane && KD_GLOWS && crossed < ORDERS && beam.through > 0.0) {
             float w = lens[at + crossed * slice.stride];
@@ -168,6 +248,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = KD_PI / (float(STEPS) * sqrt(rate2));
     float side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     uint crossed = 0;
+    kd_march_drag drag = kd_march_drag_of(m, ray);
     bool goes = kd_march_meets(m, ray) && !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon));
     /* Steps, and how many, are those of a ray that escapes (ray/escape.glsl). */
     for (uint i = 0; i < 12 * STEPS && goes; i++) {
@@ -178,7 +259,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
             q.v.w = kd_leaving(m, q.y.w, ray.e);
         if (!kd_is_finite(q.y.w))
             break;
-        kd_march_step(beam, m, ray, p, q, h, side, crossed, place, at);
+        kd_march_step(beam, m, ray, p, q, h, drag, side, crossed, place, at);
         bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
         /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
         bool gone = q.v.w < 0.0 && q.y.w < emission.frame.along_least && (q.y.w <= 0.0 || kd_path_pull(m, q.y).w <= 0.0);

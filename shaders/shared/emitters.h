@@ -33,7 +33,8 @@
     AT_END(5, sky)                                                                                             \
     AT_CROSSING(6, gas)                                                                                        \
     ALONG(7, volume)                                                                                           \
-    ALONG(8, jets)
+    ALONG(8, jets)                                                                                             \
+    ALONG(9, thick)
 
 /* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B)
@@ -52,6 +53,7 @@
  * themselves. There is room for that of one. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_APART 32u
+#define KD_TRAIT_AZIMUTH 0x20000000u /* of volumes: it needs to know the azimuth of a place, and what of it a ray stands for */
 #define KD_TRAIT_POINTS 0x80000000u /* it has points of light, which a pass of their own spreads over pixels (comp/star_images.comp) */
 #define KD_TRAIT_SPREAD 0x40000000u /* it has light wherever a ray ends */
 

@@ -38,6 +38,7 @@ static const struct shot {
     { "falling", "falling", "{" SIZE "}" },
     { "inside", "falling", "{\"camera\":{\"r\":1,\"projection\":\"equirectangular\"}," SIZE "}" },
     { "infall", "infall", "{" SIZE "}" },
+    { "thick-disk", "thick-disk", "{\"time\":1000," SIZE "}" },
     { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
     { "jet", "jet", "{\"image\":{\"width\":160,\"height\":90,\"samples\":2}}" },

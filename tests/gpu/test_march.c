@@ -152,6 +152,87 @@ static void test_order(void **state)
     kd_frame_finish(&plain);
 }
 
+static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t times)
+{
+    struct kd_capacity c;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(scene, &c, &plan, &error));
+    plan.march.fine *= times;
+    plan.march.steps *= times > 1 ? 4 : 1;
+    OK(kd_render(renderer, scene, &plan, NULL, NULL, &frame, &error));
+    return frame;
+}
+
+static double largest(const float *light, int n)
+{
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, light[i]);
+    return most;
+}
+
+/* A thick disk of next to no height is the thin one to 1 %, or to a two-thousandth of the brightest, whatever its light takes: by depth, by a chosen opacity,
+ * with its fade. */
+static void test_thin_limit(void **state)
+{
+    (void)state;
+    static const struct view thin[] = {
+        { 0.9, 60, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":2}}" },
+        { 0, 82, INFINITY, "{\"disk\":{\"model\":\"shakura-sunyaev\",\"emission_opacity\":10,\"doppler\":false}}" },
+        { 0.5, 75, 30, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":0,\"opacity\":0.4}}" },
+    };
+    for (size_t v = 0; v < sizeof thin / sizeof *thin; v++) {
+        struct kd_scene scene = scene_of(thin[v].spin, thin[v].inclination, thin[v].r, thin[v].json);
+        scene.volume.model = KD_VOLUME_NONE;
+        scene.image.width = 48;
+        scene.image.height = 36;
+        scene.accuracy.orders = 8;
+        struct kd_frame flat = rendered(&scene);
+        scene.disk.height = 0.00005;
+        struct kd_frame thick = rendered(&scene);
+        double most = largest(intensity(&flat), 48 * 36), worst = 0;
+        int lit = 0, off = 0;
+        for (int i = 0; i < 48 * 36; i++) {
+            double want = intensity(&flat)[i], by = fabs(intensity(&thick)[i] - want) / fmax(want, 0.05 * most);
+            lit += want > 0;
+            off += by > 0.01;
+            worst = fmax(worst, by);
+        }
+        printf("thin limit, view %zu: %d pixels lit, %d beyond 1 %%, worst %.2g\n", v, lit, off, worst);
+        assert_true(lit > 300 && off <= lit / 100); /* those at the edges of a flux that vanishes: their place is smoothed by the height */
+        kd_frame_finish(&flat);
+        kd_frame_finish(&thick);
+    }
+}
+
+/* Seen along the plane there are no bands: next to no pixel differs from a march of 16 times as many stretches. */
+static void test_no_bands(void **state)
+{
+    (void)state;
+    for (int stirred = 0; stirred < 2; stirred++) {
+        struct kd_scene scene = scene_of(0.7, 90, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":10,\"height\":0.1}}");
+        scene.volume.model = KD_VOLUME_NONE;
+        scene.gas.amplitude = stirred ? 0.8 : 0;
+        scene.image.width = 8;
+        scene.image.height = 64;
+        scene.camera.field_m = 4;
+        scene.camera.centre_alpha = 9;
+        struct kd_frame plain = by_plan(&scene, 1), fine = by_plan(&scene, 16);
+        double most = largest(intensity(&fine), 8 * 64), worst = 0, square = 0;
+        for (int i = 0; i < 8 * 64; i++) {
+            double by = fabs(intensity(&plain)[i] - intensity(&fine)[i]) / most;
+            worst = fmax(worst, by);
+            square += by * by / (8 * 64);
+        }
+        printf("%s: rms %.2g, worst %.2g of the brightest\n", stirred ? "stirred" : "smooth", sqrt(square), worst);
+        assert_true(most > 0 && worst < (stirred ? 0.05 : 0.005) && sqrt(square) < 0.005);
+        kd_frame_finish(&plain);
+        kd_frame_finish(&fine);
+    }
+}
+
 /* What is off has no pass, and what is on has one, which takes the place of the transfer. */
 static void test_plan(void **state)
 {
@@ -192,6 +273,10 @@ static void test_adversarial(void **state)
         { 0.9, 90, 1.45, "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"opacity\":1}}" },
         { 0.998, 30, 1.07, "{\"camera\":{\"observer\":\"zamo\"},\"volume\":{\"opacity\":1e30}}" },
         { 0.5, 75, 1.2, "{\"camera\":{\"observer\":\"infall\"},\"volume\":{\"opacity\":0.1}}" }, /* within the horizon */
+        { 0.9, 90, INFINITY, "{\"volume\":{\"model\":\"none\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":1e-6,\"emission_opacity\":1e6,\"gas\":{\"amplitude\":3}}}" },
+        { 0.999999999999, 88, INFINITY, "{\"volume\":{\"model\":\"none\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":0.5,\"flare\":0.5,\"outer\":1e6,\"emission_opacity\":1e-30}}" },
+        { 0.998, 90, 1.3, "{\"volume\":{\"model\":\"none\"},\"camera\":{\"observer\":\"zamo\"},\"disk\":{\"model\":\"shakura-sunyaev\",\"height\":0.3,\"gas\":{\"amplitude\":1}}}" },
+        { 0.5, 75, 1.2, "{\"volume\":{\"model\":\"none\"},\"camera\":{\"observer\":\"infall\"},\"disk\":{\"model\":\"novikov-thorne\",\"height\":0.2,\"gas\":{\"amplitude\":1}}}" },
         { 0.7, 180, 40, "{\"volume\":{\"inner\":19.999,\"outer\":20}}" },
     };
     for (size_t v = 0; v < sizeof hard / sizeof *hard; v++) {
@@ -210,6 +295,8 @@ int main(void)
         cmocka_unit_test(test_closed_form),
         cmocka_unit_test(test_shift),
         cmocka_unit_test(test_order),
+        cmocka_unit_test(test_thin_limit),
+        cmocka_unit_test(test_no_bands),
         cmocka_unit_test(test_plan),
         cmocka_unit_test(test_adversarial),
     };

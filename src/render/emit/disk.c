@@ -10,7 +10,7 @@
 
 static bool present(const struct kd_scene *scene)
 {
-    return scene->disk.model != KD_DISK_NONE && scene->disk.model != KD_DISK_PARTICLES;
+    return scene->disk.model != KD_DISK_NONE && scene->disk.model != KD_DISK_PARTICLES && scene->disk.height == 0;
 }
 
 static uint32_t needs(const struct kd_scene *scene)
@@ -95,6 +95,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
+WHEN(thin, scene->disk.height == 0)
 WHEN(newtonian, scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
 WHEN(chosen_peak, scene->disk.colour == KD_COLOUR_PEAK)
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
@@ -104,7 +105,7 @@ WHEN(fades, scene->disk.taper > 0)
 WHEN(seen_through, scene->disk.opacity < 1)
 
 static const struct kd_sentence sentences[] = {
-    { "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge", NULL },
+    { "disk: geometrically thin, in the equatorial plane, gas on circular Kerr orbits that ends at the inner edge", thin },
     { "disk: each element shines as an isotropic black body; no limb darkening, no irradiation by returning light", NULL },
     { "disk: Newtonian thin-disk flux cut at the ISCO instead of the Page-Thorne integral", newtonian },
     { "disk: the peak temperature is chosen to be seen, not computed from a mass and an accretion rate", chosen_peak },

@@ -146,8 +146,9 @@ bool kd_emit_only_dims(const struct kd_scene *scene) { return going_on(scene) ==
 static bool is_read(const struct kd_emitter *e, const struct kd_scene *scene)
 {
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
-        if ((kd_emitters[i] == e || kd_emitters[i]->reads == e) && kd_emit_has(scene, kd_emitters[i]))
-            return true;
+        for (const struct kd_emitter *of = kd_emit_has(scene, kd_emitters[i]) ? kd_emitters[i] : NULL; of; of = of->reads)
+            if (of == e)
+                return true;
     return false;
 }
 

@@ -58,7 +58,7 @@ struct kd_emitter {
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind;  /* whose sentences hold for it as well; NULL: nobody's */
-    const struct kd_emitter *reads; /* whose numbers and tables it reads beside its own; NULL: nobody's */
+    const struct kd_emitter *reads; /* whose numbers and tables it reads beside its own, and whatever that one reads; NULL: nobody's */
     const struct kd_emitter *replaces; /* which is not there where this one is; NULL: none */
 };
 

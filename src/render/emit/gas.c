@@ -18,7 +18,7 @@ static bool present(const struct kd_scene *scene)
 {
     int model = scene->disk.model;
     return (model == KD_DISK_NOVIKOV_THORNE || model == KD_DISK_SHAKURA_SUNYAEV) &&
-           (scene->gas.amplitude > 0 || scene->disk.emission_opacity > 0);
+           (scene->gas.amplitude > 0 || scene->disk.emission_opacity > 0) && scene->disk.height == 0;
 }
 
 static bool stirs(const struct kd_scene *scene) { return scene->gas.amplitude > 0; }
@@ -109,8 +109,8 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(turbulent, stirs(scene))
-WHEN(deep, scene->disk.emission_opacity > 0)
-WHEN(fast, stirs(scene) && !scene->disk.slow_light)
+WHEN(deep, scene->disk.emission_opacity > 0 && scene->disk.height == 0)
+WHEN(fast, stirs(scene) && (!scene->disk.slow_light || scene->disk.height > 0))
 
 static const struct kd_sentence sentences[] = {
     { "gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and "

@@ -1,0 +1,139 @@
+/* This is the smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the axis, z = r cos(theta),
+ *
+ *   density ~ exp(-z^2/2H^2),   H = height R (R/10)^flare,   between the spheres of the disk's edges, and to 4.5 H.
+ *
+ * It shines as the thin disk does, of whose temperature and flux it is at R, and goes round with the Omega of the circular orbit there, at any height
+ * (the metric's own u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972). From top to bottom it has the optical
+ * depth of the thin disk: what crosses that at an angle theta to its normal in the frame of the gas is dimmed by as much, whatever of it stands in
+ * opacity and fade, so that for a small height the picture is the thin disk's. Turbulence is that of gas.glsl, its noise with a third coordinate. */
+#ifndef KD_BLOCK_thick
+#define KD_THICK_REACH 4.5     /* H */
+#define KD_THICK_NOISE 5.237147522273636 /* 1 over the standard deviation of gradient noise by gradients of a cube */
+#define KD_THICK_FAINT 0.35    /* octaves fainter than this part of the first are sampled as the others ask for: of six, the last two */
+#define KD_THICK_LAYERS 3.0    /* cells in height for each in the plane: streaks are as much narrower than they are long */
+#define KD_BLOCK_thick(F, U, A)                                                                                 \
+    F(height) F(flare)     /* H/R at 10 M, and the power of R/10 that it grows as */                           \
+    F(inner) F(outer)      /* M */
+#define KD_TABLES_thick(T)
+#define KD_TRAITS_thick(T) KD_TRAITS_disk(T) T(GAS_DEEP) T(GAS_OCTAVES) T(AZIMUTH)
+#define KD_BUFFERS_thick(B)
+#define KD_PASS_thick(P)
+#endif
+
+#ifdef KD_EMIT_CODE
+#ifdef KD_MARCH
+const uint KD_THICK_TAKEN = (TRAITS_thick & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
+
+/* This is the circular orbit at a distance from the axis, as matter at any height has it: u^t and Omega. */
+struct kd_thick_orbit { float ut, omega; };
+
+kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
+{
+    float a = cam.spin, s2 = 1.0 - p.u * p.u, omega = 1.0 / (axis * sqrt(axis) + a), sigma = r * r + a * a * p.u * p.u;
+    float turn = 1.0 - a * omega * s2;
+    float rest = 1.0 - (r * r + a * a) * s2 * omega * omega - 2.0 * r / sigma * turn * turn;
+    return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
+}
+
+/* There is a gradient for each point of a lattice, times 512. */
+vec3 kd_thick_gradient(uint point)
+{
+    uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
+    h = (h ^ (h >> 12)) * 0x297a2d39u;
+    h ^= h >> 15;
+    return vec3(float(int(h) >> 22), float(int(h << 10) >> 22), float(int(h << 20) >> 22)) + 0.5;
+}
+
+/* Of one plane of the lattice: noise by the gradients, and by those turned by a quarter about the third axis. */
+vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
+{
+    vec3 a = kd_thick_gradient(x0 ^ y0 ^ z), b = kd_thick_gradient(x1 ^ y0 ^ z), c = kd_thick_gradient(x0 ^ y1 ^ z), f = kd_thick_gradient(x1 ^ y1 ^ z);
+    vec2 e = d.xy - 1.0;
+    vec2 low = mix(vec2(a.x * d.x + a.y * d.y + a.z * d.z, a.x * d.y - a.y * d.x), vec2(b.x * e.x + b.y * d.y + b.z * d.z, b.x * d.y - b.y * e.x), t.x);
+    vec2 high = mix(vec2(c.x * d.x + c.y * e.y + c.z * d.z, c.x * e.y - c.y * d.x), vec2(f.x * e.x + f.y * e.y + f.z * d.z, f.x * e.y - f.y * e.x), t.x);
+    return mix(low, high, t.y);
+}
+
+/* Gradient noise of variance 1 (Perlin 2002) in three dimensions, in a lattice that is shifted by at.xy of a cell and at.zw cells; and, uncorrelated with
+ * it, that of the gradients turned, of variance 2/3. */
+vec2 kd_thick_noise(vec3 p, vec4 at)
+{
+    p.xy += at.xy;
+    vec3 corner = floor(p), d = p - corner, t = d * d * d * (d * (d * 6.0 - 15.0) + 10.0);
+    uvec2 i = uvec2(ivec2(corner.xy + at.zw));
+    uint x0 = i.x * 0x8da6b343u, x1 = x0 + 0x8da6b343u, y0 = i.y * 0xd8163841u, y1 = y0 + 0xd8163841u, z0 = uint(int(corner.z)) * 0xcb1ab31fu;
+    vec2 low = kd_thick_plane(x0, x1, y0, y1, z0, d, t.xy), high = kd_thick_plane(x0, x1, y0, y1, z0 + 0xcb1ab31fu, vec3(d.xy, d.z - 1.0), t.xy);
+    return mix(low, high, t.z) * (KD_THICK_NOISE / 512.0); /* E[n^2] over gradients of the cube and places of the cell */
+}
+
+/* The same as kd_gas_excess, with a height; and how many cells of the finest octave that counts for the grain there are to one of the first. */
+struct kd_thick_stir { float excess, finest; };
+
+kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z)
+{
+    kd_sample s;
+    s.phi = p.phi;
+    s.ago = 0.0;
+    float u = max((log2(axis) - emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;
+    float x2 = x * x, share = x2 * x2 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
+    float w1 = sqrt(max(1.0 - share, 0.0)), w2 = sqrt(share);
+    uint k = min(uint(j), KD_GAS_RINGS - 2u);
+    kd_gas_ring one = kd_gas_ring_of(k, x * KD_GAS_RING, s), two = kd_gas_ring_of(k + 1u, (x - 1.0) * KD_GAS_RING, s);
+    float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
+    float shear = emission.gas.shear, per = emission.gas.cells / axis;
+    float rr = p.spread.x, rf = p.spread.y + shear * rr, ff = p.spread.z + shear * (2.0 * p.spread.y + shear * rr);
+    kd_gas_steps steps = kd_gas_steps(per * per * (rr + ff), per * per * per * per * max(rr * ff - rf * rf, 0.0));
+    mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
+    for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
+        float left = kd_gas_left(steps), part = loud * left;
+        if (!(left > 0.02))
+            break;
+        vec2 a = kd_thick_noise(vec3(one.p, up), kd_gas_lattice(one, octave)), b = kd_thick_noise(vec3(two.p, up), kd_gas_lattice(two, octave));
+        sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
+        finest *= octave > 0u && loud > KD_THICK_FAINT * emission.gas.loudness ? KD_GAS_FINER : 1.0;
+        loud *= emission.gas.persistence;
+        steps = kd_gas_steps(steps.sum * emission.gas.finer, steps.product * emission.gas.finer * emission.gas.finer);
+        one.p = next * (one.p + emission.gas.warp * a);
+        two.p = next * (two.p + emission.gas.warp * b);
+        up = KD_GAS_FINER * up + 17.3;
+    }
+    return kd_thick_stir(sum, finest);
+}
+
+kd_medium kd_thick_along(kd_midst p)
+{
+    float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-6), s = sqrt(s2), axis = r * s, z = r * p.u;
+    float height = axis * emission.thick.height * (emission.thick.flare == 0.0 ? 1.0 : pow(0.1 * axis, emission.thick.flare)), x = z / height;
+    /* How fast the ray goes up and outwards, and round, of the length that it goes. */
+    float per = 1.0 / p.speed, dr = -p.dw * r * r * per, dz = dr * p.u + r * p.du * per, out_ = dr * s - r * p.u * p.du / s * per, round_ = -p.momentum / s * r * per;
+    float off = max(abs(x) - KD_THICK_REACH, 0.0) * height;
+    float fades = (emission.thick.outer - r) * emission.disk.fade < 1.0 ? emission.disk.fade : 0.0;
+    float grain = 1.0 / (abs(dz) / (1.2 * height) + abs(out_) * (4.0 / max(axis - 0.7 * emission.thick.inner, 0.05 * axis) + fades) + 2.5 / axis);
+    if (off > 0.0 || r < emission.thick.inner || r > emission.thick.outer)
+        return kd_medium(vec3(0.0), 0.0, max(grain, 0.7 * off / max(abs(dz), 0.1)));
+
+    kd_thick_orbit orbit = kd_thick_orbit_of(p, r, axis);
+    bool doppler = (TRAITS_thick & KD_TRAIT_DOPPLER) != 0u, redshift = (TRAITS_thick & KD_TRAIT_REDSHIFT) != 0u;
+    float seen = max(orbit.ut * (p.energy - orbit.omega * p.momentum), 1e-6);
+    float shown = doppler && redshift ? seen : (redshift ? orbit.ut : 1.0) * max(doppler ? p.energy - orbit.omega * p.momentum : FINITE ? p.energy : 1.0, 1e-6);
+    float t = kd_disk_heat(1.0 / axis) * inversesqrt(axis * sqrt(axis)), flux = t * t * t * t;
+    kd_thick_stir stir = KD_THICK_TAKEN > 0u ? kd_thick_excess(p, axis, z) : kd_thick_stir(0.0, 0.0);
+    float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
+
+    /* The thin disk's opacity for light at this angle, as an optical depth along the normal. */
+    float fade = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0), cap = emission.disk.opacity * (fade * fade * (3.0 - 2.0 * fade));
+    float c = p.du / s / (r * seen), slant = sqrt(c * c + emission.thick.height * emission.thick.height), depth = emission.gas.depth * flux * more;
+    bool deep = (TRAITS_thick & KD_TRAIT_GAS_DEEP) != 0u;
+    float taken = cap * (deep ? 1.0 - exp(-depth / slant) : 1.0);
+    if (!deep || cap < 1.0)
+        depth = taken < 0.01 ? slant * taken * (1.0 + taken * (0.5 + taken * (1.0 / 3.0))) : -slant * log(1.0 - min(taken, 0.999999));
+    depth *= 0.3989422804 / height * exp(-0.5 * x * x) * seen;
+    if (KD_THICK_TAKEN > 0u) {
+        float across = out_ * out_ + (round_ + emission.gas.shear * out_) * (round_ + emission.gas.shear * out_) + KD_THICK_LAYERS * KD_THICK_LAYERS * dz * dz;
+        float rare = 1.0 + max(abs(x) - 1.5, 0.0); /* where there is less of it, it may be sampled less */
+        grain = 1.0 / (1.0 / grain + 0.5 * sqrt(across) * emission.gas.cells * stir.finest / (axis * rare));
+    }
+    return kd_medium(depth * kd_black_body(t * sqrt(sqrt(more)) / shown, TRAITS_thick), depth, grain);
+}
+#endif
+#endif
