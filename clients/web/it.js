@@ -594,14 +594,14 @@ export const sentences = {
     'disco spesso: somma di emissione e assorbimento lungo ogni raggio, senza diffusione; emette come un corpo nero della temperatura del disco sottile, da cima a fondo',
   'thick disk: shown at one coordinate time, whatever disk.slow_light says':
     'disco spesso: mostrato a un solo tempo coordinato, qualunque cosa dica disk.slow_light',
-  'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature':
-    'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta',
+  'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature, and its light bolometric, whatever disk.band says':
+    'volume: inventato, uguale ovunque fra i suoi bordi, fermo per osservatori senza momento angolare; finisce un centesimo fuori dall’orizzonte; grigio, con il colore di una temperatura scelta, e luce bolometrica qualunque sia disk.band',
   'jets: stylised, cones of optically thin light along the spin axis that flies outwards along the radius at one speed, past observers of zero angular momentum; no magnetic field, no synchrotron spectrum: brightness goes as g^(2 + index), colour is that of a chosen temperature and is not shifted':
     'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
     'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
-  'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; a pixel\'s light is of the places on its rays and no mean over what they stand for':
-    'volumi: luce a 32 bit da tre punti per tratto, con quanti tratti chiedono grana, profondità e raggio; la luce di un pixel è quella dei punti sui suoi raggi e non una media su ciò che rappresentano',
+  'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case, and what is left in a picture is not measured':
+    'volumi: luce a 32 bit da tre punti per tratto, con quanti tratti chiedono grana, profondità e raggio; ciò che accuracy chiede è un obiettivo: circa 5e-5 restano comunque, e quel che resta in un’immagine non è misurato',
   'image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots':
     'immagine: pochi raggi per i pixel attraversati dalla curva critica; un anello di fotoni più sottile di loro appare a punti',
   'post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance':

@@ -1,6 +1,6 @@
 /* This is the smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the axis, z = r cos(theta),
  *
- *   density ~ exp(-z^2/2H^2),   H = height R (R/10)^flare,   between the spheres of the disk's edges, and to 4.5 H.
+ *   density ~ exp(-z^2/2H^2),   H = height R (R/10)^flare,   between the spheres of the disk's edges, where R is beyond the ISCO, and to 4.5 H.
  *
  * It shines as the thin disk does, of whose temperature and flux it is at R, and goes round with the Omega of the circular orbit there, at any height
  * (the metric's own u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972). From top to bottom it has the optical
@@ -109,7 +109,7 @@ kd_medium kd_thick_along(kd_midst p)
     float off = max(abs(x) - KD_THICK_REACH, 0.0) * height;
     float fades = (emission.thick.outer - r) * emission.disk.fade < 1.0 ? emission.disk.fade : 0.0;
     float grain = 1.0 / (abs(dz) / (1.2 * height) + abs(out_) * (4.0 / max(axis - 0.7 * emission.thick.inner, 0.05 * axis) + fades) + 2.5 / axis);
-    if (off > 0.0 || r < emission.thick.inner || r > emission.thick.outer)
+    if (off > 0.0 || axis <= emission.frame.r_isco || r < emission.thick.inner || r > emission.thick.outer)
         return kd_medium(vec3(0.0), 0.0, max(grain, 0.7 * off / max(abs(dz), 0.1)));
 
     kd_thick_orbit orbit = kd_thick_orbit_of(p, r, axis);

@@ -30,7 +30,7 @@ kd_medium kd_volume_along(kd_midst p)
     bool shifts = (TRAITS_volume & KD_TRAIT_REDSHIFT) != 0u;
     float r = 1.0 / p.w, seen = shifts ? kd_volume_energy(p) : 1.0, g = 1.0 / max(seen, 1e-6);
     vec3 colour = kd_colour_of(kd_colour_at(g * emission.volume.temperature));
-    kd_medium medium = kd_medium(emission.volume.emissivity * g * g * g * colour, emission.volume.opacity * seen, shifts ? 0.6 * (r - 1.0 / cam.horizon) : 1e30);
+    kd_medium medium = kd_medium(min(emission.volume.emissivity * g * g * g, 1e30) * colour, emission.volume.opacity * seen, shifts ? 0.6 * (r - 1.0 / cam.horizon) : 1e30);
     if (r < emission.volume.inner || r > emission.volume.outer)
         return kd_medium(vec3(0.0), 0.0, max(max(emission.volume.inner - r, r - emission.volume.outer), 0.1 * r));
     return medium;

@@ -64,6 +64,8 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 }
 
 #ifdef KD_MARCH
+#define KD_BEAM_MOST 1e30 /* light that one place adds: more is no number when it is added up */
+
 /* All emitters of a place are in it together. */
 kd_medium kd_medium_at(kd_midst p)
 {
@@ -84,7 +86,7 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {
     float x = medium.depth * way, passes = exp(-x);
     float mean = x < 0.02 ? 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))) : (1.0 - passes) / x;
-    beam.light += (beam.through * mean * way) * medium.light;
+    beam.light += (beam.through * mean) * min(way * medium.light, KD_BEAM_MOST);
     beam.through *= passes;
 }
 #endif

@@ -13,7 +13,8 @@
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"
 
-#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* stretch, of a step */
+#define KD_MARCH_SHORTEST (1.0 / 4096.0) /* stretch, of a step, */
+#define KD_MARCH_LEAST 0.05   /* or, where that is shorter, of the longest that the way allows */
 #define KD_MARCH_WAY 0.5      /* longest stretch, of r: over it three places find the integral of r^2 to 4e-5 */
 #define KD_MARCH_DEPTH 1.0    /* and in optical depth */
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
@@ -166,7 +167,9 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, v
     const float coarse = 4.0 / float(FINE);
     float wish = 0.0; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     while (from < to && beam.through > KD_MARCH_OPAQUE) {
-        float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 4096.0)) : 0.0, most = 1.0;
+        float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;
+        float next = from + length_;
+        length_ = next - from; /* as rounded */
         kd_beam trial = beam;
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
@@ -178,15 +181,16 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, v
             kd_beam_along(trial, medium, weight * length_ * way);
             one = two;
             two = three;
-            three = weight * length_ * way * vec4(medium.light, medium.depth);
+            three = vec4(min(weight * length_ * way * medium.light, KD_BEAM_MOST), weight * length_ * way * medium.depth);
             float allowed = min(min(medium.grain * far, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
             most = min(most, coarse * allowed);
+            least = min(least, KD_MARCH_LEAST * coarse * KD_MARCH_WAY * r / (p.speed * s.h));
         }
-        wish = max(most, KD_MARCH_SHORTEST);
+        wish = max(most, least);
         if (length_ > 0.0 && length_ <= KD_MARCH_TOO_LONG * wish) {
-            beam.light = trial.light + beam.through * kd_march_rest(one, two, three);
+            beam.light = min(trial.light + beam.through * kd_march_rest(one, two, three), KD_BEAM_MOST);
             beam.through = trial.through;
-            from = length_ < left ? from + length_ : to;
+            from = length_ < left ? next : to;
         }
     }
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
@@ -257,8 +261,10 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
         kd_path q = kd_path_step(m, p, h);
         if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
             q.v.w = kd_leaving(m, q.y.w, ray.e);
-        if (!kd_is_finite(q.y.w))
+        if (!kd_is_finite(q.y.w)) { /* it has fallen in */
+            goes = false;
             break;
+        }
         kd_march_step(beam, m, ray, p, q, h, drag, side, crossed, place, at);
         bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
         /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
@@ -266,6 +272,8 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
         goes = !falls && !gone && beam.through > 0.0;
         p = q;
     }
+    if (goes) /* it circles for ever */
+        kd_beam_given_up(beam);
     for (uint n = crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)

@@ -142,8 +142,8 @@
     ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE,                                                                \
          "matter all along the rays: none, or uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to", \
          "none|uniform")                                                                                             \
-    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 1e6, "M", "inner edge; horizon: a hundredth outside it, as the edge is at least", "horizon") \
-    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 1e6, "M", "outer edge; larger than the inner one")                  \
+    WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", "inner edge; horizon: a hundredth outside it, as the edge is at least", "horizon") \
+    REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge; larger than the inner one")                  \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "light of a length of M, in its own frame, in units of the disk's brightest") \
     REAL(volume, opacity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", "optical depth of a length of M, in its own frame")  \
     REAL(volume, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g") \

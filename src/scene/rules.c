@@ -243,6 +243,9 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
 
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
+    const double least = 1e-5; /* below it the place of a ray in a float is no longer told within the height */
+    if (scene->disk.height > 0 && scene->disk.height < least)
+        return kd_error_field(error, "/disk/height", "disk.height is %s, allowed is 0, and %s or more", show(scene->disk.height).text, show(least).text);
     if (scene->disk.height == 0 || scene->disk.model != KD_DISK_PARTICLES)
         return KD_OK;
     return kd_error_field(error, "/disk/height", "disk.height is %s, allowed where disk.model is \"particles\" is 0", show(scene->disk.height).text);
@@ -349,7 +352,7 @@ const struct kd_rule kd_rules[] = {
       stereo },
     { "`disk.inner` is not inside the ISCO of the spin, unless there is no disk.", inner_edge },
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
-    { "`disk.height` is 0 for a disk of particles.", height },
+    { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height },
     { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, unless there is no volume.", volume },
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },

@@ -45,6 +45,7 @@ static const char *const scenes[] = {
     "{\"image\": {\"layers\": [\"g\"]}}",
     "{\"style\": {\"beam_uas\": 20}}",
     "{\"volume\": {\"model\": \"uniform\"}}",
+    "{\"disk\": {\"height\": 0.1, \"gas\": {\"amplitude\": 1}}, \"accuracy\": {\"profile\": \"high\"}}",
     "{\"jets\": {\"brightness\": 1}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };

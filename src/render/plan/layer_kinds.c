@@ -69,6 +69,9 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     if (kd_emit_along(scene) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT && layer.order >= 0)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes is intensity: their light is between the crossings",
                               name);
+    if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0", name,
+                              scene->disk.height);
     if (kd_emit_along(scene) && layer.kind == KD_LAYER_optical_depth)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, which is that of one crossing, allowed where there are no volumes", name);
     if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE)

@@ -43,6 +43,13 @@ static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_ca
     return (struct kd_pass_cost) { "transfer.comp", trace(plan, c).ns + kd_plan_light_ns(plan, c), KD_NS_NONE };
 }
 
+/* One figure is for all volumes, and learned of those that it is meant for. */
+static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    const bool usual = fabs(plan->march.weight - 1) < 1e-9;
+    return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), usual ? KD_NS_RAY_MARCH : KD_NS_NONE };
+}
+
 static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     (void)plan, (void)c;

@@ -50,7 +50,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     KD_EMIT_PASSES                                                                                                               \
     P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
-    P(MARCH, "march", marched, WHOLE("transfer.comp", RAY_MARCH), RAYS, FRAME)                                                  \
+    P(MARCH, "march", marched, BY(march), RAYS, FRAME)                                                                          \
     P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
     P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \

@@ -48,8 +48,8 @@ static const struct sentence {
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
     { "disk: image orders beyond accuracy.orders are left out", crossings },
-    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; a pixel's light is of the places on its rays "
-      "and no mean over what they stand for", volumes },
+    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case, and "
+      "what is left in a picture is not measured", volumes },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
     { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },

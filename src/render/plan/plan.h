@@ -20,7 +20,7 @@
 
 #define KD_PLAN_EMITTERS 16 /* at least those of shaders/shared/emitters.h, which those who include this need not see */
 #define KD_AUDIT_RAYS 768 /* at most, on a grid of 16 x 48 */
-#define KD_PLAN_MAX_APPROXIMATIONS 64 /* a test compares it with all there are */
+#define KD_PLAN_MAX_APPROXIMATIONS 96 /* a test compares it with all there are */
 
 /* The capacity says what the device allows and how fast it has been measured to be. */
 struct kd_capacity {
@@ -160,7 +160,7 @@ static inline uint64_t kd_plan_followed_most(const struct kd_plan *plan)
 static inline enum kd_pass_id kd_plan_light_pass(const struct kd_plan *plan) { return plan->march.steps ? KD_PASS_MARCH : KD_PASS_TRANSFER; }
 static inline double kd_plan_light_ns(const struct kd_plan *plan, const struct kd_capacity *c)
 {
-    return c->ns[plan->march.steps ? KD_NS_RAY_MARCH : KD_NS_SAMPLE_TRANSFER];
+    return plan->march.steps ? plan->march.weight * c->ns[KD_NS_RAY_MARCH] : c->ns[KD_NS_SAMPLE_TRANSFER];
 }
 
 /* Linear light takes so many bytes a pixel. */
