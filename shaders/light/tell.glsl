@@ -1,6 +1,7 @@
 /* This writes down what each emitter gives one ray, on its way through the kernel that makes the picture: transfer.comp compiled with KD_TELL writes
  * records to binding 3 instead of light; otherwise nothing is left of this. The first number is how many records there were, those that have no
- * room included. A record is KD_TELL_RECORD numbers, the first of which says of what:
+ * room included; behind it both sums have places of their own, in this order, so that no number of others takes theirs. A record is KD_TELL_RECORD
+ * numbers, the first of which says of what:
  *
  *   KD_TELL_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), angle of emission, what all in front lets through
  *   KD_TELL_OF_PLACE  an emitter there: its number, light, opacity, what of its light comes through
@@ -20,9 +21,9 @@ float kd_layer_g(kd_sample s);
 float kd_layer_temperature(kd_sample s);
 float kd_layer_angle(float c);
 
-void kd_tell(float of, vec4 a, vec4 b, vec2 c)
+void kd_tell_at(uint record, float of, vec4 a, vec4 b, vec2 c)
 {
-    uint at = 1u + KD_TELL_RECORD * kd_told++;
+    uint at = 1u + KD_TELL_RECORD * record;
     told[0] = float(kd_told);
     if (at + KD_TELL_RECORD > uint(told.length()))
         return;
@@ -33,6 +34,12 @@ void kd_tell(float of, vec4 a, vec4 b, vec2 c)
     }
     told[at + 9u] = c.x;
     told[at + 10u] = c.y;
+}
+
+void kd_tell(float of, vec4 a, vec4 b, vec2 c)
+{
+    kd_told++;
+    kd_tell_at(KD_TELL_SUMS + kd_told - 1u, of, a, b, c);
 }
 
 void kd_tell_place(kd_sample s, float through)
@@ -51,7 +58,7 @@ void kd_tell_place(kd_sample s, float through)
 #define KD_TELL_END(end) kd_tell(KD_TELL_ENDS, vec4(end.u, end.phi, end.footprint, 0.0), vec4(0.0), vec2(0.0));
 #define KD_TELL_LIGHT(of, number, light) kd_tell(of, vec4(number, light), vec4(0.0), vec2(0.0));
 #define KD_TELL_GIVEN_UP kd_tell(KD_TELL_LOST, vec4(0.0), vec4(0.0), vec2(0.0));
-#define KD_TELL_SUM(of, beam) kd_tell(of, vec4(beam.light, beam.through), vec4(0.0), vec2(0.0));
+#define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(0.0), vec2(0.0));
 #else
 #define KD_TELL_PLACE(s, through)
 #define KD_TELL_GLOW(number, seen, glow)

@@ -196,5 +196,6 @@
 #define KD_TELL_FRONT 6.0
 #define KD_TELL_WHOLE 7.0
 #define KD_TELL_ALONG 8.0
+#define KD_TELL_SUMS 2u /* records in front of the others: KD_TELL_FRONT and KD_TELL_WHOLE */
 
 #endif

@@ -151,7 +151,7 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
     const double u = ray->cos_theta, s = ray->sin_theta > 0 ? ray->sin_theta : sqrt((1 - u) * (1 + u)), w = isinf(ray->radius) ? 0 : 1 / ray->radius;
     const struct kd_null_motion *m = &c->m;
     const double all = 1 + w * w * (m->quadratic + w * (2 * m->k + m->constant * w));
-    if (all < -1e-12)
+    if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta)) /* and NaN is no ray */
         return false;
     c->now = (struct state) { {
         [W] = w, [DW] = (ray->outward ? -1 : 1) * sqrt(fmax(all, 0)),
@@ -214,6 +214,10 @@ struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double fa
         const double way = c.way;
         room = go(&c, h);
         const double w = c.now.y[W], dw = c.now.y[DW];
+        if (!isfinite(w)) { /* of numbers without measure: nothing would end it */
+            course.end = KD_COURSE_NONE;
+            return course;
+        }
         if (w < first && dw < 0) { /* far enough: the place is where it was passed */
             course.end = KD_COURSE_ESCAPED;
             if (before.y[W] > first && room) {

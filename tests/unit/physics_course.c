@@ -190,6 +190,12 @@ static void without_a_course(void **state)
     (void)state;
     const struct kd_null_ray forbidden = { .spin = 0.5, .radius = 5, .cos_theta = 0.2, .alpha = 40, .beta = 1, .orders = 1 };
     assert_int_equal(kd_null_course_of(&forbidden, 50, 0.01, places, 10).end, KD_COURSE_NONE);
+    static const double no_number[] = { INFINITY, -INFINITY, NAN, 1e200 };
+    for (int i = 0; i < 16; i++) {
+        const struct kd_null_ray none = { .spin = 0.5, .radius = i & 8 ? 1.9 : INFINITY, .cos_theta = 0.2, .sin_theta = sqrt(0.96), .alpha = i & 4 ? 1 : no_number[i & 3],
+                                          .beta = i & 4 ? no_number[i & 3] : 1, .orders = 1 };
+        assert_int_equal(kd_null_course_of(&none, 50, 0.01, places, 10).end, KD_COURSE_NONE);
+    }
     const struct kd_null_ray ray = { .spin = 0.5, .radius = INFINITY, .cos_theta = 0.2, .alpha = 6, .beta = 1, .orders = 1 };
     const struct kd_null_course course = kd_null_course_of(&ray, 50, 0.01, places, 10);
     assert_int_equal(course.end, KD_COURSE_LONG);

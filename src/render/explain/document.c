@@ -16,6 +16,11 @@ static void put_rgb(struct kd_json *json, const char *name, const float light[3]
     kd_json_end(json);
 }
 
+/* null: it is infinite, nothing comes through. */
+static void put_depth(struct kd_json *json, double through) { kd_json_number(json, "optical_depth", through > 0 ? 0 - log(through) : INFINITY); }
+
+static double passed(const struct kd_told_stretch *s) { return s->through[0] > 0 ? (double)s->through[1] / (double)s->through[0] : 1; }
+
 static void put_pixel(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
     const struct kd_told *t = x->told;
@@ -112,7 +117,7 @@ static void put_place(struct kd_json *json, const struct kd_explained *x, const 
         put_glow(json, &p->glows[i], true);
     }
     kd_json_end(json);
-    kd_json_number(json, "optical_depth", 0 - log(left));
+    put_depth(json, left);
     (void)x;
 }
 
@@ -160,7 +165,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x)
     float sum[3] = { 0 };
     double passes = 1;
     for (size_t i = 0; i < t->n_stretches; i++) {
-        passes *= (double)t->stretches[i].through[1] / (double)t->stretches[i].through[0];
+        passes *= passed(&t->stretches[i]);
         for (int c = 0; c < 3; c++)
             sum[c] += t->stretches[i].light[c];
     }
@@ -174,7 +179,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x)
     kd_json_end(json);
     put_rgb(json, "seen", sum, 1);
     kd_json_number(json, "luminance_seen", luminance(sum));
-    kd_json_number(json, "optical_depth", 0 - log(passes));
+    put_depth(json, passes);
     kd_json_array(json, "stretches");
     for (size_t i = 0; i < t->n_stretches; i++) {
         const struct kd_told_stretch *s = &t->stretches[i];
@@ -186,7 +191,7 @@ static void put_along(struct kd_json *json, const struct kd_explained *x)
         }
         put_rgb(json, "seen", s->light, 1);
         kd_json_number(json, "through", s->through[0]);
-        kd_json_number(json, "optical_depth", 0 - log((double)s->through[1] / (double)s->through[0]));
+        put_depth(json, passed(s));
         kd_json_end(json);
     }
     kd_json_end(json);
@@ -200,8 +205,8 @@ static void put_end(struct kd_json *json, const struct kd_explained *x)
     kd_json_object(json, "end");
     kd_json_string(json, "fate", fates[x->end.fate]);
     kd_json_string(json, "why", x->why);
-    kd_json_number(json, "through", t->n_places || t->ended ? (double)t->through : 1);
-    kd_json_number(json, "optical_depth", t->n_places || t->ended ? 0 - log((double)t->through) : 0);
+    kd_json_number(json, "through", t->through);
+    put_depth(json, t->through);
     if (x->end.fate == KD_RAY_ESCAPED) {
         kd_json_number(json, "theta", x->end.theta);
         kd_json_number(json, "phi", x->end.phi);
@@ -267,6 +272,7 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     put_end(&json, x);
     put_path(&json, x);
     put_accuracy(&json, picture, x);
+    kd_json_number(&json, "lost", (double)x->told->lost);
     kd_json_array(&json, "approximations");
     for (size_t i = 0; i < picture->plan->n_approximations; i++)
         kd_json_string(&json, NULL, picture->plan->approximations[i]);

@@ -6,6 +6,7 @@
 #include "render/lens/label.h"
 #include "render/rays/closed.h"
 #include "scene/number.h"
+#include "scene/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -69,7 +70,7 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_explained_phi(x, c->phi);
         c->delay = kd_explained_delay(x, c->delay);
-        c->g = x->label.energy > 0 ? c->g / x->label.energy : NAN;
+        c->g /= x->label.energy; /* of light whose energy at infinity is below 0 both are */
     }
     x->end.phi = kd_explained_phi(x, x->end.phi);
     return status;
@@ -106,6 +107,20 @@ static void compare(struct kd_explained *x)
     }
 }
 
+/* The place that lets nothing pass; NULL: there is none, or light ended in a volume. */
+static const struct kd_told_place *hiding(const struct kd_told *told)
+{
+    for (size_t i = 0; i < told->n_places; i++) {
+        const struct kd_told_place *p = &told->places[i];
+        float left = p->through;
+        for (size_t k = 0; k < p->n_glows; k++)
+            left *= 1 - p->glows[k].opacity;
+        if (left <= 0)
+            return p;
+    }
+    return NULL;
+}
+
 static void say_why(struct kd_explained *x)
 {
     const bool inward = isinf(x->scene.camera.r) || !x->label.outward;
@@ -123,8 +138,13 @@ static void say_why(struct kd_explained *x)
         SAY("Followed back it falls to the horizon: it has no turning point outside of it.");
     else
         SAY("Followed back it ends at the horizon.");
-    if (x->told->n_places && x->told->through <= 0)
-        SAY(" Nothing of that is seen: what it crosses at r = %.6g M hides all behind.", 1 / (double)x->told->places[x->told->n_places - 1].w);
+    if (x->told->through <= 0 && !x->told->given_up) {
+        const struct kd_told_place *hides = hiding(x->told);
+        if (hides)
+            SAY(" Nothing of that is seen: what it crosses at r = %.6g M hides all behind.", 1 / (double)hides->w);
+        else
+            SAY(" Nothing of that is seen: the matter that it goes through hides all behind.");
+    }
     if (x->told->given_up)
         SAY(" The picture's engine gave it up, and shows it in magenta.");
 #undef SAY
@@ -208,7 +228,11 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
     const size_t n = kd_number_span_typed(text, strlen(text)), m = text[n] == ',' ? kd_number_span_typed(text + n + 1, strlen(text + n + 1)) : 0;
     const double x = n && m ? kd_number_parse(text) : NAN, y = n && m ? kd_number_parse(text + n + 1) : NAN;
     if (!(x >= 0 && x < width && y >= 0 && y < plan->height) || text[n + 1 + m])
-        return kd_error_field(error, "/at", "at is \"%.60s\", allowed is X,Y: pixels from the upper left corner, below %u across and %u down", text, width, plan->height);
+    {
+        char shown[64];
+        kd_text_clip(shown, sizeof shown, text);
+        return kd_error_field(error, "/at", "at is \"%s\", allowed is X,Y: pixels from the upper left corner, below %u across and %u down", shown, width, plan->height);
+    }
     plan->told.on = true;
     plan->told.x = (uint32_t)x;
     plan->told.y = (uint32_t)y;

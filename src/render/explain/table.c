@@ -70,6 +70,8 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
         KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "along the ray", "", (double)along[0], (double)along[1], (double)along[2]));
     for (size_t i = 0; i < t->n_ends; i++)
         KD_TRY(put_glow(&t->ends[i], t->ends[i].points ? "points" : "end", out));
+    if (t->lost)
+        KD_TRY(kd_buffer_printf(out, "%zu records of the ray had no room and are not told; its sum has them\n", t->lost));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "ray", "", (double)t->light[0], (double)t->light[1], (double)t->light[2]));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "pixel", "", (double)t->radiance[0], (double)t->radiance[1], (double)t->radiance[2]));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4f %11.4f %11.4f\n", "shown", "", x->shown[0], x->shown[1], x->shown[2]));

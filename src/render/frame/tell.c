@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RECORDS = 512 };
+enum { RECORDS = 8192 }; /* some 360 kB: a march makes one for each part of each step, 3072 at most, and emitters theirs */
 struct record { float of, a[4], b[4], c[2]; };
+#define SIZE (sizeof(float) + (KD_TELL_SUMS + RECORDS) * sizeof(struct record))
 _Static_assert(sizeof(struct record) == KD_TELL_RECORD * sizeof(float), "the record of interface.h");
 
 static void add_glow(struct kd_told_glow *glows, size_t *n, size_t most, const struct record *r, float opacity, float through)
@@ -33,6 +34,34 @@ static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind
     };
 }
 
+/* Makes room: two neighbours before the same crossing become one. */
+static void join(struct kd_told *told)
+{
+    struct kd_told_stretch *s = told->stretches;
+    size_t n = 0;
+    for (size_t i = 0; i < told->n_stretches; i++) {
+        s[n] = s[i];
+        if (i + 1 < told->n_stretches && s[i + 1].order == s[i].order) {
+            const struct kd_told_stretch *next = &s[++i];
+            s[n].w[1] = next->w[1], s[n].u[1] = next->u[1], s[n].through[1] = next->through[1];
+            for (int c = 0; c < 3; c++)
+                s[n].light[c] += next->light[c];
+        }
+        n++;
+    }
+    told->n_stretches = n;
+}
+
+static void take_stretch(struct kd_told *told, struct kd_told_stretch stretch)
+{
+    if (told->n_stretches == KD_TOLD_STRETCHES)
+        join(told);
+    if (told->n_stretches < KD_TOLD_STRETCHES)
+        told->stretches[told->n_stretches++] = stretch;
+    else
+        told->lost++;
+}
+
 static void take(struct kd_told *told, const struct record *r)
 {
     struct kd_told_place *last = told->n_places ? &told->places[told->n_places - 1] : NULL;
@@ -40,9 +69,9 @@ static void take(struct kd_told *told, const struct record *r)
         told->places[told->n_places++] = place_of(r);
     else if (r->of == (float)KD_TELL_OF_PLACE && last)
         add_glow(last->glows, &last->n_glows, KD_PLAN_EMITTERS, r, r->b[0], r->b[1]);
-    else if (r->of == (float)KD_TELL_ALONG && told->n_stretches < KD_TOLD_STRETCHES)
-        told->stretches[told->n_stretches++] = stretch_of(r, last ? last->order + 1 : 0);
     else if (r->of == (float)KD_TELL_ALONG)
+        take_stretch(told, stretch_of(r, last ? last->order + 1 : 0));
+    else if (r->of == (float)KD_TELL_AT)
         told->lost++;
     else if (r->of == (float)KD_TELL_ENDS)
         told->end_u = r->a[0], told->end_phi = r->a[1], told->end_footprint = r->a[2], told->ended = true;
@@ -61,6 +90,7 @@ static void begin(struct kd_frame_job *j, struct kd_told *told)
 {
     const struct kd_plan *p = j->plan;
     *told = (struct kd_told) {
+        .through = 1,
         .x = p->told.x, .y = p->told.y, .rays = p->side * p->side,
         .ray_x = p->told.x * p->side + (p->side - 1) / 2, .ray_y = p->told.y * p->side + (p->side - 1) / 2,
     };
@@ -99,13 +129,13 @@ enum kd_status kd_frame_tell(struct kd_frame_job *j, uint32_t band)
         return kd_error_set(j->error, KD_ENOMEM, "out of memory for what is told of a pixel");
     struct kd_told *told = j->frame->told;
     begin(j, told);
-    if (!j->plan->planes) /* nothing shines anywhere */
+    if (!j->plan->planes && !j->plan->march.steps) /* nothing shines anywhere */
         return KD_OK;
-    KD_TRY(kd_vk_buffer_create(j->r->vk, sizeof(float) + RECORDS * sizeof(struct record), KD_VK_READBACK, "light of a ray", &records, j->error));
+    KD_TRY(kd_vk_buffer_create(j->r->vk, SIZE, KD_VK_READBACK, "light of a ray", &records, j->error));
     KD_TRY(follow(j, band, records));
     const float *from = kd_vk_buffer_map(records);
     const size_t n = (size_t)from[0], kept = n < RECORDS ? n : RECORDS;
-    for (size_t i = 0; i < kept; i++)
+    for (size_t i = 0; i < KD_TELL_SUMS + kept; i++)
         take(told, (const struct record *)(from + 1) + i);
     told->lost += n - kept;
 done:

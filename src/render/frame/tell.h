@@ -30,7 +30,7 @@ struct kd_told_place {
     size_t n_glows;
 };
 
-/* A stretch of the ray through volumes, all of which are in it together. */
+/* A stretch of the ray through volumes, all of which are in it together: a part of a step of the march, or some neighbours where there are many. */
 struct kd_told_stretch {
     uint32_t order;     /* of the next crossing, if it comes to one */
     float w[2], u[2];   /* 1/r and cos(theta) at its ends */
@@ -49,9 +49,9 @@ struct kd_told {
     bool given_up;      /* the engine gave the ray up, and the picture shows magenta */
     bool ended;         /* something may shine where it ends: */
     float end_u, end_phi, end_footprint;
-    struct kd_told_glow ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: of all crossings */
+    struct kd_told_glow ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: of all that lies before it */
     size_t n_ends;
-    float through;      /* of all crossings */
+    float through;      /* of all crossings and volumes */
     float light[3];     /* the sum, of this ray */
     float radiance[3];  /* of the pixel: the mean over its rays, before glare, beam and tone curve */
 };

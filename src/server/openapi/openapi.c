@@ -104,7 +104,7 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
-    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+,[0-9.]+$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
+    { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+([eE][-+]?[0-9]+)?,[0-9.]+([eE][-+]?[0-9]+)?$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers" },
     { "/v1/jobs/{id}/result", "frame", WHOLE, "which, by itself: with format=png, fits, npz, npy or exr; with format=stream from which on" },
