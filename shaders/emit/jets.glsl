@@ -28,13 +28,17 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* This is -k.U of its matter. */
+/* This is -k.U of its matter, with no difference of what is nearly the same: of light that comes along with the jet, e - k_r is what is across over the
+ * sum, across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma, which by p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and
+ * A = (r^2 + a^2)^2 - a^2 Delta sin^2 has no sine below: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2 r)/A. */
 float kd_jets_energy(kd_midst p)
 {
     float a = cam.spin, w2 = p.w * p.w, aw2 = a * a * w2, b = 1.0 + aw2, delta = max(kd_delta(p.w, cam.root), 1e-30);
     float area = b * b - aw2 * delta * (1.0 - p.u * p.u), sigma = 1.0 + aw2 * p.u * p.u;
     float e = (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * delta)), k = p.dw * inversesqrt(delta * sigma);
-    return max(emission.jets.gamma * e - emission.jets.gamma_beta * k, 1e-4);
+    float ae = a * p.energy, l2 = p.momentum * p.momentum, across = w2 / sigma * max(p.q + l2 + ae * ae * p.u * p.u - l2 * aw2 * (sigma + 2.0 * p.w) / area, 0.0);
+    float along = emission.jets.gamma * across / (e + abs(k)) + abs(k) / (emission.jets.gamma + emission.jets.gamma_beta);
+    return max(k > 0.0 ? along : emission.jets.gamma * e - emission.jets.gamma_beta * k, 1e-30);
 }
 
 kd_medium kd_jets_along(kd_midst p)

@@ -150,14 +150,14 @@
     BOOL(volume, redshift, PHYSICS, REST, true, "the frequency shift of the matter")
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                    \
-    REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", "light of a length of M in its own frame at the inner edge, in units of the disk's brightest; 0: there are none") \
-    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "deg", "half of the angle of the cone")                    \
-    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "", "Lorentz factor: how fast the light's source flies outwards") \
-    REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", "where the light begins")                                     \
+    REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", "light of a length of M in its own frame, carried back to the inner edge, where it begins smoothly, in units of the disk's brightest; 0: there are none") \
+    REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the angle of the cone")                    \
+    REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", "Lorentz factor: how fast the light's source flies outwards") \
+    REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", "where the light begins, at least a twentieth outside the horizon") \
     REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "where it ends; larger than the inner edge")                 \
-    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "", "light along the jet goes as r to minus this")            \
-    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "", "from a bright spine, 0, to bright edges, 1")                 \
-    REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "", "brightness goes as the frequency shift to 2 plus this") \
+    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "light along the jet goes as r to minus this")            \
+    REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", "from a bright spine, 0, to bright edges, 1")                 \
+    REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "1", "brightness goes as the frequency shift to 2 plus this") \
     REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, not shifted") \
     BOOL(jets, counterjet, MODEL, REST, true, "the jet below the disk, too")
 

@@ -261,11 +261,18 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show_bound(least).text);
 }
 
+#define JETS_GROWTH 60 /* octaves of light from the inner edge to the outer one: beyond lies what 32 bits do not hold */
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_jets *j = &scene->jets;
     double least = fmax(j->inner, 1.05 * kd_kerr_horizon(scene->spacetime.spin));
-    if (!(j->brightness > 0) || j->outer > least)
+    if (!(j->brightness > 0))
+        return KD_OK;
+    const double slowest = -JETS_GROWTH / log2(j->outer / least);
+    if (j->outer > least && j->falloff < slowest)
+        return kd_error_field(error, "/jets/falloff", "jets.falloff is %s, with which light grows more than 2^60 times from %s to %s M, allowed is at least %s",
+                              show(j->falloff).text, show(least).text, show(j->outer).text, show_bound(slowest).text);
+    if (j->outer > least)
         return KD_OK;
     return kd_error_field(error, "/jets/outer", "jets.outer is %s M, allowed is more than the inner edge, %s M", show(j->outer).text, show_bound(least).text);
 }
@@ -354,7 +361,8 @@ const struct kd_rule kd_rules[] = {
     { "`disk.outer` is larger than the inner edge, unless there is no disk.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height },
     { "`volume.outer` is larger than the inner edge, which is at least a hundredth outside the horizon, unless there is no volume.", volume },
-    { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0.", jets },
+    { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
+      "at most 2^60 times in between.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
