@@ -264,7 +264,8 @@ static void presets_are_valid(void **state)
     (void)state;
     static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
-                                         "hot-spot",      "milky-way", "gas",       "gas-stars", "falling", "infall", "jet", "gargantua-gas" };
+                                         "hot-spot",      "milky-way", "gas",       "gas-stars", "thick-disk",
+                                         "falling",       "infall",    "jet",       "gargantua-gas" };
     char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
@@ -286,10 +287,13 @@ static void presets_are_valid(void **state)
 static void presets_show_what_they_say(void **state)
 {
     (void)state;
+    static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk" };
     struct kd_scene scene, base;
     for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* but for those of gas none has any */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
-        const bool gas = strstr(kd_scene_preset_name(i), "gas") || !strcmp(kd_scene_preset_name(i), "falling") || !strcmp(kd_scene_preset_name(i), "infall") || !strcmp(kd_scene_preset_name(i), "jet");
+        bool gas = strstr(kd_scene_preset_name(i), "gas");
+        for (size_t k = 0; k < sizeof stirred / sizeof *stirred; k++)
+            gas |= !strcmp(kd_scene_preset_name(i), stirred[k]);
         assert_true((scene.gas.amplitude > 0) == gas && (scene.disk.emission_opacity > 0) == gas);
     }
     kd_scene_smooth(&base);

@@ -65,7 +65,7 @@ class Falling(Browser):
         page = self.open('lang=en&preset=infall', '#stage[data-final]', viewport={'width': 400, 'height': 400})
         page.wait_for_selector('#play:has-text("Pause")')
         self.assertTrue(daemon.eventually(lambda: self.camera_r(page) < 19, 20))
-        self.assertIn('to the horizon', page.inner_text('#status'))
+        self.assertTrue(daemon.eventually(lambda: 'to the horizon' in page.inner_text('#status'), 10))
         page.click('#play')
         page.wait_for_selector(AT_REST)
         r = self.camera_r(page)

@@ -58,7 +58,7 @@ class Pages(Browser):
             self.assertTrue(told, text)
             self.assertNotIn('{', told)
         self.assertGreater(len(seen), 11)
-        self.assertEqual(len(buttons), 2)
+        self.assertEqual(len(buttons), 3)
 
     def test_each_approximation_has_its_italian(self):
         page = self.open('lang=it')
