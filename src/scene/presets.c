@@ -100,7 +100,7 @@ const struct kd_preset kd_presets[] = {
       "\"motion\":{\"time_rate\":6}}" },
     { "thick-disk", "A disk of turbulent gas as high as a tenth of its distance from the axis, its light followed along each ray; in a live session it turns",
       false,
-      "{\"disk\":{\"height\":0.1},"
+      "{\"disk\":{\"height\":0.1},\"image\":{\"critical_factor\":1},"
       "\"motion\":{\"time_rate\":6}}" },
     { "falling", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
       "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"

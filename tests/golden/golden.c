@@ -38,10 +38,10 @@ static const struct shot {
     { "falling", "falling", "{" SIZE "}" },
     { "inside", "falling", "{\"camera\":{\"r\":1,\"projection\":\"equirectangular\"}," SIZE "}" },
     { "infall", "infall", "{" SIZE "}" },
-    { "thick-disk", "thick-disk", "{\"time\":1000," SIZE "}" },
+    { "thick-disk", "thick-disk", "{\"time\":1000,\"image\":{\"width\":160,\"height\":90}}" },
     { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
-    { "jet", "jet", "{\"image\":{\"width\":160,\"height\":90,\"samples\":2}}" },
+    { "jet", "jet", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
     { "spots", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_light\":true},"
