@@ -317,7 +317,6 @@
     BUTTON("disk.model", KD_DISK_PARTICLES, "Disk of particles")                                                     \
     SPAN("disk.inner", 1, 50) FIRST("disk.inner", 6)                                                                 \
     SPAN("disk.outer", 3, 200)                                                                                       \
-    SWITCH("disk.height")                                                                                            \
     SPAN("disk.peak_temperature_k", 1000, 1e5)                                                                       \
     SPAN("disk.mdot_edd", 1e-3, 10)                                                                                  \
     VARIES("disk.slow_light", "moves_with_time")                                                                     \
