@@ -87,7 +87,7 @@
     REAL(disk, emission_opacity, MODEL, REST, 10.0, 0.0, 1e6, "1",                                                    \
          "optical depth along the normal where the disk is brightest, elsewhere as its flux: a crossing takes 1 - exp(-depth/cos) of " \
          "disk.opacity, by the angle of emission in the gas's frame; 0: opacity is the same everywhere")             \
-    REAL(disk, height, MODEL, FRONT, 0.0, 0.0, 0.5, "1",                                                             \
+    REAL(disk, height, MODEL, REST, 0.0, 0.0, 0.5, "1",                                                              \
          "height of the gas over its distance from the axis, at 10 M: where its density has fallen to exp(-1/2); it has the thin disk's optical depth from " \
          "top to bottom; 0: a thin disk")                                                                            \
     REAL(disk, flare, MODEL, REST, 0.0, -0.5, 0.5, "1", "power of the distance from the axis that the ratio grows as") \
