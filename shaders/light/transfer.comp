@@ -118,7 +118,7 @@ const bool COLUMNS = false;
 const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
 
-/* Of a sky of points alone each pixel has those first; where there is a crossing, they are lit anew behind it. */
+/* Where a sky is of points alone, each pixel has those first; where there is a crossing, they are lit anew behind it. */
 void point_column(uint x, uint y, uint end)
 {
     for (; y < end; y++)
