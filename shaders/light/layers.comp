@@ -8,7 +8,12 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "shared/layers.h"
 #include "light/inputs.glsl"
 #include "light/numbers.glsl"
-layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
+#ifdef KD_MARCH
+#define KD_LAYER_ACCESS
+#else
+#define KD_LAYER_ACCESS writeonly
+#endif
+layout(set = 0, binding = 3) KD_LAYER_ACCESS buffer Layer { uint layer[]; };
 
 /* A device need not keep NaN in arithmetic: it is told from numbers, and written, by its bits. */
 #define KD_NOTHING_BITS 0x7fc00000u
@@ -54,6 +59,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
         kd_beam_at(beam, sample_at(n, w, at, kd_camera_ray(place.x, place.y)));
 }
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
+#define KD_MARCH_GIVEN_UP(beam) lost = true
 #include "light/march.glsl"
 #endif
 
@@ -138,11 +144,20 @@ void main()
     float value = 0.0;
     if (OF_LIGHT) {
         const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
-        for (uint i = 0; i < rays; i++) {
+#ifdef KD_MARCH
+        const uint from = slice.ray, end = slice.ray + 1u; /* one ray an invocation, as in transfer.comp */
+#else
+        const uint from = 0u, end = rays;
+#endif
+        for (uint i = from; i < end; i++) {
             uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
             value += light(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, o);
         }
         value *= 1.0 / float(rays);
+#ifdef KD_MARCH
+        if (rays > 1u && slice.ray > 0u) /* a ray that was given up leaves no number, whatever comes behind it */
+            value = layer[o] == KD_NOTHING_BITS ? KD_NOTHING : value + uintBitsToFloat(layer[o]);
+#endif
     } else {
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u; /* of the grid: the middle one, or the one before it */
         uint at = (place.y - slice.band0) * cam.width + place.x;

@@ -6,7 +6,8 @@
  * That is gone through in stretches with three places each, Gauss and Legendre's, as long as the grain, the depth and the way across allow; one that
  * turns out too long is gone through anew.
  *
- * Needs inputs.glsl, and KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map. */
+ * Needs inputs.glsl, KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map, and KD_MARCH_GIVEN_UP(beam) for a ray whose end is
+ * not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
@@ -273,7 +274,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
         p = q;
     }
     if (goes) /* it circles for ever */
-        kd_beam_given_up(beam);
+        KD_MARCH_GIVEN_UP(beam);
     for (uint n = crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)

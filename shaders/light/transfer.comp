@@ -1,13 +1,18 @@
 /* This kernel makes light, linear sRGB radiance, of the lens map. An invocation lights a pixel, or a column of KD_TRANSFER_ROWS of them. KD_MARCH: for
- * scenes with volumes, along the rays themselves. */
+ * scenes with volumes, along the rays themselves, one ray of a pixel: slice.ray. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "light/inputs.glsl"
+#ifdef KD_MARCH
+#define KD_RADIANCE_ACCESS
+#else
+#define KD_RADIANCE_ACCESS writeonly
+#endif
 #ifndef KD_TELL
-layout(set = 0, binding = 3) writeonly buffer Radiance { float radiance[]; };
+layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #endif
 
 /* A crossing of order n, w = 1/r (below 0: the ray was given up on its way there), of the ray at this place of the camera and `at` in
@@ -46,6 +51,7 @@ vec3 background(uvec2 place, uint at, uint pixel)
 
 #ifdef KD_MARCH
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
+#define KD_MARCH_GIVEN_UP(beam) kd_beam_given_up(beam)
 #include "light/march.glsl"
 
 /* Follows one ray, light of its end included. */
@@ -157,6 +163,15 @@ void light_column(uint x, uint y, uint end)
     }
 }
 
+/* Follows the ray of this number on a pixel, whose number in the list is `listed`, to its light at `to`. */
+kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
+{
+    uvec2 place = CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);
+    return follow(place, CRITICAL > 0 ? listed * CRITICAL + ray : (place.y - slice.band0) * cam.width + place.x, to);
+}
+
+/* The march has one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535 passes in total, which the rays of a
+ * pixel through turbulent gas come to one after the other. */
 void main()
 {
     kd_camera_read();
@@ -178,16 +193,27 @@ void main()
         px = pixel.x;
         py = pixel.y;
     }
+    const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
+    const float share = 1.0 / float(rays);
+    uint to = light_at(px, py);
+#ifdef KD_MARCH
+    kd_beam beam = follow_one(uvec2(px, py), listed, slice.ray, to);
+    vec3 sum = share * beam.light;
+    float apart = share * beam.apart;
+    if (rays > 1u && slice.ray > 0u) {
+        sum += vec3(radiance[3 * to], radiance[3 * to + 1], radiance[3 * to + 2]);
+        apart += KD_APART ? radiance[3 * emission.frame.band_pixels + to] : 0.0;
+    }
+    store(to, sum, apart);
+#else
     vec3 sum = vec3(0.0);
     float apart = 0.0;
-    const uint rays = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
     for (uint i = 0; i < rays; i++) {
-        uvec2 place = CRITICAL > 0 ? kd_critical_place(uvec2(px, py), i) : uvec2(px, py) * SIDE + uvec2(i % SIDE, i / SIDE);
-        kd_beam beam = follow(place, CRITICAL > 0 ? listed * CRITICAL + i : (place.y - slice.band0) * cam.width + place.x, light_at(px, py));
+        kd_beam beam = follow_one(uvec2(px, py), listed, i, to);
         sum += beam.light;
         apart += beam.apart;
     }
-    float share = 1.0 / float(rays);
-    store(light_at(px, py), share * sum, share * apart);
+    store(to, share * sum, share * apart);
+#endif
 }
 #endif

@@ -34,13 +34,14 @@
     U(width)                /* rays a row */                                                                   \
     U(sight)                /* KD_SIGHT_, which kernels have as a constant */
 
-/* The rows of rays at hand are the push constants of these kernels. */
+/* The rows of rays at hand are the push constants of these kernels. Of listed pixels row0 is the first of a slice, rows how many, band0 the first row of
+ * pixels of the band that light is written to. */
 #define KD_SLICE_FIELDS_(F, U)                                                                                 \
     U(row0) U(rows)         /* first row of this slice in the picture; rows of the slice */                    \
     U(band0)                /* first row of the band that the buffers hold */                                  \
     U(stride)               /* rays of the band: distance between planes of the lens map */                    \
-    U(list)                 /* of listed pixels, where it begins in the lens map. Of these, row0 is the first of a slice, rows \
-                               how many, band0 the first row of pixels of the band that light is written to */
+    U(list)                 /* of listed pixels, where it begins in the lens map */                            \
+    U(ray)                  /* of its pixel, which the march follows, and adds its light to that of the rays before it */
 
 /* footprint.comp takes these. Rows are those of rays that the buffer holds. */
 #define KD_FOOTPRINT_FIELDS_(F, U)                                                                             \

@@ -45,10 +45,18 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
+/* Says whether that is made by the march. */
+static bool marches(const struct kd_plan *p, int makes)
+{
+    return p->march.steps && makes != KD_MAKES_RAYS && (makes < 0 || kd_layer_kinds[p->layers[makes].kind].of == KD_OF_LIGHT);
+}
+
+uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes) { return marches(plan, makes) ? rays : 1; }
+
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
-    const bool march = p->march.steps && (makes < 0 || kd_layer_kinds[p->layers[makes].kind].of == KD_OF_LIGHT);
+    const bool march = marches(p, makes);
     const enum kd_kernel kernel = makes == KD_MAKES_TOLD ? march ? KD_KERNEL_MARCH_TELL : KD_KERNEL_TRANSFER_TELL
                                   : makes < 0            ? march ? KD_KERNEL_MARCH : KD_KERNEL_TRANSFER
                                   : march                ? KD_KERNEL_LAYERS_MARCH
@@ -107,14 +115,17 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 {
     const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
     const struct kd_plan *p = j->plan;
-    const struct kd_slice push = {
+    struct kd_slice push = {
         .row0 = s->first * p->side, .rows = s->count * p->side, .band0 = kd_frame_band_first(j, s->band) * p->side,
         .stride = p->width * p->side * p->band_rows * p->side,
     };
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
     d->groups[1] = rays ? push.rows : columns ? (s->count + KD_TRANSFER_ROWS - 1) / KD_TRANSFER_ROWS : s->count;
-    return kd_vk_dispatch(j->r->vk, d, j->error);
+    enum kd_status status = KD_OK;
+    for (const uint32_t turns = kd_frame_turns(p, p->side * p->side, makes); push.ray < turns && !status; push.ray++)
+        status = kd_vk_dispatch(j->r->vk, d, j->error);
+    return status;
 }
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)

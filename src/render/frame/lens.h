@@ -13,6 +13,8 @@ uint32_t kd_frame_slice(double ns_per_row, uint32_t rows);
 /* Kernels of listed pixels by their lattice, of the grid by one that is all 0. *out is NULL where no kernel traces. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes, const struct kd_vk_pipeline **out);
+/* How often the light of a pixel of so many rays is dispatched, once for each number of kd_slice.ray: the march follows one ray at a time. */
+uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
 /* The dispatches of both but for their size: of rays of a camera (view/layout.h) to a lens map, and from there to the radiance of a band. */
 struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *lens,

@@ -45,7 +45,8 @@ static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_par
         d.groups[1] = 1;
         KD_TRY(rays ? kd_frame_trace_kernel(j, &part->list->lattice, &d.pipeline)
                     : kd_frame_light_kernel(j, &part->list->lattice, makes, &d.pipeline));
-        KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
+        for (const uint32_t turns = kd_frame_turns(j->plan, part->list->lattice.rays, makes); push.ray < turns; push.ray++)
+            KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
         KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
         KD_TRY(kd_frame_report(j, 0));
     }
