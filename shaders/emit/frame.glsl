@@ -6,7 +6,8 @@
     F(azimuth)             /* of the observer, radians */                                                      \
     F(delay)               /* of the light that shows what moves as it is, M */                                \
     F(w_least) F(w_most)   /* 1/r of crossings that may shine */                                              \
-    F(along_least) F(along_most) F(along_u) /* 1/r between which volumes are, and the largest |cos(theta)| */   \
+    F(along_least) F(along_most) /* 1/r between which volumes are, */                                         \
+    F(along_hollow) F(along_u)   /* and the least and the largest |cos(theta)| */                                \
     F(r_isco)                                                                                                  \
     F(one_minus_a)         /* 1 - spin, which a float of the spin has lost near 1 */                           \
     F(inner) F(outer)      /* edges of the disk, M, whether anything shines between them or not */

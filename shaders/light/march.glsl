@@ -41,13 +41,15 @@ kd_quintic kd_quintic_derived(kd_quintic q) { return kd_quintic(q.c1, 2.0 * q.c2
 float kd_quintic_root(kd_quintic q, float value, float low, float high)
 {
     bool falls = kd_quintic_at(q, low) >= value;
-    float t = 0.5 * (low + high);
-    for (int k = 0; k < 10; k++) {
+    float t = 0.5 * (low + high), moved = high - low;
+    for (int k = 0; k < 10 && moved > 1e-7; k++) {
+        float was = t;
         float f = kd_quintic_at(q, t) - value, next = t - f / kd_quintic_slope(q, t);
         bool before = (f < 0.0) != falls;
         low = before ? t : low;
         high = before ? high : t;
         t = next >= low && next <= high ? next : 0.5 * (low + high);
+        moved = abs(t - was);
     }
     return t;
 }
@@ -163,10 +165,10 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 }
 
 /* Goes through a part of a step that lies in the volumes. */
-void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float from, float to)
+void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float from, float to, inout float stretch)
 {
     const float coarse = 4.0 / float(FINE);
-    float wish = 0.0; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
+    float wish = stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     while (from < to && beam.through > KD_MARCH_OPAQUE) {
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;
         float next = from + length_;
@@ -194,6 +196,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, v
             from = length_ < left ? next : to;
         }
     }
+    stretch = wish * s.h;
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
@@ -204,78 +207,136 @@ bool kd_march_meets(kd_geodesic m, kd_ray ray)
     return ray.w >= w || ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)) > 0.0;
 }
 
-/* Goes through one step. side: of the plane that the ray is on, crossed: how often it has crossed it. */
-void kd_march_step(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h, inout kd_march_drag drag, inout float side, inout uint crossed, uvec2 place, uint at)
+/* This is where a ray is: the step at hand goes from p to q. side: of the plane that p is on, crossed: how often the ray has crossed it before; stretch: how
+ * long the next one may be, in Mino time; steps: how many there were. goes: there is a step at hand. lost: no end was found. */
+struct kd_march_way { kd_geodesic m; kd_path p, q; kd_stride s; kd_march_drag drag; float rate2, side, h, stretch; uint crossed, steps; bool goes, lost; };
+
+/* These are the least and the largest value that a step's quintic can have: those of its coefficients by Bernstein's polynomials (Farouki & Rajan 1987). */
+vec2 kd_quintic_hull(kd_quintic q)
 {
-    kd_stride s = kd_stride_of(m, ray, p, q, h, drag);
+    float b1 = q.c0 + 0.2 * q.c1, b2 = q.c0 + 0.4 * q.c1 + 0.1 * q.c2, b3 = q.c0 + 0.6 * q.c1 + 0.3 * q.c2 + 0.1 * q.c3;
+    float b4 = q.c0 + 0.8 * q.c1 + 0.6 * q.c2 + 0.4 * q.c3 + 0.2 * q.c4, b5 = q.c0 + q.c1 + q.c2 + q.c3 + q.c4 + q.c5;
+    return vec2(min(min(min(q.c0, b1), min(b2, b3)), min(b4, b5)), max(max(max(q.c0, b1), max(b2, b3)), max(b4, b5)));
+}
+
+bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
+
+/* Says whether a step may come to where volumes are, or to a crossing where something shines. */
+bool kd_march_matters(kd_march_way y)
+{
+    vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
+    bool within = w.y >= emission.frame.along_least && w.x <= emission.frame.along_most && u.y >= -emission.frame.along_u && u.x <= emission.frame.along_u;
+    bool beside = u.x < -emission.frame.along_hollow || u.y > emission.frame.along_hollow;
+    return (within && beside) || (KD_GLOWS && kd_march_crosses(y));
+}
+
+/* Leaves the step at hand behind, unless it was the last. */
+void kd_march_leave(inout kd_march_way y)
+{
+    bool crosses = kd_march_crosses(y), falls = y.q.y.w >= cam.horizon && (!INGOING || y.q.v.w > 0.0);
+    /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
+    bool gone = y.q.v.w < 0.0 && y.q.y.w < emission.frame.along_least && (y.q.y.w <= 0.0 || kd_path_pull(y.m, y.q.y).w <= 0.0);
+    y.side = crosses ? -y.side : y.side;
+    y.crossed += crosses ? 1u : 0u;
+    y.goes = y.goes && !falls && !gone;
+    y.p = y.q;
+}
+
+/* Takes the next step. Steps, and how many, are those of a ray that escapes (ray/escape.glsl). */
+void kd_march_next(inout kd_march_way y, kd_ray ray)
+{
+    if (INGOING)
+        y.h = KD_PI / (float(STEPS) * sqrt(y.rate2 + 6.0 * y.m.k * y.p.y.w));
+    y.q = kd_path_step(y.m, y.p, y.h);
+    if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
+        y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
+    y.lost = y.steps++ >= 12u * STEPS; /* it circles for ever */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w); /* else it has fallen in */
+    y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
+}
+
+/* Takes steps to the next one that matters: lavapipe skips work only by leaving a loop, and so those that do not, and take little, have one of their own. */
+void kd_march_advance(inout kd_march_way y, kd_ray ray)
+{
+    bool far = true;
+    while (y.goes && far) {
+        kd_march_next(y, ray);
+        far = y.goes && !kd_march_matters(y);
+        if (far)
+            kd_march_leave(y);
+    }
+}
+
+/* Goes through the step at hand. */
+void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec2 place, uint at)
+{
     const float none = 2.0;
-    bool meets = q.y.z * side < 0.0;
-    float turn_w = p.v.w * q.v.w < 0.0 ? kd_quintic_root(kd_quintic_derived(s.w), 0.0, 0.0, 1.0) : none;
-    float turn_u = p.v.z * q.v.z < 0.0 ? kd_quintic_root(kd_quintic_derived(s.u), 0.0, 0.0, 1.0) : none;
-    float plane = meets ? kd_quintic_root(s.u, 0.0, 0.0, 1.0) : none;
+    kd_stride s = y.s;
+    float turn_w = y.p.v.w * y.q.v.w < 0.0 ? kd_quintic_root(kd_quintic_derived(s.w), 0.0, 0.0, 1.0) : none;
+    float turn_u = y.p.v.z * y.q.v.z < 0.0 ? kd_quintic_root(kd_quintic_derived(s.u), 0.0, 0.0, 1.0) : none;
+    float plane = kd_march_crosses(y) ? kd_quintic_root(s.u, 0.0, 0.0, 1.0) : none;
     float t = 0.0;
     while (t < 1.0 && beam.through > 0.0) {
         float end = 1.0;
         end = turn_w > t ? min(end, turn_w) : end;
         end = turn_u > t ? min(end, turn_u) : end;
         end = plane > t ? min(end, plane) : end;
-        float from = t, to = end;
+        float from = t, to = end, up = t < plane ? y.side : -y.side;
         kd_quintic_clip(s.w, emission.frame.along_least, 1.0, from, to);
         kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);
-        kd_quintic_clip(s.u, emission.frame.along_u, -1.0, from, to);
-        kd_quintic_clip(s.u, -emission.frame.along_u, 1.0, from, to);
+        kd_quintic_clip(s.u, up * emission.frame.along_u, -up, from, to);
+        kd_quintic_clip(s.u, up * (emission.frame.along_hollow > 0.0 ? emission.frame.along_hollow : -1.0), up, from, to);
         vec3 spread = vec3(0.0);
         if (KD_MARCH_TURNS && ORDERS > 0) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
-            uint passed = crossed + (t >= plane ? 1u : 0u);
+            uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves = passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
-            spread = kd_march_spread(m, ray, leaves ? passed - 1u : passed, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
+            spread = kd_march_spread(y.m, ray, leaves ? passed - 1u : passed, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
         }
         KD_TELL_BEFORE(beam)
-        kd_march_part(beam, m, ray, s, spread, from, to);
+        kd_march_part(beam, y.m, ray, s, spread, from, to, y.stretch);
         KD_TELL_STRETCH(s, from, to, beam)
-        if (end == plane && KD_GLOWS && crossed < ORDERS && beam.through > 0.0) {
-            float w = lens[at + crossed * slice.stride];
+        if (end == plane && KD_GLOWS && y.crossed < ORDERS && beam.through > 0.0) {
+            float w = lens[at + y.crossed * slice.stride];
             if (w != 0.0)
-                KD_MARCH_MEET(beam, w, crossed, place, at);
+                KD_MARCH_MEET(beam, w, y.crossed, place, at);
         }
         t = end;
     }
-    side = meets ? -side : side;
-    crossed += meets ? 1 : 0;
+}
+
+kd_march_way kd_march_begin(kd_ray ray)
+{
+    kd_march_way y;
+    y.m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
+    y.p = kd_path_start(ray, cam.u, cam.s);
+    y.q = y.p;
+    y.rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
+    y.h = KD_PI / (float(STEPS) * sqrt(y.rate2));
+    y.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
+    y.stretch = 0.0;
+    y.crossed = 0u;
+    y.steps = 0u;
+    y.drag = kd_march_drag_of(y.m, ray);
+    y.goes = kd_march_meets(y.m, ray) && !(INGOING && !kd_from_outside(y.m, ray.e, cam.spin, cam.horizon));
+    y.lost = false;
+    return y;
 }
 
 /* Follows one ray, but for what lies at its end. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
-    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
-    kd_path p = kd_path_start(ray, cam.u, cam.s);
-    float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = KD_PI / (float(STEPS) * sqrt(rate2));
-    float side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
-    uint crossed = 0;
-    kd_march_drag drag = kd_march_drag_of(m, ray);
-    bool goes = kd_march_meets(m, ray) && !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon));
-    /* Steps, and how many, are those of a ray that escapes (ray/escape.glsl). */
-    for (uint i = 0; i < 12 * STEPS && goes; i++) {
-        if (INGOING)
-            h = KD_PI / (float(STEPS) * sqrt(rate2 + 6.0 * m.k * p.y.w));
-        kd_path q = kd_path_step(m, p, h);
-        if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
-            q.v.w = kd_leaving(m, q.y.w, ray.e);
-        if (!kd_is_finite(q.y.w)) { /* it has fallen in */
-            goes = false;
-            break;
+    kd_march_way y = kd_march_begin(ray);
+    while (y.goes && beam.through > 0.0) {
+        kd_march_advance(y, ray);
+        if (y.goes) {
+            kd_march_through(beam, y, ray, place, at);
+            kd_march_leave(y);
         }
-        kd_march_step(beam, m, ray, p, q, h, drag, side, crossed, place, at);
-        bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
-        /* What flies outwards beyond the volumes, the quicker the further, does not come back. */
-        bool gone = q.v.w < 0.0 && q.y.w < emission.frame.along_least && (q.y.w <= 0.0 || kd_path_pull(m, q.y).w <= 0.0);
-        goes = !falls && !gone && beam.through > 0.0;
-        p = q;
     }
-    if (goes) /* it circles for ever */
+    if (y.lost)
         KD_MARCH_GIVEN_UP(beam);
-    for (uint n = crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
+    for (uint n = y.crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;

@@ -179,7 +179,16 @@ static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii
     }
 }
 
-/* The largest |cos(theta)| of all volumes. */
+/* The least and the largest |cos(theta)| of all volumes. */
+static double hollow_of_all(const struct kd_scene *scene)
+{
+    double least = 1;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
+            least = fmin(least, kd_emitters[i]->hollow ? kd_emitters[i]->hollow(scene) : 0);
+    return least < 1 ? least : 0;
+}
+
 static double height_of_all(const struct kd_scene *scene)
 {
     double most = 0;
@@ -212,6 +221,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .along_least = (float)(1 / along[1]),
         .along_most = (float)fmin(1 / along[0], 1e30),
+        .along_hollow = (float)hollow_of_all(scene),
         .along_u = (float)height_of_all(scene),
         .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
         .one_minus_a = (float)(1 - scene->spacetime.spin),

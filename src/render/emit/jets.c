@@ -18,6 +18,8 @@ static void reach(const struct kd_scene *scene, double radii[2])
     radii[1] = scene->jets.outer;
 }
 
+static double hollow(const struct kd_scene *scene) { return cos(scene->jets.opening_deg * (M_PI / 180)); }
+
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
     snprintf(out, KD_EMIT_TOLD, "%s along the axis, %.4g degrees wide, with a Lorentz factor of %.4g.", scene->jets.counterjet ? "Two jets" : "A jet",
@@ -55,6 +57,7 @@ const struct kd_emitter kd_emit_jets = {
     .tell = tell,
     .present = present,
     .reach = reach,
+    .hollow = hollow,
     .fill = fill,
     .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(jets) },
     .sentences = sentences,
