@@ -2,6 +2,8 @@
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
+#include "render/device/internal.h"
+
 #include "render_support.h"
 
 #include <math.h>
@@ -287,30 +289,35 @@ static void test_glances(void **state)
 }
 
 struct others {
+    struct kd_renderer *r;
     struct kd_scene scenes[2];
     struct kd_plan plans[2];
     struct kd_frame frames[2];
+    int crowd; /* so many kernels are asked for besides */
     int calls;
 };
 
-/* In the middle of a picture: another long one, and a short one with many kernels of its own, one after the other. */
+/* In the middle of a picture: another long one, a short one, and more with a kernel of their own each, one after the other. */
 static bool let_others(void *user, double fraction)
 {
     struct others *o = user;
     (void)fraction;
     if (o->calls++ != 3)
         return true;
-    OK(kd_render_aside(renderer, &o->scenes[0], &o->plans[0], NULL, NULL, NULL, &o->frames[0], &error));
-    OK(kd_render(renderer, &o->scenes[1], &o->plans[1], NULL, NULL, &o->frames[1], &error));
-    for (uint32_t orders = 1; orders <= 6; orders++)
-        for (int side = 1; side <= 8; side++) { /* 48 kernels: as many as are kept */
-            struct kd_scene scene = o->scenes[1];
-            scene.image.width = scene.image.height = 8;
-            scene.image.samples = side;
-            scene.accuracy.orders = (int32_t)orders;
-            struct kd_frame frame = rendered(&scene);
-            kd_frame_finish(&frame);
-        }
+    OK(kd_render_aside(o->r, &o->scenes[0], &o->plans[0], NULL, NULL, NULL, &o->frames[0], &error));
+    OK(kd_render(o->r, &o->scenes[1], &o->plans[1], NULL, NULL, &o->frames[1], &error));
+    for (int i = 0; i < o->crowd; i++) {
+        const struct kd_capacity c = capacity();
+        struct kd_scene scene = small_scene();
+        struct kd_plan plan;
+        struct kd_frame frame;
+        scene.image.width = scene.image.height = 8;
+        scene.image.samples = 1 + i % 4;
+        scene.accuracy.orders = 1 + i / 4;
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        OK(kd_render(o->r, &scene, &plan, NULL, NULL, &frame, &error));
+        kd_frame_finish(&frame);
+    }
     return true;
 }
 
@@ -319,11 +326,14 @@ static void test_asides(void **state)
 {
     (void)state;
     const struct kd_capacity c = capacity();
-    struct others o = { .calls = 0 };
+    enum { KEPT = 8 };
+    struct others o = { .crowd = KEPT };
     struct kd_scene scene = small_scene();
     struct kd_plan plan;
     struct kd_frame beside, alone;
     scene.camera.inclination_deg = 51;
+    OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true }, &o.r, &error));
+    o.r->kernels.kept = KEPT; /* all of the picture's make room for those that come between */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
@@ -332,12 +342,12 @@ static void test_asides(void **state)
         o.scenes[i].disk.model = i ? KD_DISK_PARTICLES : o.scenes[i].disk.model;
         OK(kd_plan_make(&o.scenes[i], &c, &o.plans[i], &error));
     }
-    OK(kd_render_aside(renderer, &scene, &plan, let_others, NULL, &o, &beside, &error));
+    OK(kd_render_aside(o.r, &scene, &plan, let_others, NULL, &o, &beside, &error));
     assert_true(o.calls > 10 && !beside.lens_reused);
     assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 && timing_of(&beside, "total") > 0);
     assert_true(isnan(timing_of(&beside, "particles"))); /* those were the other's */
 
-    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &alone, &error));
+    OK(kd_render(o.r, &scene, &plan, NULL, NULL, &alone, &error));
     assert_true(alone.lens_reused); /* it is found wherever it was made */
     kd_frame_finish(&alone);
     struct kd_renderer *fresh;
@@ -352,6 +362,8 @@ static void test_asides(void **state)
     assert_true(alone.lens_reused); /* and the other way round */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
+    assert_int_equal(kd_renderer_validation_messages(o.r), 0);
+    kd_renderer_destroy(o.r);
 }
 
 /* Particles that are deposited for another picture between the slices are not those of this one. */
@@ -359,7 +371,7 @@ static void test_asides_with_particles(void **state)
 {
     (void)state;
     const struct kd_capacity c = capacity();
-    struct others o = { .calls = 0 };
+    struct others o = { .r = renderer };
     struct kd_scene scene = small_scene();
     struct kd_plan plan;
     struct kd_frame beside, alone;

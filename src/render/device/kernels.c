@@ -160,9 +160,10 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, c
 {
     uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
     struct kd_kernel_entry *oldest = &kernels->entries[0];
+    const size_t kept = kernels->kept ? kernels->kept : KD_KERNELS_KEPT;
     for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
         key[i] = constants[i];
-    for (size_t i = 0; i < KD_KERNELS_KEPT; i++) {
+    for (size_t i = 0; i < kept; i++) {
         struct kd_kernel_entry *e = &kernels->entries[i];
         if (e->pipeline && e->source == source && !memcmp(e->constants, key, sizeof key)) {
             e->used = ++kernels->clock;

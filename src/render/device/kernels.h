@@ -68,6 +68,7 @@ struct kd_kernel_entry {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
+    size_t kept; /* so many of the entries are used; 0: all. A test sets it before the first is asked for */
     uint64_t clock;
 };
 
