@@ -2,7 +2,8 @@
 """What scripts/test asks about a build's tests; it speaks of nothing else.
 
     suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would not find
-    suite.py report BUILD [--no-skip]     the slowest of the last run, and what was skipped and why; with --no-skip a skip is exit 1
+    suite.py report BUILD [--no-skip]     the seconds of the last run suite by suite, the slowest tests, and what was skipped and why;
+                                          with --no-skip a skip is exit 1
 
 Meson itself runs no test at all for a name that it does not know, and calls that a success.
 """
@@ -50,11 +51,23 @@ def check(build, arguments):
     return 2 if missing else 0
 
 
+def by_suite(tests):
+    """How many tests each suite has and the sum of their seconds, most first; a test of several suites counts in each. Tests run beside
+    one another: the sum is more than what the run took."""
+    sums = {}
+    for test in tests:
+        for suite in test['name'].partition(' / ')[0].split(':')[-1].split('+'):
+            number, seconds = sums.get(suite, (0, 0))
+            sums[suite] = number + 1, seconds + test['duration']
+    return sorted(((suite, *figures) for suite, figures in sums.items()), key=lambda row: -row[2])
+
+
 def report(build, *options):
     log = pathlib.Path(build, 'meson-logs/testlog.json')
     tests = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
     slowest = sorted(tests, key=lambda test: -test['duration'])[:8]
     if len(tests) > len(slowest):
+        print('suites:', ', '.join(f'{suite} {number} in {seconds:.0f} s' for suite, number, seconds in by_suite(tests)))
         print('slowest:', ', '.join(f'{test["name"]} {test["duration"]:.0f} s' for test in slowest))
     skipped = [test for test in tests if test['result'] == 'SKIP']
     for test in skipped:

@@ -3,6 +3,7 @@
 
 scripts.py SCRIPTS BUILD
 """
+import json
 import pathlib
 import shutil
 import subprocess
@@ -52,6 +53,23 @@ class Scripts(unittest.TestCase):
                 code, text = run(*command)
                 self.assertEqual((code, text.count('\n')), (2, 1), text)
                 self.assertTrue(text.startswith(f'scripts/{command[0]}: '), text)
+
+    def test_the_report(self):
+        """Seconds suite by suite, the slowest, and what was skipped."""
+        tests = [('kerrd:gpu / a', 20), ('kerrd:gpu+long / b', 300.4), ('kerrd:unit / c', 1)] + [(f'kerrd:http / d{i}', 2) for i in range(6)]
+        lines = [json.dumps({'name': name, 'duration': seconds, 'result': 'SKIP' if name.endswith('c') else 'OK', 'stdout': 'no device\n'})
+                 for name, seconds in tests]
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder, 'meson-logs/testlog.json')
+            log.parent.mkdir()
+            log.write_text('\n'.join(lines))
+            done = subprocess.run([SCRIPTS / 'suite.py', 'report', folder], capture_output=True, text=True, timeout=60)
+            code, said = run('suite.py', 'report', folder, '--no-skip')
+        self.assertEqual((code, said), (1, 'scripts/test: 1 skipped, where none may be\n'))
+        self.assertEqual((done.returncode, done.stdout.splitlines()),
+                         (0, ['suites: gpu 2 in 320 s, long 1 in 300 s, http 6 in 12 s, unit 1 in 1 s',
+                              'slowest: kerrd:gpu+long / b 300 s, kerrd:gpu / a 20 s, ' +
+                              ', '.join(f'kerrd:http / d{i} 2 s' for i in range(6)), 'skipped: c - no device']))
 
     def test_help_needs_nothing(self):
         """Not even scripts/setup, which is not there."""
