@@ -11,6 +11,10 @@
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
+/* These are told anew with each dispatch: by one kernel a sample of pixels is followed more closely (src/render/frame/march_error.c). */
+#define STEPS slice.steps /* a half period */
+#define FINE slice.fine   /* quarters of a stretch a grain */
+
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"
 
@@ -20,7 +24,7 @@
 #define KD_MARCH_DEPTH 1.0    /* and in optical depth */
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
 #define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
-#define KD_MARCH_OPAQUE 1e-5  /* what is let through no longer counts */
+#define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
 
 /* A polynomial of the time within a step, from 0 to 1. */
 struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
@@ -167,7 +171,7 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 /* Goes through a part of a step that lies in the volumes. */
 void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float from, float to, inout float stretch)
 {
-    const float coarse = 4.0 / float(FINE);
+    float coarse = 4.0 / float(FINE);
     float wish = stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     while (from < to && beam.through > KD_MARCH_OPAQUE) {
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;

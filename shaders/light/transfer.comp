@@ -103,11 +103,16 @@ void main()
     follow(place, (place.y - slice.band0) * cam.width + place.x, light_at(place.x / SIDE, place.y / SIDE));
 }
 #else
-void store(uint at, vec3 light, float apart)
+void store_light(uint at, vec3 light)
 {
     radiance[3 * at] = light.r;
     radiance[3 * at + 1] = light.g;
     radiance[3 * at + 2] = light.b;
+}
+
+void store(uint at, vec3 light, float apart)
+{
+    store_light(at, light);
     if (KD_APART) /* behind the band's pixels */
         radiance[3 * emission.frame.band_pixels + at] = apart;
 }
@@ -119,8 +124,9 @@ void store(uint at, vec3 light, float apart)
  * may shine, which takes little, and the outer one lights it. Where light is spread over the sky each pixel has some, and looking for it only takes
  * time. */
 #ifdef KD_MARCH
-const bool COLUMNS = false;
+const bool COLUMNS = false, SAMPLES = CRITICAL == 0; /* its error is measured on a lattice of pixels (src/render/frame/march_error.c) */
 #else
+const bool SAMPLES = false;
 const bool COLUMNS = SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
 
@@ -176,9 +182,14 @@ void main()
 {
     kd_camera_read();
     KD_EMIT_BLOCKS(READ)
-    uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0;
-    if (px >= (CRITICAL > 0 ? slice.rows : emission.frame.pixels_x))
+    uint px = gl_GlobalInvocationID.x, py = slice.row0 / SIDE + gl_WorkGroupID.y, listed = 0, number = slice.to + gl_WorkGroupID.y * slice.columns + px;
+    bool sampled = SAMPLES && slice.columns > 0;
+    if (px >= (CRITICAL > 0 ? slice.rows : sampled ? slice.columns : emission.frame.pixels_x))
         return;
+    if (sampled) {
+        px = slice.first + px * slice.every_x;
+        py = slice.row0 / SIDE + gl_WorkGroupID.y * slice.every_y;
+    }
     if (COLUMNS) {
         uint y = slice.row0 + gl_WorkGroupID.y * KD_TRANSFER_ROWS, end = min(y + KD_TRANSFER_ROWS, slice.row0 + slice.rows);
         if (ENDS)
@@ -198,6 +209,10 @@ void main()
     uint to = light_at(px, py);
 #ifdef KD_MARCH
     kd_beam beam = follow_one(uvec2(px, py), listed, slice.ray, to);
+    if (sampled) {
+        store_light(number, beam.light);
+        return;
+    }
     vec3 sum = share * beam.light;
     float apart = share * beam.apart;
     if (rays > 1u && slice.ray > 0u) {

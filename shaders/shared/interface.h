@@ -41,6 +41,11 @@
     U(band0)                /* first row of the band that the buffers hold */                                  \
     U(stride)               /* rays of the band: distance between planes of the lens map */                    \
     U(list)                 /* of listed pixels, where it begins in the lens map */                            \
+    U(steps) U(fine)        /* of the march (light/march.glsl): steps a half period; quarters of a stretch a grain; */ \
+    F(opaque)               /* what of the light behind need not come through for the ray to go on */          \
+    U(columns) U(first)     /* pixels a row of a sample, 0: all pixels are lit; the first column, row0 being the first row; */ \
+    U(every_x) U(every_y)   /* how far they are apart; and */                                                  \
+    U(to)                   /* the number, in the order of rows, from which on their light lies one behind the other */ \
     U(ray)                  /* of its pixel, which the march follows, and adds its light to that of the rays before it */
 
 /* footprint.comp takes these. Rows are those of rays that the buffer holds. */

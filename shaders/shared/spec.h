@@ -23,13 +23,13 @@
 #define KD_SPEC_BETWEEN(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 4) B(3, MARK, false)
 
 /* SIDE: rays along each side of a pixel; LAYER, ORDER: of layers.comp, which layer (layers.h), and of which image order, KD_NO_ORDER: of the
- * first crossing that lies on the disk. Of the march (light/march.glsl) STEPS and INGOING are as in the lens map's, and FINE says how many quarters of
- * a stretch a grain has. Behind these comes the word of each emitter (emitters.h), from KD_SPEC_TRAITS on. */
+ * first crossing that lies on the disk. INGOING is the lens map's, for the march (light/march.glsl). Behind these comes the word of each emitter
+ * (emitters.h), from KD_SPEC_TRAITS on. */
 #define KD_SPEC_TRANSFER(U, B)                                                                                 \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0)                                           \
     U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) U(7, LAYER, 0) U(8, ORDER, KD_NO_ORDER)                             \
-    U(9, STEPS, 16) B(10, INGOING, false) U(11, FINE, 4)
-#define KD_SPEC_TRAITS 12
+    B(9, INGOING, false)
+#define KD_SPEC_TRAITS 10
 #define KD_NO_ORDER 0xffffffffu
 
 /* In rays.comp and rays_kerr_schild.comp METHOD is a Nystroem order, or one of Kerr-Schild's. */

@@ -78,6 +78,9 @@ static void report_accuracy(struct kd_frame_job *j)
     j->frame->accuracy.followed = own.followed;
     j->frame->accuracy.refined = own.refined;
     j->frame->accuracy.between = own.between;
+    j->frame->accuracy.volume_sampled = own.volume_sampled;
+    j->frame->accuracy.volume_error = own.volume_error;
+    j->frame->accuracy.volume_error_worst = own.volume_error_worst;
 }
 
 /* Pixels are chosen at the exposure that the picture would have now. */
@@ -97,7 +100,6 @@ static enum kd_status run(struct kd_frame_job *j)
     bool reused = false;
     enum kd_status status;
     kd_renderer_capacity(j->r, &c);
-    j->march = j->plan->march;
     if (kd_prepare_begin(j->r, j->scene, j->plan))
         KD_TRY(compile_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
@@ -115,6 +117,7 @@ static enum kd_status run(struct kd_frame_job *j)
     KD_TRY(kd_frame_layers(j));
     if (j->plan->light)
         KD_TRY(kd_frame_read_light(j));
+    KD_TRY(kd_frame_march_error(j));
     if (!reused)
         KD_TRY(judge_map(j));
     report_accuracy(j);
@@ -146,13 +149,16 @@ static enum kd_status render(struct kd_frame_job *job, struct kd_frame *out)
 done:
     free(job->kinds);
     job->kinds = NULL;
-    if (!status)
+    if (!status) {
+        kd_vk_buffer_destroy(job->r->vk, job->marched);
         return status;
+    }
     kd_vk_discard(job->r->vk);
     kd_store_give_up(job->store);
     kd_prepared_forget(job->prepared);
     if (status != KD_EDEVICE)
         kd_vk_wait(job->r->vk, 0, NULL);
+    kd_vk_buffer_destroy(job->r->vk, job->marched);
     kd_frame_finish(&frame);
     return status;
 }

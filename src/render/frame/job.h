@@ -17,7 +17,7 @@ struct kd_frame_job {
     double away_ms; /* and what its progress took */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    struct kd_march march; /* how closely volumes are gone through now */
+    struct kd_vk_buffer *marched; /* light of a sample, as the picture has it and more closely followed; NULL: none */
     struct kd_lens_map *lens;
     struct kd_star_key star_key; /* what the light of stars is made of in this frame, */
     bool stars_kept;             /* and whether it is there already */
@@ -112,6 +112,11 @@ enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 /* Tells the light of the plan's pixel, if it lies in this band, whose lens map must be there; and, when all light is, what became of it. */
 enum kd_status kd_frame_tell(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_tell_pixel(struct kd_frame_job *job);
+
+/* Follows rays through volumes once more on a sample of this band's pixels, as the picture has them and more closely, and, when all have been, says in the frame's
+ * accuracy how far apart these are. Nothing where there are no volumes. */
+enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
+enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
 /* Adds up the light of all bands, and sends the sums to the host; waits for them, and makes the frame's flux and centroid of them. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);

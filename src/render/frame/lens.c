@@ -66,11 +66,8 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
         .CRITICAL = l->rays, .GENERATOR = l->generator, .SHIFT = l->shift,
         .ORDER = KD_NO_ORDER,
     };
-    if (march) {
-        spec.STEPS = j->march.steps;
-        spec.FINE = j->march.fine;
+    if (march)
         spec.INGOING = p->ingoing;
-    }
     if (makes >= 0)
         spec.LAYER = (uint32_t)p->layers[makes].kind;
     if (makes >= 0 && p->layers[makes].order >= 0)
@@ -118,6 +115,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
     struct kd_slice push = {
         .row0 = s->first * p->side, .rows = s->count * p->side, .band0 = kd_frame_band_first(j, s->band) * p->side,
         .stride = p->width * p->side * p->band_rows * p->side,
+        .steps = p->march.steps, .fine = p->march.fine, .opaque = (float)p->march.opaque,
     };
     d->push = &push;
     d->groups[0] = kd_frame_groups(rays ? (uint64_t)p->width * p->side : p->width);
@@ -331,6 +329,7 @@ static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double tr
             KD_TRY(kd_frame_stars(j, band));
         KD_TRY(light_band(j, band, needed && !p->points, p->points ? transfer_ns : ns));
         KD_TRY(kd_frame_tell(j, band));
+        KD_TRY(kd_frame_sample_march(j, band));
     }
 done:
     return status;

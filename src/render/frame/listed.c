@@ -15,6 +15,9 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *j, const struct
         part.n = list->pixels->n - part.first;
     part.push.stride = (uint32_t)(list->most * list->lattice.rays);
     part.push.list = j->plan->planes * part.push.stride;
+    part.push.steps = j->plan->march.steps;
+    part.push.fine = j->plan->march.fine;
+    part.push.opaque = (float)j->plan->march.opaque;
     return part;
 }
 

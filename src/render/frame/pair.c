@@ -65,6 +65,7 @@ static struct kd_accuracy_report both(const struct kd_accuracy_report *l, const 
         l->undecided + r->undecided, l->sampled + r->sampled, l->crossings + r->crossings, l->differ + r->differ, fmax(l->median, r->median),
         fmax(l->worst, r->worst), l->followed + r->followed, l->refined + r->refined, l->between + r->between, l->pixel_sampled + r->pixel_sampled,
         fmax(l->pixel_error, r->pixel_error), fmax(l->pixel_error_worst, r->pixel_error_worst),
+        l->volume_sampled + r->volume_sampled, fmax(l->volume_error, r->volume_error), fmax(l->volume_error_worst, r->volume_error_worst),
     };
 }
 

@@ -104,6 +104,7 @@ static enum kd_status follow(struct kd_frame_job *j, uint32_t band, struct kd_vk
     const struct kd_vk_pipeline *pipeline;
     const struct kd_slice push = {
         .row0 = told->ray_y, .rows = told->ray_x, .band0 = kd_frame_band_first(j, band) * p->side, .stride = p->width * p->side * p->band_rows * p->side,
+        .steps = p->march.steps, .fine = p->march.fine, .opaque = (float)p->march.opaque,
     };
     enum kd_status status;
     KD_TRY(kd_frame_light_kernel(j, &on_grid, KD_MAKES_TOLD, &pipeline));

@@ -12,7 +12,7 @@
 #include "scene/sweep.h"
 
 #define KD_CUBE_TEXTS 128
-enum { KD_CUBE_HASH = 64, KD_CUBE_ACCURACY = 320, KD_CUBE_ROW = KD_CUBE_HASH + KD_CUBE_ACCURACY }; /* bytes told of each scene; NULs behind each */
+enum { KD_CUBE_HASH = 64, KD_CUBE_ACCURACY = 384, KD_CUBE_ROW = KD_CUBE_HASH + KD_CUBE_ACCURACY }; /* bytes told of each scene; NULs behind each */
 
 struct kd_cube_layer {
     char name[KD_LAYER_NAME], unit[24];

@@ -13,8 +13,11 @@ void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_p
         n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " crossings=%u differ=%u median=%.1e worst=%.1e", report->crossings,
                  report->differ, report->median, report->worst);
     if (report->pixel_sampled)
-        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " followed=%llu refined=%llu between=%llu pixel_sampled=%u pixel_error=%.1e pixel_error_worst=%.1e",
+        n += snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " followed=%llu refined=%llu between=%llu pixel_sampled=%u pixel_error=%.1e pixel_error_worst=%.1e",
                  (unsigned long long)report->followed, (unsigned long long)report->refined, (unsigned long long)report->between, report->pixel_sampled, report->pixel_error, report->pixel_error_worst);
+    if (report->volume_sampled)
+        snprintf(out + n, KD_ACCURACY_TEXT - (size_t)n, " volume_sampled=%u volume_error=%.1e volume_error_worst=%.1e", report->volume_sampled, report->volume_error,
+                 report->volume_error_worst);
 }
 
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst)
@@ -34,6 +37,11 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
         kd_json_number(json, "pixel_sampled", report->pixel_sampled);
         kd_json_number(json, "pixel_error", report->pixel_error);
         kd_json_number(json, "pixel_error_worst", report->pixel_error_worst);
+    }
+    if (report->volume_sampled) {
+        kd_json_number(json, "volume_sampled", report->volume_sampled);
+        kd_json_number(json, "volume_error", report->volume_error);
+        kd_json_number(json, "volume_error_worst", report->volume_error_worst);
     }
 }
 

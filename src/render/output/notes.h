@@ -8,7 +8,7 @@
 
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0 median=1.6e-07
  * worst=2.0e-05"; without the last four where nothing was sampled. */
-#define KD_ACCURACY_TEXT 320
+#define KD_ACCURACY_TEXT 384
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT]);
 /* Writes the same as members of an object, but for the rays and what traced them. The names of the two errors of radii are the caller's. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median, const char *worst);

@@ -31,9 +31,36 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
     return (0.25 * steps / 16 + 0.75 * fine / BALANCED) * (stirred ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
+/* One pixel in 81, of which what is followed for the error takes a thirtieth of what the picture does; of small pictures more, of large ones less. */
+static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
+{
+    *n = (uint32_t)fmin(fmin(fmax(size / 9, 4), most), size);
+    *every = size / *n;
+    *first = (uint32_t)(0.382 * (size - (*n - 1) * *every)); /* not symmetrical about the middle, as pictures may be */
+}
+
+static struct kd_march_sample sample_of(uint32_t width, uint32_t height)
+{
+    const double columns = sqrt(KD_MARCH_SAMPLED * (double)width / height);
+    struct kd_march_sample s;
+    lattice(width, (uint32_t)fmin(fmax(columns, 1), KD_MARCH_SAMPLED), &s.columns, &s.every[0], &s.first[0]);
+    lattice(height, KD_MARCH_SAMPLED / s.columns, &s.rows, &s.every[1], &s.first[1]);
+    return s;
+}
+
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays)
 {
     const double error = error_of(&scene->accuracy);
     const uint32_t steps = steps_of(error, rays), fine = fine_of(error);
-    return (struct kd_march) { .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine };
+    return (struct kd_march) {
+        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .sample = sample_of(scene->image.width, scene->image.height),
+    };
+}
+
+struct kd_march kd_march_finer(struct kd_march march)
+{
+    march.steps *= KD_MARCH_FINER;
+    march.fine *= KD_MARCH_FINER;
+    march.opaque /= KD_MARCH_FINER * KD_MARCH_FINER;
+    return march;
 }

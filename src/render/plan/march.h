@@ -8,13 +8,24 @@
  * 32 bits, and some 5e-5 are left in any case. */
 #define KD_MARCH_ERRORS { 2e-3, 1e-3, 1e-4, 1e-5, 1e-6 }
 
+/* Pixels of a picture, on a lattice: columns a row, every[0] apart from first[0] on, and rows likewise. */
+struct kd_march_sample { uint32_t columns, rows, every[2], first[2]; };
+
 struct kd_march {
     uint32_t steps; /* a half period, at least 8; 0: the scene has no volumes */
     double weight;  /* what a ray takes, over one of a smooth volume at the balanced profile */
     uint32_t fine;  /* quarters of a stretch a grain, 2 to 64: where all is smooth the error falls as its fourth power at least */
+    double opaque;  /* a ray ends where less than this of the light behind comes through: a tenth of the error aimed at */
+    struct kd_march_sample sample; /* of the pixels of which a ray is followed twice more, to measure the error (frame/march_error.c) */
 };
+#define KD_MARCH_SAMPLED 512 /* at most */
+#define KD_MARCH_FINER 2     /* so many times as many steps and stretches have those that the others are compared with */
+#define KD_MARCH_DARK 1e-3   /* of the brightest ray: what is darker is compared with so much */
 
 /* For a scene that has volumes, whose rays are followed by this. */
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays);
+
+/* The same, KD_MARCH_FINER times as closely. */
+struct kd_march kd_march_finer(struct kd_march march);
 
 #endif

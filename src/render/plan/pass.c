@@ -50,6 +50,12 @@ static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_cap
     return (struct kd_pass_cost) { "transfer.comp", kd_plan_light_ns(plan, c), usual ? KD_NS_RAY_MARCH : KD_NS_NONE };
 }
 
+/* A ray of the sample: as the picture has it, and with so many times as many stretches. */
+static struct kd_pass_cost march_error(const struct kd_plan *plan, const struct kd_capacity *c)
+{
+    return (struct kd_pass_cost) { "transfer.comp", (1 + KD_MARCH_FINER) * kd_plan_light_ns(plan, c), KD_NS_NONE };
+}
+
 static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     (void)plan, (void)c;
@@ -86,6 +92,7 @@ INVOCATIONS(footprints, kd_plan_has_footprints(plan) ? kd_plan_rays(plan) : 0)
 INVOCATIONS(audited, plan->audit)
 INVOCATIONS(lit, plan->march.steps ? 0 : kd_plan_rays(plan))
 INVOCATIONS(marched, plan->march.steps ? kd_plan_rays(plan) : 0)
+INVOCATIONS(sampled, plan->march.steps ? plan->march.sample.columns * plan->march.sample.rows : 0)
 INVOCATIONS(starred, plan->points ? plan->rays : 0)
 INVOCATIONS(refined, plan->adaptive ? plan->rays * plan->adaptive / KD_PLAN_CHOSEN + KD_PLAN_SAMPLED : 0)
 INVOCATIONS(pixels, (uint64_t)plan->width * plan->height)

@@ -51,6 +51,7 @@ extern const struct kd_figure { const char *word; double guess; } kd_figures[KD_
     P(STARS, "stars", starred, PART("star_tiles.comp", SAMPLE_TRANSFER, 1.5), RAYS, FRAME)                                        \
     P(TRANSFER, "transfer", lit, WHOLE("transfer.comp", SAMPLE_TRANSFER), RAYS, FRAME)                                           \
     P(MARCH, "march", marched, BY(march), RAYS, FRAME)                                                                          \
+    P(MARCH_ERROR, "march_error", sampled, BY(march_error), RAYS, FRAME)                                                        \
     P(REFINE, "refine", refined, BY(refine), RAYS, FRAME)                                                                        \
     P(LAYERS, "layers", layered, PART("layers.comp", SAMPLE_TRANSFER, 0.5), PIXELS, FRAME)                                       \
     P(LIGHT, "light", added_up, PART("photometry.comp", PIXEL_POST, 1.5), PIXELS, FRAME)                                         \
