@@ -9,6 +9,8 @@ const pass_names = {
   footprint: ['places that rays stand for', 'luoghi per cui stanno i raggi'],
   transfer: ['light', 'luce'],
   fill: ['clearing', 'azzeramento'],
+  march: ['light along rays', 'luce lungo i raggi'],
+  march_error: ['error of that light', 'errore di quella luce'],
   refine: ['more rays where it shows', 'più raggi dove si vede'],
   layers: ['maps', 'mappe'],
   light: ['flux and centroid', 'flusso e centro'],
@@ -57,7 +59,14 @@ export function showAccuracy(frame, scene) {
         ` I pixel mostrati sono errati in media di ${number(pixel_error, 2)} del bianco, ${number(pixel_error_worst, 2)} nel caso peggiore: misura su ${number(pixel_sampled)} di essi ` +
           `con 64 raggi ciascuno; ${number(refined + between)} ne hanno 16.`,
       );
-  byId('accuracy-words').textContent = `${held} ${measured}${pixels}`;
+  const { volume_sampled, volume_error, volume_error_worst } = frame.accuracy;
+  const volumes = !(volume_sampled > 0)
+    ? ''
+    : t(
+        ` Light along ${number(volume_sampled)} rays, followed twice as closely, changed by at most ${number(volume_error, 2)} in nine of ten, ${number(volume_error_worst, 2)} at worst.`,
+        ` La luce lungo ${number(volume_sampled)} raggi, seguiti due volte più da vicino, è cambiata al più di ${number(volume_error, 2)} in nove su dieci, di ${number(volume_error_worst, 2)} nel caso peggiore.`,
+      );
+  byId('accuracy-words').textContent = `${held} ${measured}${pixels}${volumes}`;
   byId('timings').replaceChildren(
     ...frame.passes.map(pass =>
       el(

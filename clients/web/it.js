@@ -600,8 +600,8 @@ export const sentences = {
     'getti: stilizzati, coni di luce otticamente sottile lungo l’asse di rotazione che va verso l’esterno lungo il raggio a una sola velocità, rispetto a osservatori senza momento angolare; nessun campo magnetico, nessuno spettro di sincrotrone: la luminosità va come g^(2 + indice), il colore è quello di una temperatura scelta e non è spostato',
   "volume: the frequency shift of its matter is switched off, and lengths are those of the observer's affine parameter":
     'volume: lo spostamento di frequenza della sua materia è disattivato, e le lunghezze sono quelle del parametro affine dell’osservatore',
-  'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case, and what is left in a picture is not measured':
-    'volumi: luce a 32 bit da tre punti per tratto, con quanti tratti chiedono grana, profondità e raggio; ciò che accuracy chiede è un obiettivo: circa 5e-5 restano comunque, e quel che resta in un’immagine non è misurato',
+  'volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; what is left is measured on a sample of rays, followed twice as closely':
+    'volumi: luce a 32 bit da tre punti per tratto, con quanti tratti chiedono grana, profondità e raggio; ciò che accuracy chiede è un obiettivo: circa 5e-5 restano comunque; quel che resta è misurato su un campione di raggi, seguiti due volte più da vicino',
   'image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots':
     'immagine: pochi raggi per i pixel attraversati dalla curva critica; un anello di fotoni più sottile di loro appare a punti',
   'post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to radiance':

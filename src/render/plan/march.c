@@ -31,10 +31,10 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
     return (0.25 * steps / 16 + 0.75 * fine / BALANCED) * (stirred ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
-/* One pixel in 81, of which what is followed for the error takes a thirtieth of what the picture does; of small pictures more, of large ones less. */
+/* One pixel in 144, of which what is followed for the error takes a thirtieth of what the picture does; of small pictures more, of large ones less. */
 static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
 {
-    *n = (uint32_t)fmin(fmin(fmax(size / 9, 4), most), size);
+    *n = (uint32_t)fmin(fmin(fmax(size / 12, 4), most), size);
     *every = size / *n;
     *first = (uint32_t)(0.382 * (size - (*n - 1) * *every)); /* not symmetrical about the middle, as pictures may be */
 }

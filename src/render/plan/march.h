@@ -18,7 +18,8 @@ struct kd_march {
     double opaque;  /* a ray ends where less than this of the light behind comes through: a tenth of the error aimed at */
     struct kd_march_sample sample; /* of the pixels of which a ray is followed twice more, to measure the error (frame/march_error.c) */
 };
-#define KD_MARCH_SAMPLED 512 /* at most */
+#define KD_MARCH_HOLDS 5e-5  /* an error that is held where all is smooth: no tolerance below it is taken */
+#define KD_MARCH_SAMPLED 256 /* at most */
 #define KD_MARCH_FINER 2     /* so many times as many steps and stretches have those that the others are compared with */
 #define KD_MARCH_DARK 1e-3   /* of the brightest ray: what is darker is compared with so much */
 

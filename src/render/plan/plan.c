@@ -48,8 +48,8 @@ static const struct sentence {
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
     { "disk: image orders beyond accuracy.orders are left out", crossings },
-    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case, and "
-      "what is left in a picture is not measured", volumes },
+    { "volumes: light in 32 bits by three places a stretch, as many stretches as grain, depth and the ray ask for; what accuracy asks for is a target: some 5e-5 are left in any case; "
+      "what is left is measured on a sample of rays, followed twice as closely", volumes },
     { "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance", crossings },
     { "image: few rays for the pixels that the critical curve passes; a photon ring thinner than they are shows as dots", few_rays },
     { "image: 16 rays for pixels that differ from the middle of their neighbours by twice image.pixel_error, one for the others; where the lens map is smooth they are interpolated in it; what is left is measured on a sample", adapted },
@@ -449,8 +449,12 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     KD_TRY(kd_layers_check(scene, error));
     KD_TRY(beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
-    if (kd_emit_along(scene))
+    if (kd_emit_along(scene)) {
+        if (scene->accuracy.tolerance < KD_MARCH_HOLDS)
+            KD_TRY(kd_error_field(error, "/accuracy/tolerance", "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
+                                  scene->accuracy.tolerance, KD_MARCH_HOLDS));
         plan.march = kd_march_of(scene, &plan.setting);
+    }
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
     adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;
