@@ -167,6 +167,20 @@ class Pictures(Case):
         self.assertGreater(json.loads(finer.stderr)["accuracy"]["between"], accuracy["between"])
         self.bad(2, "image.samples", "render", "--set", "image.samples=autos", "-o", self.path("c.png"))
 
+    def test_stats_of_light_through_volumes(self):
+        done = run("render", "-p", "thick-disk", "--size=96x54", "--stats", "-o", self.path("a.png"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stderr)
+        accuracy = found["accuracy"]
+        self.assertIn("march_error", found["device_ms"])
+        self.assertGreater(accuracy["volume_sampled"], 10)
+        self.assertTrue(0 < accuracy["volume_error"] <= accuracy["volume_error_worst"] < 1, accuracy)
+        self.assertIn(f"volume_error={accuracy['volume_error']:.1e}".encode(), self.read("a.png"))
+        self.good("render", *SMALL, "-o", self.path("b.png"))
+        self.assertNotIn(b"volume_", self.read("b.png"))
+        self.bad(2, "accuracy.tolerance is 1e-06: light through volumes is added up in 32 bits and holds 5e-05 and above", "render", "-p", "thick-disk",
+                 "--set", "accuracy.tolerance=1e-6", "-o", self.path("c.png"))
+
     def test_plan(self):
         plan = json.loads(self.good("plan", *SMALL, "--set", "image.samples=2"))
         self.assertEqual(plan["rays"], 4 * 64 * 36)

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 128, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT };
 
 static struct kd_scene scene_of(const char *preset, const char *json)
 {
@@ -37,8 +37,10 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
 
 static const float *intensity(const struct kd_frame *frame) { return kd_frame_layer(frame, "intensity")->data; }
 
-/* Relative to a pixel's light, or to a thousandth of the brightest: what nine of ten pixels with light are within, and the worst. */
-static void compare(const struct kd_frame *a, const struct kd_frame *b, double *nine, double *worst)
+/* Relative to a pixel's light, or to a thousandth of the brightest: what 8, 9 and 9.6 of ten pixels with light are within, and the worst. */
+struct errors { double eight, nine, most, worst; };
+
+static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
 {
     static double off[PIXELS];
     double most = 0;
@@ -52,8 +54,7 @@ static void compare(const struct kd_frame *a, const struct kd_frame *b, double *
     }
     assert_true(n > PIXELS / 20);
     qsort(off, (size_t)n, sizeof *off, by_value);
-    *nine = off[n * 9 / 10];
-    *worst = off[n - 1];
+    return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
 
 static const struct { const char *preset, *json; } scenes[] = {
@@ -63,7 +64,7 @@ static const struct { const char *preset, *json; } scenes[] = {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* Of some 80 pixels what nine of ten are within is good to a factor of two, and so is what twice as many stretches leave. */
+/* Of a hundred rays nine of ten are 80 to 96 of a hundred pixels (two deviations), and what twice as many stretches leave is half of the error at most. */
 static void test_said(void **state)
 {
     (void)state;
@@ -71,12 +72,12 @@ static void test_said(void **state)
         struct kd_scene scene = scene_of(scenes[s].preset, scenes[s].json);
         struct kd_frame plain = by_plan(&scene, 1, 1), fine = by_plan(&scene, 16, 4);
         const struct kd_accuracy_report *said = &plain.accuracy;
-        double is, worst;
-        compare(&plain, &fine, &is, &worst);
-        print_message("scene %zu: said %.2g, worst %.2g of %u; is %.2g, worst %.2g\n", s, said->volume_error, said->volume_error_worst, said->volume_sampled, is, worst);
-        assert_true(said->volume_sampled > 5 && said->volume_sampled < PIXELS / 40);
-        assert_true(said->volume_error > 0.5 * is && said->volume_error < 2 * is);
-        assert_true(said->volume_error_worst >= said->volume_error && said->volume_error_worst < 2 * worst);
+        const struct errors is = compare(&plain, &fine);
+        print_message("scene %zu: said %.2g, worst %.2g of %u; is %.2g to %.2g to %.2g, worst %.2g\n", s, said->volume_error, said->volume_error_worst,
+                      said->volume_sampled, is.eight, is.nine, is.most, is.worst);
+        assert_true(said->volume_sampled > 10 && said->volume_sampled < PIXELS / 100);
+        assert_true(said->volume_error > 0.5 * is.eight && said->volume_error < 1.5 * is.most);
+        assert_true(said->volume_error_worst >= said->volume_error && said->volume_error_worst < 2 * is.worst);
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }
@@ -129,13 +130,12 @@ static void test_profiles(void **state)
     struct kd_frame fine = by_plan(&scene, 16, 4);
     double shells[5];
     for (int profile = 0; profile < 5; profile++) {
-        double nine, worst;
         scene.accuracy.profile = profile;
         shells[profile] = shell_error(scene);
         struct kd_frame frame = rendered(&scene);
-        compare(&frame, &fine, &nine, &worst);
-        print_message("profile %d, aim %.0e: shell %.2g; thick disk %.2g, worst %.2g\n", profile, aims[profile], shells[profile], nine, worst);
-        assert_true(shells[profile] < aims[profile] + 1e-5 && nine < aims[profile] + 3e-5);
+        const struct errors is = compare(&frame, &fine);
+        print_message("profile %d, aim %.0e: shell %.2g; thick disk %.2g, worst %.2g\n", profile, aims[profile], shells[profile], is.nine, is.worst);
+        assert_true(shells[profile] < aims[profile] + 1e-5 && is.nine < aims[profile] + 3e-5);
         kd_frame_finish(&frame);
     }
     assert_true(shells[0] > 5 * shells[2] && shells[1] > 2 * shells[2]); /* each is another one */
