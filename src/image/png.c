@@ -1,5 +1,6 @@
 #include "image/png.h"
 
+#include "image/png_pixels.h"
 #include "image/utf8.h"
 
 #include <png.h>
@@ -22,6 +23,7 @@ struct job {
     struct kd_buffer *sink; /* encoding */
     const uint8_t *source;  /* decoding */
     size_t left, size, texts; /* texts: chunks of text in the file */
+    struct kd_buffer stream;  /* encoding: all pixels; empty: they are written row by row */
     struct kd_png *picture;
 };
 
@@ -124,6 +126,22 @@ static void set_compression(png_structp png, int level)
         png_set_filter(png, PNG_FILTER_TYPE_BASE, level ? PNG_FILTER_SUB : PNG_FILTER_NONE);
 }
 
+static void put_rows(struct job *job, const struct kd_png_params *params)
+{
+    if (params->bit_depth == 16 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
+        png_set_swap(job->png);
+    size_t stride = (size_t)params->width * 3 * ((size_t)params->bit_depth / 8);
+    for (uint32_t y = 0; y < params->height; y++)
+        png_write_row(job->png, (png_const_bytep)params->pixels + y * stride);
+    png_write_end(job->png, NULL); /* the text is out already */
+}
+
+static void put_stream(struct job *job)
+{
+    png_write_chunk(job->png, (png_const_bytep) "IDAT", job->stream.data, job->stream.size);
+    png_write_chunk(job->png, (png_const_bytep) "IEND", NULL, 0);
+}
+
 static bool encode(struct job *job, const struct kd_png_params *params)
 {
     if (setjmp(png_jmpbuf(job->png)))
@@ -137,12 +155,10 @@ static bool encode(struct job *job, const struct kd_png_params *params)
     for (size_t i = 0; i < params->n_text; i++)
         put_text(job, &params->text[i]);
     png_write_info(job->png, job->info);
-    if (params->bit_depth == 16 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
-        png_set_swap(job->png);
-    size_t stride = (size_t)params->width * 3 * ((size_t)params->bit_depth / 8);
-    for (uint32_t y = 0; y < params->height; y++)
-        png_write_row(job->png, (png_const_bytep)params->pixels + y * stride);
-    png_write_end(job->png, NULL); /* the text is out already */
+    if (job->stream.size)
+        put_stream(job);
+    else
+        put_rows(job, params);
     return true;
 }
 
@@ -157,13 +173,14 @@ enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffe
     job.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc,
                                         job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
-    if (!job.info)
+    if (!job.info || (kd_png_filtered_bytes(params) <= KD_PNG_WHOLE && kd_png_pixels(params, &job.stream)))
         status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG encoder");
     else if (!encode(&job, params) || job.no_memory)
         status = job.no_memory ? kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels",
                                               params->width, params->height)
                                : kd_error_set(error, KD_EINVAL, "cannot encode the PNG: %s", job.message);
     png_destroy_write_struct(&job.png, &job.info);
+    kd_buffer_finish(&job.stream);
     if (status)
         out->size = start;
     return status;

@@ -15,7 +15,7 @@ struct kd_png_text { const char *key, *value; }; /* UTF-8; written as iTXt where
 struct kd_png_params {
     uint32_t width, height;
     int bit_depth;   /* 8 or 16 */
-    int compression; /* zlib level 0..8; 1 with the Sub filter is what a live view wants */
+    int compression; /* 0..8: 0 stored, 1 as fast as it goes, from 2 on each row by the filter that suits it; those of libdeflate, of large pictures (png_pixels.h) zlib's */
     const void *pixels;
     const struct kd_png_text *text;
     size_t n_text;

@@ -1,5 +1,7 @@
 #include "image/png_live.h"
 
+#include "image/png_filter.h"
+
 #include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,16 +39,11 @@ void kd_png_live_destroy(struct kd_png_live *live)
     free(live);
 }
 
-/* Each row as its filter's number, then the bytes less those of the pixel to the left: of the filters whose cost is nothing
- * beside deflate's the one that makes kerrd's pictures smallest (docs/decisions/0004-live-png.md). */
-static void filter_sub(uint8_t *restrict to, const uint8_t *restrict pixels, size_t stride, uint32_t height)
+/* Of the filters whose cost is nothing beside deflate's this makes kerrd's pictures smallest (docs/decisions/0004-live-png.md). */
+static void filter_rows(uint8_t *restrict to, const uint8_t *restrict pixels, size_t stride, uint32_t height)
 {
-    for (uint32_t y = 0; y < height; y++, to += stride + 1, pixels += stride) {
-        to[0] = 1;
-        memcpy(to + 1, pixels, 3);
-        for (size_t i = 3; i < stride; i++)
-            to[1 + i] = (uint8_t)(pixels[i] - pixels[i - 3]);
-    }
+    for (uint32_t y = 0; y < height; y++, to += stride + 1, pixels += stride)
+        kd_png_filter_sub(to, pixels, stride, 3);
 }
 
 static void big_endian(uint8_t to[4], uint32_t value)
@@ -132,7 +129,7 @@ enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint
     size_t start = out->size;
     enum kd_status status = make_room(live, (size_t)filtered);
     if (!status) {
-        filter_sub(live->rows, pixels, (size_t)width * 3, height);
+        filter_rows(live->rows, pixels, (size_t)width * 3, height);
         status = put_file(live, width, height, (size_t)filtered, out);
     }
     if (status) {

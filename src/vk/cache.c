@@ -143,5 +143,5 @@ void kd_vk_cache_finish(struct kd_vk *vk)
         vk->fn.DestroyPipelineCache(vk->device, cache->handle, NULL);
     }
     free(cache->path);
-    *cache = (struct kd_vk_cache) { 0 };
+    memset(cache, 0, sizeof *cache);
 }

@@ -4,13 +4,15 @@
 
 #include "vk/functions.h"
 
+#include <stdatomic.h>
+
 struct kd_vk;
 
 struct kd_vk_cache {
     VkPipelineCache handle;
     char *path;    /* NULL: kept in memory only */
     uint64_t hash; /* of the data last read or written, 0: none */
-    bool grown;    /* pipelines were made since */
+    atomic_bool grown; /* pipelines were made since; by any thread */
 };
 
 /* dir as kd_vk_params.cache_dir. A file that is absent, foreign or damaged is no error: the cache starts

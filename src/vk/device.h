@@ -38,7 +38,8 @@ struct kd_vk {
     struct kd_vk_retired *retired; /* destroyed by the caller, perhaps still used by the device */
     struct kd_vk_buffer *mapped; /* those that the host sees and whose memory is not coherent */
     uint64_t next_buffer_id;
-    uint32_t n_buffers, n_pipelines; /* alive, for the warning at the end */
+    uint32_t n_buffers;
+    atomic_uint n_pipelines; /* alive, for the warning at the end */
 
     VkSemaphore timeline;
     struct kd_vk_slot slots[KD_VK_SLOTS];

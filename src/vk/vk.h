@@ -1,7 +1,7 @@
 /* This drives a Vulkan 1.2 compute device: memory, pipelines, submission, timing. Knows nothing of black holes.
  *
  * One thread owns a struct kd_vk and everything made from it; only kd_vk_list and kd_vk_info of a
- * device that is already open may be called from elsewhere. Every object has a name, for the validation layer
+ * device that is already open may be called from elsewhere, and kd_vk_pipeline_create by threads that the owner waits for. Every object has a name, for the validation layer
  * and for captures. destroy accepts NULL and half-built objects. */
 #ifndef KD_VK_VK_H
 #define KD_VK_VK_H

@@ -1,6 +1,6 @@
 /* What kd_png_encode writes, kd_png_decode reads back; other colour types, written by libpng itself, come as
  * RGB. */
-#include "image/png.h"
+#include "image/png_pixels.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -66,6 +66,51 @@ static void pixels_survive(void **state)
         }
     round_trip(32768, 1, 8, 1);
     round_trip(1, 32768, 16, 1);
+}
+
+/* A picture whose rows are too many to be kept at once is written row by row. */
+static void large_pictures_survive(void **state)
+{
+    (void)state;
+    enum { WIDTH = 4096, HEIGHT = 2800 };
+    const size_t size = 6 * (size_t)WIDTH * HEIGHT;
+    uint16_t *pixels = calloc(1, size);
+    struct kd_buffer file = { 0 };
+    struct kd_png png;
+    struct kd_error error = { 0 };
+    assert_non_null(pixels);
+    for (size_t i = 0; i < size / 2; i += 997)
+        pixels[i] = (uint16_t)i;
+    const struct kd_png_params params = { .width = WIDTH, .height = HEIGHT, .bit_depth = 16, .compression = 1, .pixels = pixels };
+    assert_true(kd_png_filtered_bytes(&params) > KD_PNG_WHOLE);
+    assert_int_equal(kd_png_encode(&params, &file, &error), KD_OK);
+    assert_int_equal(kd_png_decode(file.data, file.size, &png, &error), KD_OK);
+    assert_memory_equal(png.pixels, pixels, size);
+    kd_png_finish(&png);
+    kd_buffer_finish(&file);
+    free(pixels);
+}
+
+/* Rows that go on downwards, or by the mean of left and above, are small by the filter that says so alone: noise takes all of its bytes by another. */
+static void each_row_has_the_filter_that_suits_it(void **state)
+{
+    (void)state;
+    enum { N = 128, STRIDE = 3 * N };
+    static uint8_t pixels[N * STRIDE];
+    for (int kind = 0; kind < 3; kind++) {
+        fill_random(pixels, sizeof pixels);
+        for (int y = 1; y < N; y++)
+            for (int i = 0; i < STRIDE; i++) {
+                const uint8_t *above = pixels + (y - 1) * STRIDE, *row = pixels + y * STRIDE;
+                pixels[y * STRIDE + i] = kind == 0 ? above[i] : kind == 1 ? (uint8_t)(((i < 3 ? 0 : row[i - 3]) + above[i]) / 2) : i < 3 ? above[i] : row[i - 3];
+            }
+        struct kd_png_params params = { .width = N, .height = N, .bit_depth = 8, .compression = 5, .pixels = pixels };
+        struct kd_buffer file = { 0 };
+        struct kd_error error = { 0 };
+        assert_int_equal(kd_png_encode(&params, &file, &error), KD_OK);
+        assert_true(file.size < 2 * STRIDE + 500); /* the first row is noise */
+        kd_buffer_finish(&file);
+    }
 }
 
 static void text_survives(void **state)
@@ -336,7 +381,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_text_comes_back),
-        cmocka_unit_test(pixels_survive),
+        cmocka_unit_test(pixels_survive), cmocka_unit_test(large_pictures_survive), cmocka_unit_test(each_row_has_the_filter_that_suits_it),
         cmocka_unit_test(text_survives),
         cmocka_unit_test(sixteen_bits_are_big_endian),
         cmocka_unit_test(appends_the_same_bytes),

@@ -53,7 +53,12 @@
 #include "transfer_march_tell.spv.h"
 #include "transfer_tell.spv.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <string.h>
+#include <unistd.h>
+
+enum { MAKERS = 4 }; /* threads that make kernels at once, at most */
 
 _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + KD_OWN_COUNT <= KD_VK_MAX_STORAGE,
                "the kernels of light bind all buffers of the emitters, the lens map and what they write");
@@ -155,35 +160,111 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
     return kd_kernels_get_of(kernels, vk, &sources[kernel], constants, n, out, error);
 }
 
+static size_t room_of(const struct kd_kernels *kernels) { return kernels->kept ? kernels->kept : KD_KERNELS_KEPT; }
+
+/* The entry of a kernel; NULL: there is none. */
+static struct kd_kernel_entry *find(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source, const uint32_t key[KD_KERNEL_MAX_CONSTANTS])
+{
+    for (struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + room_of(kernels); e++)
+        if (e->pipeline && e->source == source && !memcmp(e->constants, key, sizeof e->constants))
+            return e;
+    return NULL;
+}
+
+static void keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source, const uint32_t key[KD_KERNEL_MAX_CONSTANTS],
+                 struct kd_vk_pipeline *pipeline)
+{
+    struct kd_kernel_entry *oldest = kernels->entries;
+    for (struct kd_kernel_entry *e = kernels->entries; e < kernels->entries + room_of(kernels); e++)
+        oldest = e->used < oldest->used ? e : oldest;
+    kd_vk_pipeline_destroy(vk, oldest->pipeline);
+    *oldest = (struct kd_kernel_entry) { .source = source, .pipeline = pipeline, .used = ++kernels->clock };
+    memcpy(oldest->constants, key, sizeof oldest->constants);
+}
+
+static void wish(struct kd_kernels *kernels, const struct kd_vk_pipeline_params *source, const uint32_t key[KD_KERNEL_MAX_CONSTANTS], size_t n)
+{
+    for (size_t i = 0; i < kernels->n_wishes; i++)
+        if (kernels->wishes[i].source == source && !memcmp(kernels->wishes[i].constants, key, sizeof kernels->wishes[i].constants))
+            return;
+    struct kd_kernel_entry *known = find(kernels, source, key);
+    if (known)
+        known->used = ++kernels->clock; /* else it might make room, and be made anew for each frame */
+    if (known || kernels->n_wishes == KD_KERNEL_WISHES || kernels->n_wishes == room_of(kernels))
+        return;
+    struct kd_kernel_wish *w = &kernels->wishes[kernels->n_wishes++];
+    *w = (struct kd_kernel_wish) { .source = source, .n = n };
+    memcpy(w->constants, key, sizeof w->constants);
+}
+
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
                                  const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out, struct kd_error *error)
 {
     uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
-    struct kd_kernel_entry *oldest = &kernels->entries[0];
-    const size_t kept = kernels->kept ? kernels->kept : KD_KERNELS_KEPT;
     for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
         key[i] = constants[i];
-    for (size_t i = 0; i < kept; i++) {
-        struct kd_kernel_entry *e = &kernels->entries[i];
-        if (e->pipeline && e->source == source && !memcmp(e->constants, key, sizeof key)) {
-            e->used = ++kernels->clock;
-            *out = e->pipeline;
-            return KD_OK;
-        }
-        if (e->used < oldest->used)
-            oldest = e;
+    *out = NULL;
+    if (kernels->noting) {
+        wish(kernels, source, key, n);
+        return KD_OK;
+    }
+    struct kd_kernel_entry *known = find(kernels, source, key);
+    if (known) {
+        known->used = ++kernels->clock;
+        *out = known->pipeline;
+        return KD_OK;
     }
     struct kd_vk_pipeline *pipeline;
     enum kd_status status = make(vk, source, key, n, &pipeline, error);
     if (status)
         return status;
-    kd_vk_pipeline_destroy(vk, oldest->pipeline);
-    oldest->source = source;
-    memcpy(oldest->constants, key, sizeof key);
-    oldest->pipeline = pipeline;
-    oldest->used = ++kernels->clock;
+    keep(kernels, vk, source, key, pipeline);
     *out = pipeline;
     return KD_OK;
+}
+
+void kd_kernels_note(struct kd_kernels *kernels)
+{
+    kernels->noting = true;
+    kernels->n_wishes = 0;
+}
+
+struct makers {
+    struct kd_kernels *kernels;
+    struct kd_vk *vk;
+    atomic_size_t next;
+};
+
+static void *make_wishes(void *user)
+{
+    struct makers *m = user;
+    struct kd_error error = { 0 }; /* who asks for it again is told */
+    size_t i;
+    while ((i = atomic_fetch_add(&m->next, 1)) < m->kernels->n_wishes) {
+        struct kd_kernel_wish *w = &m->kernels->wishes[i];
+        if (make(m->vk, w->source, w->constants, w->n, &w->made, &error))
+            w->made = NULL;
+    }
+    return NULL;
+}
+
+void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk)
+{
+    struct makers m = { .kernels = kernels, .vk = vk };
+    pthread_t threads[MAKERS - 1];
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    size_t n = 0;
+    kernels->noting = false;
+    while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < kernels->n_wishes && !pthread_create(&threads[n], NULL, make_wishes, &m))
+        n++;
+    make_wishes(&m); /* alone, too, where no thread could be had */
+    for (size_t i = 0; i < n; i++)
+        pthread_join(threads[i], NULL);
+    for (size_t i = 0; i < kernels->n_wishes; i++)
+        if (kernels->wishes[i].made)
+            keep(kernels, vk, kernels->wishes[i].source, kernels->wishes[i].constants, kernels->wishes[i].made);
+    kernels->n_wishes = 0;
+    kernels->noted = kernels->clock;
 }
 
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes) { return bytes <= 16 * kd_vk_info(vk)->max_texels; }

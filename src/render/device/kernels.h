@@ -59,6 +59,7 @@ enum kd_kernel {
 
 #define KD_KERNEL_MAX_CONSTANTS 32
 #define KD_KERNELS_KEPT 48
+#define KD_KERNEL_WISHES 16
 
 struct kd_kernel_entry {
     const struct kd_vk_pipeline_params *source; /* in constant data */
@@ -66,10 +67,21 @@ struct kd_kernel_entry {
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
 };
+/* A kernel that somebody will ask for, and that is not there yet. */
+struct kd_kernel_wish {
+    const struct kd_vk_pipeline_params *source;
+    uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
+    size_t n;
+    struct kd_vk_pipeline *made;
+};
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
     size_t kept; /* so many of the entries are used; 0: all. A test sets it before the first is asked for */
     uint64_t clock;
+    bool noting;
+    struct kd_kernel_wish wishes[KD_KERNEL_WISHES];
+    size_t n_wishes;
+    uint64_t noted; /* the clock when the last of them were made */
 };
 
 /* The pipeline of a kernel with specialisation constants 0..n-1; the least recently used one makes room. */
@@ -79,6 +91,11 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 /* The same of a kernel that is not in the list: emitters have their own (render/emit/own.h). */
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_vk_pipeline_params *source,
                                  const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
+/* From the first of these on kd_kernels_get makes no kernel: it notes those that are not there, up to KD_KERNEL_WISHES, and *out is NULL for all. The second
+ * makes them, on as many threads as there are processors, four at most, and ends that. A kernel that cannot be made is left to whoever asks for it, and is
+ * then told why. */
+void kd_kernels_note(struct kd_kernels *kernels);
+void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
 /* Whether a device reads the radiance of so many pixels as texels of four floats: software does so in a third of the time, but how
  * many it binds differs. The kernel that post takes there. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);

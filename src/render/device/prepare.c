@@ -34,13 +34,11 @@ enum kd_status kd_prepare_asked(struct kd_renderer *r, enum kd_emitter_number nu
     return work_of(r, &r->prepared, number, &r->capacity, out, error);
 }
 
-bool kd_prepare_begin(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan)
+void kd_prepare_begin(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan)
 {
-    bool under_way = false;
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kd_emitters[i]->own && kd_emitters[i]->own->begin && plan->traits[i])
-            under_way |= kd_emitters[i]->own->begin(r, scene);
-    return under_way;
+            kd_emitters[i]->own->begin(r, scene);
 }
 
 enum kd_status kd_prepare_tell(struct kd_renderer *r, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_emission *out,

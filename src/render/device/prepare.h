@@ -16,8 +16,8 @@ struct kd_vk_buffer;
 /* What each emitter keeps, as large as it says; NULL: nothing yet. */
 struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 
-/* Begins what emitters make on the host, on threads of their own. Whether anything is under way: there is time for something else. */
-bool kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan);
+/* Begins what emitters make on the host, on threads of their own. */
+void kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan);
 /* Tells of all emitters that the plan's scene has, after kd_emit_update. */
 enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_emission *out,
                                char *credit, size_t size, struct kd_error *error);

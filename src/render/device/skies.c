@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-static bool begin(struct kd_renderer *r, const struct kd_scene *scene) { return kd_panorama_begin(&r->panoramas, scene); }
+static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_panorama_begin(&r->panoramas, scene); }
 
 /* The panorama's size, and whose it is. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size, struct kd_error *error)

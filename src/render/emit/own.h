@@ -28,8 +28,8 @@ struct kd_own {
     void (*buffers)(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]); /* sets its own, by KD_OWN_... (emission.h) */
     void (*forget)(void *own); /* what was recorded may not have come to the device: work was given up */
     void (*finish)(void *own, struct kd_vk *vk);
-    /* Begin what takes long on the host alone, on a thread of its own; `tell` and `prepare` wait for it. Whether it is under way. NULL: nothing does. */
-    bool (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
+    /* Begin what takes long on the host alone, on a thread of its own; `tell` and `prepare` wait for it. NULL: nothing does. */
+    void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
     /* Complete the emitter's numbers by what the scene does not say, after its `fill`; and write who is to be named for the picture, whose work is in
      * it. NULL: neither. */
     enum kd_status (*tell)(struct kd_renderer *renderer, const struct kd_scene *scene, struct kd_emission *out, char *credit, size_t size,

@@ -41,18 +41,23 @@ done:
     return status;
 }
 
-/* Kernels are compiled while something is made on the host: those that take longest. */
-static enum kd_status compile_kernels(struct kd_frame_job *j)
+/* Kernels that are not there yet are made at once, those that take longest, and while emitters make something on the host. */
+static enum kd_status make_kernels(struct kd_frame_job *j)
 {
     const struct kd_critical_lattice lattices[] = { { 0 }, kd_critical_lattice(j->plan->critical ? j->plan->critical : 1) };
-    const struct kd_vk_pipeline *made;
+    const struct kd_vk_pipeline *later;
     enum kd_status status = KD_OK;
+    kd_kernels_note(&j->r->kernels);
     for (int i = 0; i < (j->plan->critical ? 2 : 1); i++) {
-        KD_TRY(kd_frame_trace_kernel(j, &lattices[i], &made));
-        KD_TRY(kd_frame_footprint_kernel(j, i ? &lattices[i] : NULL, &made));
-        KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &made));
+        KD_TRY(kd_frame_trace_kernel(j, &lattices[i], &later));
+        KD_TRY(kd_frame_footprint_kernel(j, i ? &lattices[i] : NULL, &later));
+        if (!j->plan->unseen)
+            KD_TRY(kd_frame_light_kernel(j, &lattices[i], KD_MAKES_PICTURE, &later));
     }
+    if (j->plan->points)
+        KD_TRY(kd_frame_star_kernels(j));
 done:
+    kd_kernels_make(&j->r->kernels, j->r->vk);
     return status;
 }
 
@@ -100,8 +105,8 @@ static enum kd_status run(struct kd_frame_job *j)
     bool reused = false;
     enum kd_status status;
     kd_renderer_capacity(j->r, &c);
-    if (kd_prepare_begin(j->r, j->scene, j->plan))
-        KD_TRY(compile_kernels(j));
+    kd_prepare_begin(j->r, j->scene, j->plan);
+    KD_TRY(make_kernels(j));
     KD_TRY(make_ready(j, &c, &reused));
     j->frame->lens_reused = reused;
     j->weight = (double)j->plan->height * (!reused + 1 + !j->plan->unseen);

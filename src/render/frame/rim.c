@@ -49,13 +49,18 @@ done:
     return status;
 }
 
+enum kd_status kd_frame_rim_kernel(struct kd_frame_job *j, const struct kd_vk_pipeline **out)
+{
+    const struct kd_spec_lens_closed spec = {
+        .QUANTITIES = KD_RIM_QUANTITIES, .ORDERS = 1, .SIGHT = isinf(j->scene->camera.r) ? KD_SIGHT_PLANE : KD_SIGHT_PINHOLE, .CRITICAL = 1, .SHIFT = 1,
+    };
+    return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
+}
+
 /* In closed form: there is a rim where that is right. Rays that it gives up are not counted: here they are none of the picture's. */
 static enum kd_status trace(struct kd_frame_job *j)
 {
     const struct kd_rim *rim = &j->lens->rim;
-    const struct kd_spec_lens_closed spec = {
-        .QUANTITIES = KD_RIM_QUANTITIES, .ORDERS = 1, .SIGHT = isinf(j->scene->camera.r) ? KD_SIGHT_PLANE : KD_SIGHT_PINHOLE, .CRITICAL = 1, .SHIFT = 1,
-    };
     const struct kd_slice push = { .rows = kd_rim_rays(rim), .stride = kd_rim_rays(rim), .list = list_of(rim) };
     struct kd_vk_dispatch d = {
         kd_passes[KD_PASS_TRACE].name, NULL,
@@ -63,7 +68,7 @@ static enum kd_status trace(struct kd_frame_job *j)
         &push, { kd_frame_groups(kd_rim_rays(rim)) },
     };
     enum kd_status status;
-    KD_TRY(kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_CLOSED, &spec.QUANTITIES, sizeof spec / 4, &d.pipeline, j->error));
+    KD_TRY(kd_frame_rim_kernel(j, &d.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
 done:
     return status;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define LIST_GROUPS 128 /* of kernels whose invocations share a list out */
+#define RIM_TILE 3      /* rays along a side of a small tile, and of those of the rim */
 #define SPILL 2u        /* rows of pixels that an image may reach into the next band */
 
 /* Stars are sought on this: rays of a lens map, a few rows of them. */
@@ -17,14 +18,41 @@ struct part {
     struct kd_vk_buffer *light;
 };
 
-static enum kd_status kernel(struct kd_frame_job *j, const struct part *part, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
+/* What a kernel goes through: rays of a picture that has no rim, or of one that has, or the rim. */
+enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
+
+static enum rays rays_of(const struct kd_frame_job *j, const struct part *part) { return part->rim ? OF_RIM : j->lens->rim.rows ? BESIDE_RIM : NO_RIM; }
+
+static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_kernel kernel, uint32_t tile, const struct kd_vk_pipeline **out)
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_stars spec = {
-        .QUANTITIES = part->rim ? KD_RIM_QUANTITIES : p->quantities, .ORDERS = part->rim ? 1 : p->orders, .SIDE = p->side,
-        .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = part->rim ? 2 : j->lens->rim.rows ? 1 : 0,
+        .QUANTITIES = rays == OF_RIM ? KD_RIM_QUANTITIES : p->quantities, .ORDERS = rays == OF_RIM ? 1 : p->orders, .SIDE = p->side,
+        .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = rays,
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
+}
+
+/* How many stars there are is not known yet: as many as the catalogue has, or fewer. */
+enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
+{
+    const bool rim = kd_rim_may_be(j->scene), texels = 1u << 17 <= kd_vk_info(j->r->vk)->max_texels;
+    const enum kd_kernel tiles = texels ? KD_KERNEL_STAR_TILES_TEXELS : KD_KERNEL_STAR_TILES, find = texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH;
+    const enum rays picture = rim ? BESIDE_RIM : NO_RIM;
+    const struct kd_vk_pipeline *later;
+    enum kd_status status;
+    KD_TRY(kernel(j, picture, tiles, KD_STAR_TILE, &later));
+    KD_TRY(kernel(j, picture, tiles, RIM_TILE, &later));
+    for (enum rays rays = picture; rays <= (rim ? OF_RIM : picture); rays++) {
+        KD_TRY(kernel(j, rays, find, 0, &later));
+        KD_TRY(kernel(j, rays, KD_KERNEL_STAR_IMAGES, 0, &later));
+    }
+    if (rim) {
+        KD_TRY(kd_frame_rim_kernel(j, &later));
+        KD_TRY(kernel(j, OF_RIM, tiles, RIM_TILE, &later));
+    }
+done:
+    return status;
 }
 
 static struct kd_vk_binding camera(const struct kd_frame_job *j)
@@ -60,20 +88,21 @@ static enum kd_status search(struct kd_frame_job *j, const struct part *part)
           camera(j) },
         &part->push, { LIST_GROUPS },
     };
-    const uint32_t tile = part->rim ? 3 : KD_STAR_TILE;
+    const uint32_t tile = part->rim ? RIM_TILE : KD_STAR_TILE;
+    const enum rays rays = rays_of(j, part);
     struct kd_vk_dispatch first = d;
     first.groups[0] = kd_frame_groups(along(part->push.width, tile));
     first.groups[1] = along(part->push.end - part->push.first, tile);
     enum kd_status status;
     KD_TRY(kd_vk_fill(j->r->vk, d.pass, s->star_pairs, 0, 8, 0, j->error));
     KD_TRY(kd_vk_fill(j->r->vk, d.pass, s->star_rays, 0, 8, 0, j->error));
-    KD_TRY(kernel(j, part, tiles, tile, &first.pipeline));
+    KD_TRY(kernel(j, rays, tiles, tile, &first.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &first, j->error));
     if (!part->rim) {
-        KD_TRY(kernel(j, part, tiles, 3, &d.pipeline));
+        KD_TRY(kernel(j, rays, tiles, RIM_TILE, &d.pipeline));
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }
-    KD_TRY(kernel(j, part, texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH, 0, &d.pipeline));
+    KD_TRY(kernel(j, rays, texels ? KD_KERNEL_STAR_SEARCH_TEXELS : KD_KERNEL_STAR_SEARCH, 0, &d.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
 done:
     return status;
@@ -98,7 +127,7 @@ static enum kd_status stars_of(struct kd_frame_job *j, const struct part *part)
     };
     enum kd_status status;
     KD_TRY(search(j, part));
-    KD_TRY(kernel(j, part, KD_KERNEL_STAR_IMAGES, 0, &images.pipeline));
+    KD_TRY(kernel(j, rays_of(j, part), KD_KERNEL_STAR_IMAGES, 0, &images.pipeline));
     KD_TRY(kd_vk_dispatch(j->r->vk, &images, j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_frame_report(j, 0));

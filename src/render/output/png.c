@@ -58,7 +58,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     if (effort == KD_EFFORT_LIVE)
         return encode_live(picture->frame, memory, out, error);
     /* Who waits would rather have 10 ms than 20 %; of what stays nobody waits for the encoder. */
-    return kd_png_of_picture(picture, effort == KD_EFFORT_QUICK ? 1 : 6, out, error);
+    return kd_png_of_picture(picture, effort == KD_EFFORT_QUICK ? 1 : 5, out, error);
 }
 
 static void forget(void *memory) { kd_png_live_destroy(memory); }

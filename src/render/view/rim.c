@@ -127,6 +127,11 @@ static void set_steps(struct kd_rim *o)
     o->steps = exp2(floor(log2((1 << 22) / ((1 + o->far) * most))));
 }
 
+bool kd_rim_may_be(const struct kd_scene *scene)
+{
+    return scene->camera.projection != KD_PROJECTION_RING && scene->camera.r >= 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
+}
+
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
@@ -136,7 +141,7 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
     double d[KD_RIM_ANGLES][3];
     struct kd_rim rim = { 0 };
     *out = rim;
-    if (scene->camera.projection == KD_PROJECTION_RING || scene->camera.r < 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin)))
+    if (!kd_rim_may_be(scene))
         return false;
     const struct kd_critical curve = kd_critical_of(&observer);
     if (curve.status)

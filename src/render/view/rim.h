@@ -29,6 +29,8 @@ struct kd_rim {
     float edge[KD_RIM_EDGES];                  /* the curve's distance from the middle by the angle from `right`, to 1e-4 */
 };
 
+/* Whether there may be one, at no cost. */
+bool kd_rim_may_be(const struct kd_scene *scene);
 /* There is one where the observer is beyond the orbits of light, and sees all of the curve less than 80 degrees from its middle. Some 0.3 ms. */
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 

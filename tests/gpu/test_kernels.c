@@ -1,0 +1,99 @@
+/* Kernels that are noted, and made together on several threads; and that what a frame notes is what it then asks for. */
+#include "render_support.h"
+
+#include "render/device/internal.h"
+#include "vk/device.h"
+
+static uint32_t made(void) { return renderer->vk->n_pipelines; }
+
+static const struct kd_vk_pipeline *post(bool film, bool wide)
+{
+    const struct kd_vk_pipeline *out = (const struct kd_vk_pipeline *)renderer; /* no NULL that nobody wrote */
+    OK(kd_kernels_get(&renderer->kernels, renderer->vk, KD_KERNEL_POST, (uint32_t[]) { film, wide }, 2, &out, &error));
+    return out;
+}
+
+static void noted_kernels_are_made_once(void **state)
+{
+    (void)state;
+    const struct kd_vk_pipeline *known = post(false, false);
+    const uint32_t before = made();
+    kd_kernels_note(&renderer->kernels);
+    for (int i = 0; i < 3; i++) {
+        assert_null(post(true, false));
+        assert_null(post(false, true));
+        assert_null(post(true, true));
+        assert_null(post(false, false));
+    }
+    assert_int_equal(made(), before);
+    kd_kernels_make(&renderer->kernels, renderer->vk);
+    assert_int_equal(made(), before + 3);
+    const struct kd_vk_pipeline *all[] = { post(true, false), post(false, true), post(true, true), post(false, false) };
+    assert_ptr_equal(all[3], known);
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < i; k++)
+            assert_ptr_not_equal(all[i], all[k]);
+    assert_int_equal(made(), before + 3);
+    kd_kernels_note(&renderer->kernels);
+    kd_kernels_make(&renderer->kernels, renderer->vk); /* nothing */
+    assert_int_equal(made(), before + 3);
+}
+
+/* More are asked for than are noted: the others are made when they are needed. */
+static void what_cannot_be_made_is_told_later(void **state)
+{
+    (void)state;
+    static const uint32_t words[5];
+    static const struct kd_vk_pipeline_params broken = { .name = "broken", .spirv = words, .spirv_bytes = sizeof words };
+    struct kd_error why = { 0 };
+    const struct kd_vk_pipeline *out;
+    const uint32_t before = made();
+    kd_kernels_note(&renderer->kernels);
+    for (uint32_t i = 0; i < 2 * KD_KERNEL_WISHES; i++)
+        OK(kd_kernels_get_of(&renderer->kernels, renderer->vk, &broken, &i, 1, &out, &error));
+    kd_kernels_make(&renderer->kernels, renderer->vk);
+    assert_int_equal(made(), before);
+    assert_int_equal(kd_kernels_get_of(&renderer->kernels, renderer->vk, &broken, NULL, 0, &out, &why), KD_EINVAL);
+    assert_non_null(strstr(why.message, "broken"));
+}
+
+/* Each kernel that a first frame of a scene makes before it begins is asked for in the frame: its place in the order of use is a later one. */
+static void a_frame_notes_what_it_needs(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {
+        "{\"image\":{\"width\":64,\"height\":36},\"disk\":{\"model\":\"none\"},\"camera\":{\"r\":40},\"sky\":{\"model\":\"catalogue\",\"milky_way\":0}}",
+        "{\"image\":{\"width\":64,\"height\":36},\"camera\":{\"r\":4,\"observer\":\"infall\"},\"sky\":{\"model\":\"stars\"},\"disk\":{\"model\":\"none\"}}",
+        "{\"image\":{\"width\":64,\"height\":36}}",
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct kd_scene scene;
+        struct kd_frame frame;
+        kd_kernels_finish(&renderer->kernels, renderer->vk);
+        kd_scene_defaults(&scene);
+        OK(kd_scene_from_json(&scene, scenes[i], strlen(scenes[i]), &error));
+        frame = rendered(&scene);
+        kd_frame_finish(&frame);
+        size_t unused = 0, n = 0;
+        for (size_t k = 0; k < KD_KERNELS_KEPT; k++) {
+            const struct kd_kernel_entry *e = &renderer->kernels.entries[k];
+            n += e->pipeline != NULL;
+            unused += e->pipeline && e->used <= renderer->kernels.noted;
+        }
+        print_message("scene %zu: %zu kernels, %zu of them never asked for\n", i, n, unused);
+        assert_int_equal(unused, 0);
+    }
+}
+
+int main(void)
+{
+    int skip = open_renderer();
+    if (skip)
+        return skip;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(noted_kernels_are_made_once),
+        cmocka_unit_test(what_cannot_be_made_is_told_later),
+        cmocka_unit_test(a_frame_notes_what_it_needs),
+    };
+    return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}
