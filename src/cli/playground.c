@@ -1,0 +1,183 @@
+/* kerrd playground lets bodies move round the hole for a while, and writes where they are then and what has happened. */
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "playground/json.h"
+#include "playground/preset.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KEY_SET = 256, KEY_TIME, KEY_SERIES, KEY_FALLBACK, KEY_EVENTS, KEY_LIST, SETS_MAX = 64 };
+
+struct arguments {
+    const char *document, *preset, *output, *series, *fallback, *events;
+    const char *sets[SETS_MAX];
+    size_t n_sets;
+    double time;
+    bool list;
+};
+
+static const struct argp_option table[] = {
+    { "preset", 'p', "NAME", 0, "begin with this one; --list names them", 0 },
+    { "set", KEY_SET, "NAME=VALUE", 0, "a setting, such as waves=true", 0 },
+    { "time", KEY_TIME, "M", 0, "how long (default: 0, which only writes the begin)", 0 },
+    { "output", 'o', "FILE.json", 0, "where the snapshot goes, which can be gone on from (default: standard output)", 0 },
+    { "series", KEY_SERIES, "FILE", 0, "energy, angular momentum, separation and strain over time, as .csv or .npy", 0 },
+    { "fallback", KEY_FALLBACK, "FILE.csv", 0, "the rate at which debris has come back, beside the line t^(-5/3)", 0 },
+    { "events", KEY_EVENTS, "FILE.ndjson", 0, "what has happened, a line each", 0 },
+    { "list", KEY_LIST, 0, 0, "name the presets", 0 },
+    { 0 },
+};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *a = state->input;
+    char *end;
+    switch (key) {
+    case 'p': a->preset = text; return 0;
+    case 'o': a->output = text; return 0;
+    case KEY_SERIES: a->series = text; return 0;
+    case KEY_FALLBACK: a->fallback = text; return 0;
+    case KEY_EVENTS: a->events = text; return 0;
+    case KEY_LIST: a->list = true; return 0;
+    case KEY_SET:
+        if (a->n_sets == SETS_MAX || !strchr(text, '='))
+            argp_error(state, "--set takes NAME=VALUE, at most %d times", SETS_MAX);
+        a->sets[a->n_sets++] = text;
+        return 0;
+    case KEY_TIME:
+        a->time = strtod(text, &end);
+        if (*end || end == text || !(a->time >= 0) || !isfinite(a->time))
+            argp_error(state, "--time is %s, allowed are numbers from 0", text);
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->document)
+            argp_error(state, "there is one document at most");
+        a->document = text;
+        return 0;
+    case ARGP_KEY_END:
+        if (a->document && a->preset)
+            argp_error(state, "a document names its preset itself");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static enum kd_status set(struct kd_playground *p, const struct arguments *a, struct kd_error *error)
+{
+    struct kd_playground_params params = p->params;
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < a->n_sets; i++) {
+        char name[40];
+        const char *value = strchr(a->sets[i], '=') + 1;
+        snprintf(name, sizeof name, "%.*s", (int)(value - 1 - a->sets[i]), a->sets[i]);
+        KD_TRY(kd_playground_params_set(&params, name, value, error));
+    }
+    if (a->n_sets)
+        KD_TRY(kd_playground_set(p, &params, error));
+done:
+    return status;
+}
+
+static enum kd_status load(const struct arguments *a, struct kd_playground **p, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status;
+    if (a->document)
+        KD_TRY(kd_file_read(a->document, KD_PLAYGROUND_JSON_MAX, &text, error));
+    else if (a->preset)
+        KD_TRY(kd_buffer_printf(&text, "{\"preset\":\"%.60s\"}", a->preset));
+    else
+        KD_TRY(kd_buffer_printf(&text, "{}"));
+    KD_TRY(kd_playground_read((const char *)text.data, text.size, p, error));
+    KD_TRY(set(*p, a, error));
+done:
+    kd_buffer_finish(&text);
+    return status;
+}
+
+static bool ends(const char *text, const char *end)
+{
+    return strlen(text) >= strlen(end) && !strcmp(text + strlen(text) - strlen(end), end);
+}
+
+static enum kd_status events(const struct kd_playground *p, struct kd_buffer *out)
+{
+    enum kd_status status = KD_OK;
+    const uint64_t last = p->events.last;
+    for (uint64_t k = last > KD_PLAYGROUND_EVENTS ? last - KD_PLAYGROUND_EVENTS : 0; k < last; k++) {
+        const struct kd_playground_event *event = kd_playground_event_at(&p->events, k + 1);
+        struct kd_json json = kd_json_begin(out);
+        if (!event)
+            continue;
+        kd_playground_event_json(event, &json, NULL);
+        KD_TRY(kd_json_finish_line(&json));
+    }
+done:
+    return status;
+}
+
+enum what { SERIES, FALLBACK, EVENTS, SNAPSHOT };
+
+static enum kd_status write_one(struct kd_playground *p, enum what what, const char *path, struct kd_error *error)
+{
+    struct kd_buffer out = { 0 };
+    enum kd_status status = KD_OK;
+    if (!path)
+        return KD_OK;
+    switch (what) {
+    case SERIES: status = ends(path, ".npy") ? kd_series_npy(&p->series, &out) : kd_series_csv(&p->series, &out); break;
+    case FALLBACK: status = kd_debris_csv(&p->debris, &out); break;
+    case EVENTS: status = events(p, &out); break;
+    case SNAPSHOT: status = kd_playground_write(p, true, &out);
+    }
+    if (status)
+        status = kd_error_set(error, status, "out of memory for %s", path);
+    else
+        status = kd_file_write(path, &out, error);
+    kd_buffer_finish(&out);
+    return status;
+}
+
+static enum kd_status work(const struct arguments *a, struct kd_error *error)
+{
+    struct kd_playground *p = NULL;
+    enum kd_status status;
+    KD_TRY(load(a, &p, error));
+    if (a->time > 0) {
+        struct kd_playground_progress progress;
+        kd_playground_advance(p, a->time, &progress);
+        if (progress.slowed)
+            fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget, progress.done, progress.asked);
+    }
+    KD_TRY(write_one(p, SERIES, a->series, error));
+    KD_TRY(write_one(p, FALLBACK, a->fallback, error));
+    KD_TRY(write_one(p, EVENTS, a->events, error));
+    KD_TRY(write_one(p, SNAPSHOT, a->output ? a->output : "-", error));
+done:
+    kd_playground_destroy(p);
+    return status;
+}
+
+int kd_cli_playground(int argc, char **argv)
+{
+    static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
+    static const struct argp argp = {
+        .options = table,
+        .parser = parse,
+        .args_doc = "[FILE.json|-]",
+        .doc = "Bodies round the hole that pull one another, merge, are torn apart and spiral in; docs/playground.md says what is computed.\v"
+               "The document is one that was asked for or written as a snapshot. Without one, and without --preset, there are no bodies.",
+        .children = children,
+    };
+    struct arguments arguments = { 0 };
+    struct kd_error error = { 0 };
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    for (size_t i = 0; arguments.list && i < kd_playground_n_presets; i++)
+        printf("%-14s %s\n", kd_playground_presets[i].name, kd_playground_presets[i].title);
+    if (arguments.list)
+        return KD_EXIT_OK;
+    return work(&arguments, &error) ? kd_cli_fail(&error) : KD_EXIT_OK;
+}

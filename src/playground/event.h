@@ -1,0 +1,46 @@
+/* What happens in a playground is told as events, by number. The last KD_PLAYGROUND_EVENTS are kept. One thread at a time. */
+#ifndef KD_PLAYGROUND_EVENT_H
+#define KD_PLAYGROUND_EVENT_H
+
+#include "playground/body.h"
+
+#include "base/json.h"
+
+enum { KD_PLAYGROUND_EVENTS = 1024 };
+
+/* X(NAME, word, what it is and what its energy is) */
+#define KD_PLAYGROUND_EVENT_KINDS(X) \
+    X(MERGER, merger, "two bodies have become one; energy: what became heat") \
+    X(SHEDDING, shedding, "the tide has taken so much of a star; energy: of what is shed, in the hole's field") \
+    X(DISRUPTION, disruption, "the tide has torn a star apart; energy: of the debris, in the hole's field") \
+    X(CAPTURED, capture, "the hole has taken a body; energy: the body's, in the hole's field") \
+    X(INSPIRAL, inspiral, "gravitational waves have brought a body inside 6 M; energy: what they took") \
+    X(ESCAPE, escape, "a test body has left the space that is followed; energy: none")
+
+#define KD_EVENT_(NAME, ...) KD_PLAYGROUND_##NAME,
+enum kd_playground_event_kind { KD_PLAYGROUND_EVENT_KINDS(KD_EVENT_) KD_PLAYGROUND_EVENT_N_KINDS };
+#undef KD_EVENT_
+const char *kd_playground_event_word(enum kd_playground_event_kind kind);
+
+struct kd_playground_event {
+    uint64_t number; /* from 1 */
+    double t;
+    enum kd_playground_event_kind kind;
+    uint32_t body, other;                                              /* by id; other 0: there is none */
+    char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
+    double mass, other_mass; /* of a merger those of the two before; of shedding and disruption what is lost, and what is left */
+    double r, energy;
+    double tidal_radius, spread; /* r_t and the half width of the debris' energies; NAN where that means nothing */
+};
+
+struct kd_playground_events {
+    struct kd_playground_event kept[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
+    uint64_t last;                                         /* number of the newest; 0: nothing has happened */
+};
+
+void kd_playground_event_add(struct kd_playground_events *events, struct kd_playground_event event);
+/* The event of this number; NULL: it is no longer kept, or has not happened. */
+const struct kd_playground_event *kd_playground_event_at(const struct kd_playground_events *events, uint64_t number);
+void kd_playground_event_json(const struct kd_playground_event *event, struct kd_json *json, const char *name);
+
+#endif

@@ -1,0 +1,34 @@
+/* A test body follows an exact timelike geodesic of Kerr, from time to time. One thread a geodesic.
+ *
+ * The method is that of physics/orbit_path.h, by Mino time with a step of its own; where the body is at a coordinate time is found between two steps. A place
+ * is x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta) of its Boyer-Lindquist coordinates, and a velocity what an observer
+ * of zero angular momentum there measures along e_r, e_theta, e_phi, put together as if these were the directions of a flat space. */
+#ifndef KD_PLAYGROUND_GEODESIC_H
+#define KD_PLAYGROUND_GEODESIC_H
+
+#include "physics/orbit_path.h"
+
+#define KD_GEODESIC_FAR 1e6  /* M; who goes farther is let go */
+#define KD_GEODESIC_NEAR 1.05 /* times the horizon's radius; who comes closer is the hole's: in the time of those far away it never arrives */
+
+struct kd_playground_geodesic {
+    double spin, from_x[3], from_v[3], from_t; /* where it began: what does not change follows from it */
+    double phi;                                /* there */
+    double h;                                  /* the step, in Mino time */
+    struct kd_orbit_path path;                 /* not yet past the time of the last kd_geodesic_go */
+};
+
+/* KD_EINVAL, with the pointer "/position" or "/velocity", where there is no such motion. */
+enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, const double x[3], const double v[3], double t, struct kd_error *error);
+
+enum kd_geodesic_fate { KD_GEODESIC_GOES, KD_GEODESIC_CAPTURED, KD_GEODESIC_AWAY };
+/* Goes on to the time t, which is not before that of the last call; x and v as then. Up to `steps` steps, which are counted down: where they
+ * are spent the body stays behind, *late is true, and the next call goes on. */
+enum kd_geodesic_fate kd_geodesic_go(struct kd_playground_geodesic *g, double t, uint32_t *steps, bool *late, double x[3], double v[3]);
+
+/* What a geodesic is besides its begin, to be kept and taken up again exactly. */
+enum { KD_GEODESIC_STATE = 20 };
+void kd_geodesic_save(const struct kd_playground_geodesic *g, double state[KD_GEODESIC_STATE]);
+void kd_geodesic_restore(struct kd_playground_geodesic *g, const double state[KD_GEODESIC_STATE]); /* after kd_geodesic_begin */
+
+#endif

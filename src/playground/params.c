@@ -1,0 +1,43 @@
+#include "playground/params.h"
+
+#include "playground/body.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define AT(name) offsetof(struct kd_playground_params, name)
+#define REAL(name, value, least, most, help) { #name, KD_SETTING_REAL, AT(name), value, least, most, NULL, help },
+#define WHOLE(name, value, least, most, help) { #name, KD_SETTING_WHOLE, AT(name), value, least, most, NULL, help },
+#define TRUTH(name, value, help) { #name, KD_SETTING_TRUTH, AT(name), value, 0, 1, NULL, help },
+#define WORD(name, value, words, help) { #name, KD_SETTING_WORD, AT(name), value, 0, 0, words, help },
+const struct kd_playground_setting kd_playground_settings[] = { KD_PLAYGROUND_SETTINGS(REAL, WHOLE, TRUTH, WORD) };
+#undef AT
+const size_t kd_playground_n_settings = sizeof kd_playground_settings / sizeof *kd_playground_settings;
+
+#define AT(name) offsetof(struct kd_playground_body, name)
+const struct kd_playground_setting kd_playground_body_fields[] = {
+    REAL(mass, 1e-6, 0, 1e12, "in masses of the hole; 0: it pulls nothing")
+    REAL(radius, 0, 0, 1e6, "in M; 0: a point, which touches nothing and has no tides")
+    REAL(temperature_k, 5800, 0, 1e10, "of its surface; 0: it is dark")
+};
+const size_t kd_playground_n_body_fields = sizeof kd_playground_body_fields / sizeof *kd_playground_body_fields;
+
+struct kd_playground_params kd_playground_defaults(void)
+{
+    return (struct kd_playground_params) {
+#define VALUE(name, value, ...) .name = (value),
+        KD_PLAYGROUND_SETTINGS(VALUE, VALUE, VALUE, VALUE)
+    };
+}
+
+bool kd_playground_word(const char *words, int i, char *out, size_t size)
+{
+    for (; i > 0 && words; i--) {
+        words = strchr(words, '|');
+        words = words ? words + 1 : NULL;
+    }
+    if (!words)
+        return false;
+    snprintf(out, size, "%.*s", (int)strcspn(words, "|"), words);
+    return true;
+}

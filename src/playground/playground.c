@@ -1,0 +1,218 @@
+#include "playground/playground.h"
+
+#include "playground/hole.h"
+#include "playground/wave.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FAR 1e6 /* M: no body begins farther out */
+
+static bool kerr(const struct kd_playground *p) { return p->params.gravity == KD_GRAVITY_KERR; }
+
+enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out, struct kd_error *error)
+{
+    struct kd_playground *p = calloc(1, sizeof *p);
+    if (!p)
+        return kd_error_set(error, KD_ENOMEM, "no memory for a playground");
+    p->params = *params;
+    enum kd_status status;
+    KD_TRY(kd_debris_resize(&p->debris, params->debris_capacity, error));
+    KD_TRY(kd_playground_mutual_reserve(&p->mutual, 1, error));
+done:
+    if (status)
+        kd_playground_destroy(p);
+    else
+        *out = p;
+    return status;
+}
+
+void kd_playground_destroy(struct kd_playground *p)
+{
+    if (!p)
+        return;
+    kd_debris_finish(&p->debris);
+    kd_playground_mutual_finish(&p->mutual);
+    free(p->bodies);
+    free(p->geodesics);
+    free(p);
+}
+
+static enum kd_status reserve(struct kd_playground *p, struct kd_error *error)
+{
+    if (p->n < p->room)
+        return KD_OK;
+    const size_t room = p->room ? 2 * p->room : 16;
+    struct kd_playground_body *bodies = realloc(p->bodies, room * sizeof *bodies);
+    if (bodies)
+        p->bodies = bodies;
+    struct kd_playground_geodesic *geodesics = kerr(p) ? realloc(p->geodesics, room * sizeof *geodesics) : NULL;
+    if (geodesics)
+        p->geodesics = geodesics;
+    if (!bodies || (kerr(p) && !geodesics) || kd_playground_mutual_reserve(&p->mutual, room, NULL))
+        return kd_error_set(error, KD_ENOMEM, "no memory for %zu bodies", room);
+    p->room = room;
+    p->forced = false;
+    return KD_OK;
+}
+
+/* Whether such a body can be; of gravity "kerr" its geodesic decides. */
+static enum kd_status check(const struct kd_playground *p, const struct kd_playground_body *body, struct kd_error *error)
+{
+    const double r = kd_playground_radius(body->x), v = kd_playground_radius(body->v);
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(body->x[k]) <= FAR))
+            return kd_error_field(error, "/position", "position holds %g, allowed are -%g to %g M", body->x[k], FAR, FAR);
+    if (!(v <= 1 + 1e-12) || (kerr(p) && !(v < 1)))
+        return kd_error_field(error, "/velocity", "velocity is %.9g c, allowed is %s", v, kerr(p) ? "less than c" : "up to c");
+    if (!kerr(p) && !(r > KD_PLAYGROUND_CAPTURE))
+        return kd_error_field(error, "/position", "position is %.9g M from the hole, allowed is more than %g M: closer in all is the hole's", r,
+                              KD_PLAYGROUND_CAPTURE);
+    return KD_OK;
+}
+
+/* Before another list of bodies, or others in it: what the energy was, unless that is known from the change before. */
+static void disturb(struct kd_playground *p)
+{
+    if (!p->disturbed && !kerr(p))
+        p->before = kd_playground_totals(p).energy;
+    p->disturbed = true;
+}
+
+/* After it: the next step begins anew. */
+static void begin_anew(struct kd_playground *p)
+{
+    p->forced = false;
+    p->rate = 0;
+}
+
+void kd_playground_settle(struct kd_playground *p)
+{
+    if (p->disturbed && !kerr(p))
+        p->spent.given += kd_playground_totals(p).energy - p->before;
+    p->disturbed = false;
+}
+
+static enum kd_status put(struct kd_playground *p, size_t i, const struct kd_playground_body *body, uint32_t id, struct kd_error *error)
+{
+    enum kd_status status = check(p, body, error);
+    if (!status && kerr(p))
+        status = kd_geodesic_begin(&p->geodesics[i], p->params.spin, body->x, body->v, p->t, error);
+    if (status)
+        return status;
+    p->bodies[i] = *body;
+    p->bodies[i].id = id;
+    if (!*body->name)
+        snprintf(p->bodies[i].name, sizeof p->bodies[i].name, "body %u", id);
+    return KD_OK;
+}
+
+enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playground_body *body, uint32_t *id, struct kd_error *error)
+{
+    enum kd_status status;
+    if (p->n >= KD_PLAYGROUND_BODIES_MAX)
+        return kd_error_set(error, KD_ETOOBIG, "there are %zu bodies, as many as may be", p->n);
+    disturb(p);
+    KD_TRY(reserve(p, error));
+    KD_TRY(put(p, p->n, body, p->last_id + 1, error));
+    p->n++;
+    p->last_id++;
+    if (id)
+        *id = p->last_id;
+    begin_anew(p);
+done:
+    return status;
+}
+
+struct kd_playground_body *kd_playground_find(struct kd_playground *p, uint32_t id)
+{
+    for (size_t i = 0; i < p->n; i++)
+        if (p->bodies[i].id == id)
+            return &p->bodies[i];
+    return NULL;
+}
+
+void kd_playground_drop(struct kd_playground *p, size_t i)
+{
+    p->n--;
+    memmove(&p->bodies[i], &p->bodies[i + 1], (p->n - i) * sizeof *p->bodies);
+    if (kerr(p))
+        memmove(&p->geodesics[i], &p->geodesics[i + 1], (p->n - i) * sizeof *p->geodesics);
+    p->forced = false;
+    p->rate = 0;
+}
+
+static enum kd_status absent(uint32_t id, struct kd_error *error)
+{
+    return kd_error_field(error, "/id", "there is no body %u, or it is there no more", id);
+}
+
+enum kd_status kd_playground_remove(struct kd_playground *p, uint32_t id, struct kd_error *error)
+{
+    struct kd_playground_body *body = kd_playground_find(p, id);
+    if (!body)
+        return absent(id, error);
+    disturb(p);
+    kd_playground_drop(p, (size_t)(body - p->bodies));
+    begin_anew(p);
+    return KD_OK;
+}
+
+enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const struct kd_playground_body *body, struct kd_error *error)
+{
+    struct kd_playground_body *old = kd_playground_find(p, id);
+    if (!old)
+        return absent(id, error);
+    disturb(p);
+    enum kd_status status = put(p, (size_t)(old - p->bodies), body, id, error);
+    if (!status)
+        begin_anew(p);
+    return status;
+}
+
+enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playground_params *params, struct kd_error *error)
+{
+    if (params->gravity != p->params.gravity)
+        return kd_error_field(error, "/gravity", "gravity is chosen when a playground is made, and stays");
+    if (params->spin != p->params.spin)
+        return kd_error_field(error, "/spin", "spin is chosen when a playground is made, and stays");
+    disturb(p);
+    enum kd_status status = kd_debris_resize(&p->debris, params->debris_capacity, error);
+    if (status)
+        return status;
+    p->params = *params;
+    begin_anew(p);
+    return KD_OK;
+}
+
+void kd_playground_approximations(const struct kd_playground *p, struct kd_json *json, const char *name)
+{
+    const struct kd_playground_params *s = &p->params;
+    kd_json_array(json, name);
+    if (kerr(p)) {
+        kd_json_string(json, NULL, "Bodies are test bodies: they do not pull one another, do not meet, and have no tides and no waves.");
+    } else {
+        kd_json_string(json, NULL, "The hole pulls by the potential of Paczynski and Wiita, which has Schwarzschild's last stable orbit but no "
+                                   "dragging and no slowing of time; its r is taken for Schwarzschild's.");
+        kd_json_string(json, NULL, "The hole stands still, and bodies that it takes do not make it heavier.");
+        kd_json_string(json, NULL, "Bodies pull one another by Newton's law, softened, and at once.");
+        kd_json_string(json, NULL, "Speeds are held at c.");
+        if (s->waves)
+            kd_json_string(json, NULL, "Gravitational waves take what Peters' formula says: leading order, whose power is 4 % too high at r = 10 M for "
+                                       "a = 0 and 27 % at a = 0.9, below 1 % only near 300 M.");
+        if (s->waves && s->amplification != 1) {
+            char text[120];
+            snprintf(text, sizeof text, "The loss to gravitational waves is exaggerated %g times.", s->amplification);
+            kd_json_string(json, NULL, text);
+        }
+        if (p->held)
+            kd_json_string(json, NULL, "The loss to waves, exaggerated, was held back at a tenth of the pull.");
+        if (s->waves && p->n > KD_WAVE_PAIRS_MAX)
+            kd_json_string(json, NULL, "Of so many bodies each radiates with the hole alone.");
+        if (s->tides && p->debris.last_source)
+            kd_json_string(json, NULL, "Debris has a flat distribution of energies from where it is torn off, and moves in the hole's potential alone.");
+    }
+    kd_json_end(json);
+}

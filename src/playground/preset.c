@@ -1,0 +1,176 @@
+#include "playground/preset.h"
+
+#include "playground/hole.h"
+#include "playground/random.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static enum kd_status add(struct kd_playground *p, const char *name, struct kd_playground_body body, struct kd_error *error)
+{
+    snprintf(body.name, sizeof body.name, "%s", name);
+    return kd_playground_add(p, &body, NULL, error);
+}
+
+/* On a circle of radius r, at the azimuth phi along it, in a plane that is inclined and goes up at the azimuth `node`. */
+static struct kd_playground_body circling(double r, double phi, double inclination, double node)
+{
+    const double v = kd_playground_circular(r), c = cos(inclination), s = sin(inclination);
+    const double x[3] = { r * cos(phi), r * sin(phi) * c, r * sin(phi) * s }, u[3] = { -v * sin(phi), v * cos(phi) * c, v * cos(phi) * s };
+    return (struct kd_playground_body) {
+        .x = { cos(node) * x[0] - sin(node) * x[1], sin(node) * x[0] + cos(node) * x[1], x[2] },
+        .v = { cos(node) * u[0] - sin(node) * u[1], sin(node) * u[0] + cos(node) * u[1], u[2] },
+    };
+}
+
+/* The sun and a hole of a million suns, on a parabola whose pericentre is 1.2 times as deep as the tidal radius, 47 M. */
+static void disruption_settings(struct kd_playground_params *s)
+{
+    s->h_max = 20;
+    s->debris_per_body = 50000;
+}
+
+static enum kd_status disruption(struct kd_playground *p, struct kd_error *error)
+{
+    const double mass = 1e-6, radius = 0.47, pericentre = radius * cbrt(1 / mass) / 1.2, r = 300;
+    const double l = pericentre * sqrt(2 / (pericentre - 2)), across = l / r;
+    return add(p, "star", (struct kd_playground_body) { .mass = mass, .radius = radius, .temperature_k = 5800, .x = { r, 0, 0 },
+                                                       .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } }, error);
+}
+
+static void system_settings(struct kd_playground_params *s)
+{
+    s->h_max = 5;
+    s->softening = 0.01;
+}
+
+static enum kd_status planets(struct kd_playground *p, struct kd_error *error)
+{
+    static const struct { const char *name; double mass, radius, temperature_k, r, phi, inclination; } list[] = {
+        { "first", 1e-6, 0.03, 9000, 14, 0.3, 0.05 },  { "second", 1e-5, 0.12, 6500, 24, 2.1, 0.12 },
+        { "third", 3e-5, 0.25, 5200, 38, 4.0, 0.08 },  { "fourth", 1e-4, 0.4, 4300, 60, 5.5, 0.2 },
+        { "fifth", 1e-3, 1, 3500, 100, 1.2, 0.15 },
+    };
+    enum kd_status status = KD_OK;
+    struct kd_playground_body body = { 0 };
+    for (size_t i = 0; !status && i < sizeof list / sizeof *list; i++) {
+        body = circling(list[i].r, list[i].phi, list[i].inclination, 0.7 * (double)i);
+        body.mass = list[i].mass;
+        body.radius = list[i].radius;
+        body.temperature_k = list[i].temperature_k;
+        status = add(p, list[i].name, body, error);
+    }
+    if (status)
+        return status;
+    /* The last one's moon, with the circular speed of the softened pull. */
+    const double d = 3, e2 = p->params.softening * p->params.softening, v = d * sqrt(body.mass / pow(d * d + e2, 1.5));
+    const double out = kd_playground_radius(body.x), speed = kd_playground_radius(body.v);
+    struct kd_playground_body moon = { .mass = 1e-7, .radius = 0.1, .temperature_k = 2500 };
+    for (int k = 0; k < 3; k++) {
+        moon.x[k] = body.x[k] * (1 + d / out);
+        moon.v[k] = body.v[k] * (1 + v / speed);
+    }
+    return add(p, "moon", moon, error);
+}
+
+static void binary_settings(struct kd_playground_params *s)
+{
+    s->h_max = 5;
+    s->softening = 0.01;
+    s->waves = true;
+    s->amplification = 1000;
+    s->tides = false;
+}
+
+/* Two dark bodies of a hundredth each, 5 M apart, in free fall from rest 1000 M from the hole: they meet long before they have fallen far. */
+static enum kd_status binary(struct kd_playground *p, struct kd_error *error)
+{
+    const double mass = 0.01, d = 5, v = 0.5 * sqrt(2 * mass / d);
+    enum kd_status status = add(p, "one", (struct kd_playground_body) { .mass = mass, .radius = 0.2, .temperature_k = 20000,
+                                                                       .x = { 1000, d / 2, 0 }, .v = { v, 0, 0 } }, error);
+    return status ? status : add(p, "other", (struct kd_playground_body) { .mass = mass, .radius = 0.2, .temperature_k = 12000,
+                                                                         .x = { 1000, -d / 2, 0 }, .v = { -v, 0, 0 } }, error);
+}
+
+static void emri_settings(struct kd_playground_params *s)
+{
+    s->waves = true;
+    s->amplification = 20;
+    s->tides = false;
+}
+
+static enum kd_status emri(struct kd_playground *p, struct kd_error *error)
+{
+    struct kd_playground_body body = circling(12, 0, 0, 0);
+    body.mass = 1e-3;
+    return add(p, "companion", body, error);
+}
+
+static void swarm_settings(struct kd_playground_params *s)
+{
+    s->softening = 0.2;
+    s->mergers = false;
+    s->tides = false;
+    s->h_max = 2;
+}
+
+static enum kd_status swarm(struct kd_playground *p, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    uint64_t *n = &p->random;
+    for (int i = 0; !status && i < 400; i++) {
+        const double r = 20 * pow(5, kd_playground_random(p->params.seed, n)), phi = 2 * M_PI * kd_playground_random(p->params.seed, n);
+        struct kd_playground_body body = circling(r, phi, 0.3 * kd_playground_random(p->params.seed, n), 2 * M_PI * kd_playground_random(p->params.seed, n));
+        char name[KD_PLAYGROUND_NAME];
+        snprintf(name, sizeof name, "swarm %d", i + 1);
+        body.mass = 1e-7;
+        body.radius = 0.1;
+        body.temperature_k = 3000 + 9000 * kd_playground_random(p->params.seed, n);
+        status = add(p, name, body, error);
+    }
+    return status;
+}
+
+static void eight_settings(struct kd_playground_params *s)
+{
+    s->h_max = 100;
+    s->tides = false;
+    s->softening = 0.001;
+}
+
+/* A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; start by C. Simo. Scaled to masses m = 0.1 and the length 100 M, at rest 1e5 M from the hole,
+ * whose tide there is 1e-8 of their pull. */
+static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
+{
+    static const double x[3][2] = { { 0.97000436, -0.24308753 }, { -0.97000436, 0.24308753 }, { 0, 0 } };
+    static const double v3[2] = { -0.93240737, -0.86473146 };
+    const double mass = 0.1, length = 100, speed = sqrt(mass / length);
+    static const char *const names[3] = { "one", "two", "three" };
+    enum kd_status status = KD_OK;
+    for (int i = 0; !status && i < 3; i++) {
+        const double share = i == 2 ? 1 : -0.5;
+        status = add(p, names[i], (struct kd_playground_body) { .mass = mass, .radius = 2, .temperature_k = 4000 + 3000 * i,
+                                                               .x = { 1e5 + length * x[i][0], length * x[i][1], 0 },
+                                                               .v = { share * speed * v3[0], share * speed * v3[1], 0 } }, error);
+    }
+    return status;
+}
+
+const struct kd_playground_preset kd_playground_presets[] = {
+    { "disruption", "A star on a pass so close that the tide tears it apart", disruption_settings, disruption },
+    { "system", "Five planets round the hole, and a moon", system_settings, planets },
+    { "binary", "Two bodies that spiral together, their loss to waves exaggerated a thousand times", binary_settings, binary },
+    { "emri", "A light body that spirals into the hole, its loss to waves exaggerated twenty times", emri_settings, emri },
+    { "swarm", "Four hundred bodies round the hole", swarm_settings, swarm },
+    { "figure-eight", "Three bodies that follow one another along an eight, far away", eight_settings, eight },
+};
+const size_t kd_playground_n_presets = sizeof kd_playground_presets / sizeof *kd_playground_presets;
+
+const struct kd_playground_preset *kd_playground_preset_of(const char *name)
+{
+    for (size_t i = 0; i < kd_playground_n_presets; i++)
+        if (!strcmp(kd_playground_presets[i].name, name))
+            return &kd_playground_presets[i];
+    return NULL;
+}

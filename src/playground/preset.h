@@ -1,0 +1,19 @@
+/* These playgrounds are known by name. Any thread. */
+#ifndef KD_PLAYGROUND_PRESET_H
+#define KD_PLAYGROUND_PRESET_H
+
+#include "playground/playground.h"
+
+struct kd_playground_preset {
+    const char *name, *title;
+    void (*settings)(struct kd_playground_params *params);
+    /* Adds its bodies to an empty playground with these settings, or others. */
+    enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);
+};
+extern const struct kd_playground_preset kd_playground_presets[];
+extern const size_t kd_playground_n_presets;
+
+/* NULL: there is none of this name. */
+const struct kd_playground_preset *kd_playground_preset_of(const char *name);
+
+#endif

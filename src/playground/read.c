@@ -1,0 +1,279 @@
+/* Documents that make and change a playground. */
+#include "playground/fields.h"
+#include "playground/hole.h"
+#include "playground/json.h"
+#include "playground/preset.h"
+#include "playground/state.h"
+
+#include "scene/text.h"
+#include "scene/tree.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define VALUES 4000000 /* of a document: of 4 096 bodies some fifty each, and the sources' counts */
+
+static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer, struct kd_error *error)
+{
+    if (!cJSON_IsString(item) || strlen(item->valuestring) >= sizeof body->name)
+        return kd_error_field(error, pointer, "name is no string of up to %zu bytes", sizeof body->name - 1);
+    snprintf(body->name, sizeof body->name, "%s", item->valuestring);
+    return KD_OK;
+}
+
+/* The fields that are given; the others stay. *id: NULL where a body has none to be called by. */
+static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id, struct kd_error *error)
+{
+    static const struct kd_playground_setting id_row = { "id", KD_SETTING_WHOLE, 0, 0, 1, UINT32_MAX, NULL, NULL };
+    enum kd_status status = KD_OK;
+    if (!cJSON_IsObject(item))
+        return kd_error_field(error, pointer, "a body is an object");
+    for (const cJSON *one = item->child; one; one = one->next) {
+        const struct kd_playground_setting *row = kd_playground_row(kd_playground_body_fields, kd_playground_n_body_fields, one->string);
+        const struct kd_value value = kd_tree_value(one);
+        char at[160];
+        kd_playground_pointer(at, pointer, one->string);
+        if (row)
+            KD_TRY(kd_playground_put(body, row, &value, at, error));
+        else if (!strcmp(one->string, "name"))
+            KD_TRY(read_name(body, one, at, error));
+        else if (!strcmp(one->string, "position"))
+            KD_TRY(kd_playground_numbers(body->x, 3, 1e18, one, at, error)); /* how far a new one may be is checked where it is added */
+        else if (!strcmp(one->string, "velocity"))
+            KD_TRY(kd_playground_numbers(body->v, 3, 1 + 1e-12, one, at, error));
+        else if (id && !strcmp(one->string, "id"))
+            KD_TRY(kd_playground_put(id, &id_row, &value, at, error));
+        else
+            KD_TRY(kd_playground_unknown(pointer, one->string, error));
+    }
+done:
+    return status;
+}
+
+/* Whose place is wrong is a body of a list. */
+static enum kd_status in_list(enum kd_status status, const char *pointer, struct kd_error *error)
+{
+    char at[160];
+    if (!status || !error || !strncmp(error->pointer, pointer, strlen(pointer)))
+        return status;
+    snprintf(at, sizeof at, "%.110s%.40s", pointer, error->pointer);
+    memcpy(error->pointer, at, sizeof at);
+    return status;
+}
+
+static struct kd_playground_body plain(void)
+{
+    struct kd_playground_body body = { .x = { NAN, NAN, NAN } };
+    for (size_t i = 0; i < kd_playground_n_body_fields; i++)
+        *(double *)((char *)&body + kd_playground_body_fields[i].offset) = kd_playground_body_fields[i].value;
+    return body;
+}
+
+enum list { ADD, CHANGE, REMOVE };
+
+static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSON *item, const char *pointer, struct kd_error *error)
+{
+    struct kd_playground_body body = plain();
+    uint32_t id = 0;
+    enum kd_status status;
+    if (what == REMOVE) {
+        if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX))
+            return kd_error_field(error, pointer, "this is no body's id");
+        status = kd_playground_remove(p, (uint32_t)item->valuedouble, error);
+        return status ? kd_error_field(error, pointer, "there is no body %.0f, or it is there no more", item->valuedouble) : KD_OK;
+    }
+    if (what == CHANGE) {
+        const cJSON *given = cJSON_GetObjectItemCaseSensitive(item, "id");
+        const struct kd_playground_body *old =
+            kd_playground_find(p, cJSON_IsNumber(given) && given->valuedouble >= 1 && given->valuedouble <= UINT32_MAX ? (uint32_t)given->valuedouble : 0);
+        if (!old)
+            return kd_error_field(error, pointer, "there is no body with this id, or it is there no more");
+        body = *old;
+        body.whole_mass = 0;
+    }
+    KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, error));
+    if (isnan(body.x[0]))
+        KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
+    KD_TRY(in_list(what == CHANGE ? kd_playground_change(p, id, &body, error) : kd_playground_add(p, &body, NULL, error), pointer, error));
+done:
+    return status;
+}
+
+static enum kd_status do_list(struct kd_playground *p, enum list what, const cJSON *list, const char *name, struct kd_error *error)
+{
+    char pointer[160], index[12];
+    unsigned i = 0;
+    enum kd_status status = KD_OK;
+    snprintf(pointer, sizeof pointer, "/%s", name);
+    if (list && !cJSON_IsArray(list))
+        return kd_error_field(error, pointer, "%s is no array", name);
+    for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
+        snprintf(pointer, sizeof pointer, "/%s", name);
+        snprintf(index, sizeof index, "%u", i++);
+        kd_text_pointer(pointer, sizeof pointer, index);
+        KD_TRY(do_one(p, what, one, pointer, error));
+    }
+done:
+    return status;
+}
+
+static bool among(const char *name, const char *const *names)
+{
+    while (*names && strcmp(name, *names))
+        names++;
+    return *names;
+}
+
+/* The settings that are given, and that there is nothing else but `others`. */
+static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *const *others, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (const cJSON *one = tree->child; one; one = one->next) {
+        const struct kd_playground_setting *row = kd_playground_row(kd_playground_settings, kd_playground_n_settings, one->string);
+        const struct kd_value value = kd_tree_value(one);
+        char at[160];
+        kd_playground_pointer(at, "", one->string);
+        if (row)
+            KD_TRY(kd_playground_put(params, row, &value, at, error));
+        else if (!among(one->string, others))
+            KD_TRY(kd_playground_unknown("", one->string, error));
+    }
+done:
+    return status;
+}
+
+static enum kd_status parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
+{
+    enum kd_status status = kd_tree_parse(text, length, KD_PLAYGROUND_JSON_MAX, VALUES, tree, error);
+    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is no JSON object") : status;
+}
+
+static enum kd_status read_preset(const cJSON *tree, const struct kd_playground_preset **preset, struct kd_error *error)
+{
+    const cJSON *name = cJSON_GetObjectItemCaseSensitive(tree, "preset");
+    char clipped[60] = "no string";
+    *preset = cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
+    if (!name || *preset)
+        return KD_OK;
+    if (cJSON_IsString(name))
+        kd_text_clip(clipped, sizeof clipped, name->valuestring);
+    return kd_error_field(error, "/preset", "preset is %s, allowed are \"disruption\", \"system\", \"binary\", \"emri\", \"swarm\", \"figure-eight\"", clipped);
+}
+
+/* The bodies of a snapshot may be farther out than new ones, where motion has brought them. */
+static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    unsigned i = 0;
+    for (const cJSON *one = cJSON_IsArray(list) ? list->child : NULL; one; one = one->next) {
+        struct kd_playground_body body = plain(), held = { .x = { 100, 0, 0 }, .v = { 0, 0.1, 0 } };
+        char pointer[40];
+        snprintf(pointer, sizeof pointer, "/bodies/%u", i++);
+        KD_TRY(read_body(&body, one, pointer, NULL, error));
+        if (isnan(body.x[0]))
+            KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
+        if (!(kd_playground_radius(body.x) > KD_PLAYGROUND_CAPTURE && kd_playground_radius(body.v) <= 1 + 1e-12) && p->params.gravity != KD_GRAVITY_KERR)
+            KD_TRY(kd_error_field(error, pointer, "there is no such body in a snapshot: it is the hole's, or faster than c"));
+        KD_TRY(in_list(kd_playground_add(p, &held, NULL, error), pointer, error));
+        body.id = p->bodies[p->n - 1].id;
+        p->bodies[p->n - 1] = body;
+    }
+done:
+    return status;
+}
+
+enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error)
+{
+    static const char *const others[] = { "preset", "bodies", "state", NULL };
+    struct kd_playground_params params = kd_playground_defaults();
+    const struct kd_playground_preset *preset = NULL;
+    struct kd_playground *p = NULL;
+    cJSON *tree = NULL;
+    enum kd_status status;
+    KD_TRY(parse(text, length, &tree, error));
+    KD_TRY(read_preset(tree, &preset, error));
+    if (preset)
+        preset->settings(&params);
+    KD_TRY(read_settings(&params, tree, others, error));
+    const cJSON *state = cJSON_GetObjectItemCaseSensitive(tree, "state"), *bodies = cJSON_GetObjectItemCaseSensitive(tree, "bodies");
+    if (state && preset)
+        KD_TRY(kd_error_field(error, "/preset", "a snapshot has bodies of its own, and no preset"));
+    KD_TRY(kd_playground_create(&params, &p, error));
+    if (preset)
+        KD_TRY(preset->fill(p, error));
+    KD_TRY(state ? take_bodies(p, bodies, error) : do_list(p, ADD, bodies, "bodies", error));
+    p->disturbed = false; /* the books begin here */
+    if (state)
+        KD_TRY(kd_state_read(p, state, error));
+done:
+    cJSON_Delete(tree);
+    if (status)
+        kd_playground_destroy(p);
+    else
+        *out = p;
+    return status;
+}
+
+/* A copy that can be changed and thrown away. */
+static enum kd_status copy(const struct kd_playground *from, struct kd_playground **out, struct kd_error *error)
+{
+    struct kd_playground *p = malloc(sizeof *p);
+    const size_t pieces = ((size_t)from->debris.capacity + 1) * sizeof *from->debris.pieces;
+    if (p) {
+        *p = *from;
+        p->mutual = (struct kd_playground_mutual) { 0 };
+        p->forced = false;
+        p->bodies = from->room ? malloc(from->room * sizeof *p->bodies) : NULL;
+        p->geodesics = from->geodesics ? malloc(from->room * sizeof *p->geodesics) : NULL;
+        p->debris.pieces = malloc(pieces);
+    }
+    if (!p || !p->debris.pieces || (from->room && !p->bodies) || (from->geodesics && !p->geodesics) ||
+        kd_playground_mutual_reserve(&p->mutual, from->room ? from->room : 1, NULL)) {
+        kd_playground_destroy(p);
+        return kd_error_set(error, KD_ENOMEM, "no memory for a copy of the playground");
+    }
+    if (from->n) /* an empty list has no array */
+        memcpy(p->bodies, from->bodies, from->n * sizeof *p->bodies);
+    if (from->geodesics)
+        memcpy(p->geodesics, from->geodesics, from->n * sizeof *p->geodesics);
+    memcpy(p->debris.pieces, from->debris.pieces, pieces);
+    *out = p;
+    return KD_OK;
+}
+
+enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error)
+{
+    static const char *const others[] = { "add", "change", "remove", NULL };
+    struct kd_playground_params params = (*p)->params;
+    struct kd_playground *changed = NULL;
+    cJSON *tree = NULL;
+    enum kd_status status;
+    KD_TRY(parse(text, length, &tree, error));
+    KD_TRY(read_settings(&params, tree, others, error));
+    KD_TRY(copy(*p, &changed, error));
+    if (memcmp(&params, &changed->params, sizeof params))
+        KD_TRY(kd_playground_set(changed, &params, error));
+    KD_TRY(do_list(changed, ADD, cJSON_GetObjectItemCaseSensitive(tree, "add"), "add", error));
+    KD_TRY(do_list(changed, CHANGE, cJSON_GetObjectItemCaseSensitive(tree, "change"), "change", error));
+    KD_TRY(do_list(changed, REMOVE, cJSON_GetObjectItemCaseSensitive(tree, "remove"), "remove", error));
+done:
+    cJSON_Delete(tree);
+    if (status) {
+        kd_playground_destroy(changed);
+    } else {
+        kd_playground_destroy(*p);
+        *p = changed;
+    }
+    return status;
+}
+
+enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text, struct kd_error *error)
+{
+    const struct kd_playground_setting *row = kd_playground_row(kd_playground_settings, kd_playground_n_settings, name);
+    const struct kd_value value = kd_value_typed(text);
+    char at[160];
+    kd_playground_pointer(at, "", name);
+    return row ? kd_playground_put(params, row, &value, at, error) : kd_playground_unknown("", name, error);
+}

@@ -1,0 +1,243 @@
+#include "playground/state.h"
+
+#include "playground/base64.h"
+#include "playground/fields.h"
+#include "playground/hole.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST 1e300
+#define WHOLE 9e15 /* numbers that a double holds exactly */
+
+/* Numbers by name: of the playground, its debris, a body, a source. */
+struct number {
+    const char *name;
+    size_t offset;
+    enum { REAL, COUNT, COUNT32, TRUTH } kind;
+};
+#define OF(type, member, kind) { #member, offsetof(struct type, member), kind }
+static const struct number whole[] = { OF(kd_playground, t, REAL), OF(kd_playground, steps, COUNT), OF(kd_playground, last_id, COUNT32),
+                                       OF(kd_playground, rate, REAL), OF(kd_playground, random, COUNT), OF(kd_playground, held, TRUTH) };
+static const struct number spent[] = { OF(kd_playground_spent, captured_mass, REAL), OF(kd_playground_spent, captured_energy, REAL),
+                                       OF(kd_playground_spent, merged, REAL), OF(kd_playground_spent, capped, REAL),
+                                       OF(kd_playground_spent, radiated, REAL), OF(kd_playground_spent, torn_mass, REAL),
+                                       OF(kd_playground_spent, torn_energy, REAL), OF(kd_playground_spent, given, REAL) };
+static const struct number body[] = { OF(kd_playground_body, id, COUNT32), OF(kd_playground_body, whole_mass, REAL),
+                                      OF(kd_playground_body, whole_radius, REAL), OF(kd_playground_body, depth, REAL),
+                                      OF(kd_playground_body, shed, REAL), OF(kd_playground_body, told, REAL),
+                                      OF(kd_playground_body, source, COUNT32), OF(kd_playground_body, radiated, REAL),
+                                      OF(kd_playground_body, told_inspiral, TRUTH) };
+static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32), OF(kd_playground_debris, next, COUNT32),
+                                        OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, REAL) };
+static const struct number source[] = { OF(kd_debris_source, number, COUNT32), OF(kd_debris_source, t, REAL),
+                                        OF(kd_debris_source, piece_mass, REAL), OF(kd_debris_source, spread, REAL),
+                                        OF(kd_debris_source, pieces, COUNT32), OF(kd_debris_source, captured, COUNT32),
+                                        OF(kd_debris_source, lost, COUNT32) };
+#define N(table) (sizeof(table) / sizeof *(table))
+
+static void write_numbers(const void *from, const struct number *table, size_t n, struct kd_json *json)
+{
+    for (size_t i = 0; i < n; i++) {
+        const void *at = (const char *)from + table[i].offset;
+        switch (table[i].kind) {
+        case REAL: kd_json_number(json, table[i].name, *(const double *)at); break;
+        case COUNT: kd_json_number(json, table[i].name, (double)*(const uint64_t *)at); break;
+        case COUNT32: kd_json_number(json, table[i].name, *(const uint32_t *)at); break;
+        case TRUTH: kd_json_number(json, table[i].name, *(const bool *)at); break;
+        }
+    }
+}
+
+static void write_array(const double *numbers, int n, struct kd_json *json, const char *name)
+{
+    kd_json_array(json, name);
+    for (int i = 0; i < n; i++)
+        kd_json_number(json, NULL, numbers[i]);
+    kd_json_end(json);
+}
+
+static enum kd_status write_debris(const struct kd_playground_debris *d, struct kd_json *json)
+{
+    const size_t bytes = d->used * sizeof *d->pieces;
+    char *text = malloc(kd_base64_length(bytes) + 1);
+    if (!text)
+        return KD_ENOMEM;
+    kd_json_object(json, "debris");
+    write_numbers(d, debris, N(debris), json);
+    kd_json_array(json, "sources");
+    for (int i = 0; i < KD_DEBRIS_SOURCES; i++) {
+        double back[KD_DEBRIS_BINS];
+        if (!d->sources[i].number)
+            continue;
+        for (int k = 0; k < KD_DEBRIS_BINS; k++)
+            back[k] = d->sources[i].back[k];
+        kd_json_object(json, NULL);
+        write_numbers(&d->sources[i], source, N(source), json);
+        kd_json_string(json, "name", d->sources[i].name);
+        write_array(back, KD_DEBRIS_BINS, json, "back");
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    kd_base64_write(text, d->pieces, bytes);
+    kd_json_string(json, "pieces", text);
+    kd_json_end(json);
+    free(text);
+    return KD_OK;
+}
+
+enum kd_status kd_state_write(const struct kd_playground *p, struct kd_json *json)
+{
+    kd_json_object(json, "state");
+    write_numbers(p, whole, N(whole), json);
+    kd_json_number(json, "events", (double)p->events.last);
+    kd_json_object(json, "spent");
+    write_numbers(&p->spent, spent, N(spent), json);
+    write_array(p->spent.captured_momentum, 3, json, "captured_momentum");
+    kd_json_end(json);
+    kd_json_array(json, "bodies");
+    for (size_t i = 0; i < p->n; i++) {
+        kd_json_object(json, NULL);
+        write_numbers(&p->bodies[i], body, N(body), json);
+        if (p->params.gravity == KD_GRAVITY_KERR) {
+            double state[KD_GEODESIC_STATE];
+            kd_geodesic_save(&p->geodesics[i], state);
+            write_array(p->geodesics[i].from_x, 3, json, "from_position");
+            write_array(p->geodesics[i].from_v, 3, json, "from_velocity");
+            kd_json_number(json, "from_t", p->geodesics[i].from_t);
+            write_array(state, KD_GEODESIC_STATE, json, "geodesic");
+        }
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+    const enum kd_status status = write_debris(&p->debris, json);
+    kd_json_end(json);
+    return status;
+}
+
+static enum kd_status bad(const char *pointer, const char *name, const char *what, struct kd_error *error)
+{
+    char at[160];
+    kd_playground_pointer(at, pointer, name);
+    return kd_error_field(error, at, "%s %s", name, what);
+}
+
+static enum kd_status read_numbers(void *to, const struct number *table, size_t n, const cJSON *item, const char *pointer, struct kd_error *error)
+{
+    for (size_t i = 0; i < n; i++) {
+        void *at = (char *)to + table[i].offset;
+        const cJSON *one = cJSON_GetObjectItemCaseSensitive(item, table[i].name);
+        const double x = cJSON_IsNumber(one) ? one->valuedouble : NAN, most = table[i].kind == REAL ? MOST : table[i].kind == COUNT ? WHOLE : UINT32_MAX;
+        if (!(fabs(x) <= most) || (table[i].kind != REAL && (x < 0 || x != floor(x))))
+            return bad(pointer, table[i].name, "is no number that a snapshot has there", error);
+        switch (table[i].kind) {
+        case REAL: *(double *)at = x; break;
+        case COUNT: *(uint64_t *)at = (uint64_t)x; break;
+        case COUNT32: *(uint32_t *)at = (uint32_t)x; break;
+        case TRUTH: *(bool *)at = x != 0; break;
+        }
+    }
+    return KD_OK;
+}
+
+static enum kd_status read_source(struct kd_playground_debris *d, const cJSON *item, const char *pointer, struct kd_error *error)
+{
+    struct kd_debris_source one = { 0 };
+    double back[KD_DEBRIS_BINS];
+    const cJSON *name = cJSON_GetObjectItemCaseSensitive(item, "name");
+    enum kd_status status;
+    KD_TRY(read_numbers(&one, source, N(source), item, pointer, error));
+    KD_TRY(kd_playground_numbers(back, KD_DEBRIS_BINS, UINT32_MAX, cJSON_GetObjectItemCaseSensitive(item, "back"), pointer, error));
+    if (!one.number || one.number > d->last_source || !(one.spread > 0) || !(one.piece_mass > 0) || !cJSON_IsString(name))
+        KD_TRY(bad(pointer, "number", "and what is with it are none of a source", error));
+    snprintf(one.name, sizeof one.name, "%s", name->valuestring);
+    for (int k = 0; k < KD_DEBRIS_BINS; k++) {
+        one.back[k] = (uint32_t)fmax(back[k], 0);
+        one.all_back += one.back[k];
+    }
+    d->sources[one.number % KD_DEBRIS_SOURCES] = one;
+done:
+    return status;
+}
+
+/* What pieces there are, as kd_debris_advance would know it; false: one cannot be. */
+static bool look(struct kd_playground_debris *d)
+{
+    d->alive = 0;
+    d->haste = 0;
+    for (uint32_t i = 0; i < d->used; i++) {
+        const struct kd_debris_piece *piece = &d->pieces[i];
+        const double x[3] = { piece->x[0], piece->x[1], piece->x[2] }, v[3] = { piece->v[0], piece->v[1], piece->v[2] }, r = kd_playground_radius(x);
+        if (piece->stage > KD_DEBRIS_BACK || piece->source >= KD_DEBRIS_SOURCES)
+            return false;
+        if (piece->stage == KD_DEBRIS_FREE)
+            continue;
+        if (!(r < 1e18) || !(kd_playground_radius(v) < 1.001) || !isfinite(piece->back) || !d->sources[piece->source].number)
+            return false;
+        d->alive++;
+        d->haste += 1 / (fmax(r, KD_PLAYGROUND_CAPTURE) - KD_PLAYGROUND_HORIZON);
+    }
+    return true;
+}
+
+static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *item, struct kd_error *error)
+{
+    const char *pointer = "/state/debris";
+    const cJSON *sources = cJSON_GetObjectItemCaseSensitive(item, "sources"), *pieces = cJSON_GetObjectItemCaseSensitive(item, "pieces");
+    enum kd_status status;
+    KD_TRY(read_numbers(d, debris, N(debris), item, pointer, error));
+    if (d->used > d->capacity || d->next > d->used || (d->capacity && d->next >= d->capacity)) {
+        d->used = d->next = 0;
+        KD_TRY(bad(pointer, "used", "is more than there is room for", error));
+    }
+    for (const cJSON *one = cJSON_IsArray(sources) ? sources->child : NULL; one; one = one->next)
+        KD_TRY(read_source(d, one, "/state/debris/sources", error));
+    if (!cJSON_IsString(pieces) || !kd_base64_read(d->pieces, d->used * sizeof *d->pieces, pieces->valuestring) || !look(d)) {
+        d->used = d->next = d->alive = 0;
+        KD_TRY(bad(pointer, "pieces", "are not those of a snapshot", error));
+    }
+done:
+    return status;
+}
+
+static enum kd_status read_body(struct kd_playground *p, size_t i, const cJSON *item, struct kd_error *error)
+{
+    const char *pointer = "/state/bodies";
+    double state[KD_GEODESIC_STATE], x[3], v[3];
+    const cJSON *from_t = cJSON_GetObjectItemCaseSensitive(item, "from_t");
+    enum kd_status status;
+    KD_TRY(read_numbers(&p->bodies[i], body, N(body), item, pointer, error));
+    if (!p->bodies[i].id || p->bodies[i].id > p->last_id || p->bodies[i].whole_mass < 0 || (i && p->bodies[i].id <= p->bodies[i - 1].id))
+        KD_TRY(bad(pointer, "id", "is none that a snapshot has there", error));
+    if (p->params.gravity != KD_GRAVITY_KERR)
+        return KD_OK;
+    KD_TRY(kd_playground_numbers(x, 3, 1e6, cJSON_GetObjectItemCaseSensitive(item, "from_position"), pointer, error));
+    KD_TRY(kd_playground_numbers(v, 3, 1, cJSON_GetObjectItemCaseSensitive(item, "from_velocity"), pointer, error));
+    KD_TRY(kd_playground_numbers(state, KD_GEODESIC_STATE, MOST, cJSON_GetObjectItemCaseSensitive(item, "geodesic"), pointer, error));
+    KD_TRY(kd_geodesic_begin(&p->geodesics[i], p->params.spin, x, v, cJSON_IsNumber(from_t) ? from_t->valuedouble : 0, error));
+    kd_geodesic_restore(&p->geodesics[i], state);
+done:
+    return status;
+}
+
+enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct kd_error *error)
+{
+    const cJSON *bodies = cJSON_GetObjectItemCaseSensitive(state, "bodies"), *gone = cJSON_GetObjectItemCaseSensitive(state, "spent"),
+                *events = cJSON_GetObjectItemCaseSensitive(state, "events");
+    size_t i = 0;
+    enum kd_status status;
+    KD_TRY(read_numbers(p, whole, N(whole), state, "/state", error));
+    KD_TRY(read_numbers(&p->spent, spent, N(spent), gone, "/state/spent", error));
+    KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST, cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
+    if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
+        KD_TRY(bad("/state", "bodies", "are not as many as the bodies", error));
+    for (const cJSON *one = bodies->child; one; one = one->next)
+        KD_TRY(read_body(p, i++, one, error));
+    KD_TRY(read_debris(&p->debris, cJSON_GetObjectItemCaseSensitive(state, "debris"), error));
+    p->events.last = cJSON_IsNumber(events) && events->valuedouble >= 0 && events->valuedouble <= WHOLE ? (uint64_t)events->valuedouble : 0;
+    p->forced = false;
+done:
+    return status;
+}

@@ -1,0 +1,225 @@
+/* This makes one sub-step of all bodies: kick, drift, kick. */
+#include "playground/hole.h"
+#include "playground/playground.h"
+#include "playground/wave.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CLEARANCE 1.25 /* the rate aimed at over the least that is allowed: room for the rate of one step to swing about that of the places */
+
+void kd_playground_force(struct kd_playground *p)
+{
+    if (p->forced)
+        return;
+    kd_playground_mutual_fill(&p->mutual, p->bodies, p->n, p->params.softening, p->margin);
+    p->forced = true;
+}
+
+/* The rate 1/h that the bound demands of the bodies where they are. */
+static double demanded(const struct kd_playground *p)
+{
+    const struct kd_playground_params *s = &p->params;
+    double rate = 1 / s->h_max;
+    rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety)); /* debris must keep up */
+    for (size_t i = 0; i < p->n; i++) {
+        const double r = kd_playground_radius(p->bodies[i].x);
+        rate = fmax(rate, 1 / (s->safety * (r - KD_PLAYGROUND_HORIZON)));
+        rate = fmax(rate, sqrt(p->mutual.rate[i]) / s->safety);
+    }
+    return rate;
+}
+
+/* Speeds are held at 1. */
+static void hold(struct kd_playground *p, struct kd_playground_body *body)
+{
+    const double v = kd_playground_radius(body->v);
+    if (!(v > 1))
+        return;
+    for (int k = 0; k < 3; k++)
+        body->v[k] /= v;
+    p->spent.capped += 0.5 * body->mass * (v * v - 1);
+}
+
+/* Adds a loss to a velocity, and books it. */
+static void lose(struct kd_playground *p, struct kd_playground_body *body, const double a[3], double share, double time)
+{
+    double work = 0;
+    for (int k = 0; k < 3; k++) {
+        const double kick = share * a[k] * time;
+        work += body->mass * kick * (body->v[k] + 0.5 * kick);
+        body->v[k] += kick;
+    }
+    body->radiated -= work;
+    p->spent.radiated -= work;
+}
+
+/* What waves do in `time`: of bound pairs to each other, of all others with the hole. */
+static void radiate(struct kd_playground *p, double time)
+{
+    size_t partners[KD_WAVE_PAIRS_MAX];
+    const bool pairs = p->n <= KD_WAVE_PAIRS_MAX;
+    double a[3];
+    if (pairs)
+        kd_wave_partners(p->bodies, p->n, p->params.softening, partners);
+    for (size_t i = 0; i < p->n; i++) {
+        struct kd_playground_body *one = &p->bodies[i];
+        const size_t j = pairs ? partners[i] : p->n;
+        if (j == p->n) {
+            p->held |= kd_wave_reaction_hole(one->mass, one->x, one->v, p->params.amplification, a);
+            lose(p, one, a, 1, time);
+        } else if (j > i) {
+            struct kd_playground_body *two = &p->bodies[j];
+            double x[3], v[3];
+            for (int k = 0; k < 3; k++) {
+                x[k] = one->x[k] - two->x[k];
+                v[k] = one->v[k] - two->v[k];
+            }
+            p->held |= kd_wave_reaction(one->mass, two->mass, x, v, p->params.amplification, a);
+            lose(p, one, a, two->mass / (one->mass + two->mass), time);
+            lose(p, two, a, -one->mass / (one->mass + two->mass), time);
+        }
+    }
+}
+
+static void kick(struct kd_playground *p, double time)
+{
+    const struct kd_playground_mutual *m = &p->mutual;
+    for (size_t i = 0; i < p->n; i++) {
+        struct kd_playground_body *body = &p->bodies[i];
+        const double pull = kd_playground_pull(kd_playground_radius(body->x)), a[3] = { m->ax[i], m->ay[i], m->az[i] };
+        for (int k = 0; k < 3; k++)
+            body->v[k] += time * (pull * body->x[k] + a[k]);
+    }
+    if (p->params.waves)
+        radiate(p, time);
+    for (size_t i = 0; i < p->n; i++)
+        hold(p, &p->bodies[i]);
+}
+
+/* Bodies that have come past the capture radius in this drift are pulled by the hole no more: they are taken after it. */
+static void drift(struct kd_playground *p, double time)
+{
+    for (size_t i = 0; i < p->n; i++)
+        for (int k = 0; k < 3; k++)
+            p->bodies[i].x[k] += time * p->bodies[i].v[k];
+    p->forced = false;
+}
+
+static double step(struct kd_playground *p)
+{
+    kd_playground_force(p);
+    const double least = demanded(p), aim = CLEARANCE * least;
+    p->rate = p->rate > 0 ? fmax(2 * aim - p->rate, least) : aim;
+    const double h = 1 / p->rate;
+    kick(p, 0.5 * h);
+    drift(p, h);
+    p->margin = fmin(2 * h, 1e6); /* two bodies may have come nearer by so much, and be apart again */
+    kd_playground_force(p);
+    kick(p, 0.5 * h);
+    p->t += h;
+    p->steps++;
+    return h;
+}
+
+/* Gravity "kerr": all bodies to the time t, as far as `steps` reach. */
+static void follow(struct kd_playground *p, double t, uint32_t *steps, bool *late)
+{
+    *late = false;
+    for (size_t i = 0; i < p->n;) {
+        struct kd_playground_body *body = &p->bodies[i];
+        bool behind = false;
+        const enum kd_geodesic_fate fate = kd_geodesic_go(&p->geodesics[i], t, steps, &behind, body->x, body->v);
+        *late |= behind;
+        if (fate == KD_GEODESIC_GOES) {
+            i++;
+            continue;
+        }
+        struct kd_playground_event event = { .t = t, .kind = fate == KD_GEODESIC_CAPTURED ? KD_PLAYGROUND_CAPTURED : KD_PLAYGROUND_ESCAPE,
+                                             .body = body->id, .mass = body->mass, .r = kd_playground_radius(body->x),
+                                             .energy = body->mass * p->geodesics[i].path.orbit.energy, .tidal_radius = NAN, .spread = NAN };
+        memcpy(event.name, body->name, sizeof event.name);
+        kd_playground_event_add(&p->events, event);
+        if (fate == KD_GEODESIC_CAPTURED) {
+            p->spent.captured_mass += body->mass;
+            p->spent.captured_energy += event.energy;
+        }
+        kd_playground_drop(p, i);
+    }
+}
+
+static void record(struct kd_playground *p)
+{
+    struct kd_playground_series *series = &p->series;
+    if (series->n && p->t < series->next)
+        return;
+    if (!series->n)
+        series->interval = p->params.h_max;
+    const struct kd_playground_totals now = kd_playground_totals(p);
+    const struct kd_playground_spent *s = &p->spent;
+    double back = 0;
+    for (int i = 0; i < KD_DEBRIS_SOURCES; i++)
+        back += p->debris.sources[i].piece_mass * p->debris.sources[i].all_back;
+    kd_series_add(series, (const double[KD_SERIES_N]) {
+        [KD_SERIES_t] = p->t, [KD_SERIES_bodies] = (double)p->n, [KD_SERIES_energy] = now.energy,
+        [KD_SERIES_energy_balance] = now.energy + s->captured_energy + s->merged + s->capped + s->radiated + s->torn_energy - s->given,
+        [KD_SERIES_angular_momentum_x] = now.angular[0], [KD_SERIES_angular_momentum_y] = now.angular[1],
+        [KD_SERIES_angular_momentum_z] = now.angular[2], [KD_SERIES_radiated] = s->radiated, [KD_SERIES_separation] = now.separation,
+        [KD_SERIES_wave_frequency] = now.wave_frequency, [KD_SERIES_h_plus] = now.h_plus, [KD_SERIES_h_cross] = now.h_cross,
+        [KD_SERIES_debris] = p->debris.alive, [KD_SERIES_debris_back] = back });
+}
+
+/* Debris is where it is at debris.t, which follows t every h_max, or oftener where a piece is near the hole. */
+static void advance_debris(struct kd_playground *p)
+{
+    struct kd_playground_debris *debris = &p->debris;
+    if (!debris->alive) {
+        debris->t = p->t;
+        return;
+    }
+    const double stride = fmin(p->params.h_max, kd_debris_stride(debris, p->params.safety));
+    if (p->t - debris->t >= stride)
+        kd_debris_advance(debris, p->t, p->params.safety, p->params.feeds);
+}
+
+/* One sub-step, and what comes of it. With nothing but debris left, as far as that may go at once. */
+static void go(struct kd_playground *p)
+{
+    if (p->n) {
+        const double h = step(p);
+        if (p->params.mergers)
+            kd_playground_merge(p, h);
+        kd_playground_capture(p);
+        if (p->params.tides)
+            kd_playground_tides(p);
+    } else {
+        p->t += fmin(p->params.h_max, kd_debris_stride(&p->debris, p->params.safety));
+        p->steps++;
+    }
+    advance_debris(p);
+    record(p);
+}
+
+void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress)
+{
+    const double begin = p->t, end = begin + time;
+    const uint64_t first = p->steps;
+    kd_playground_settle(p);
+    *progress = (struct kd_playground_progress) { .asked = time };
+    if (p->params.gravity == KD_GRAVITY_KERR) {
+        uint32_t left = p->params.budget;
+        bool late = false;
+        while (!late && p->t < end) {
+            const double t = fmin(p->t + p->params.h_max, end);
+            follow(p, t, &left, &late);
+            p->t = late ? p->t : t;
+            p->steps++;
+            record(p);
+        }
+    }
+    while (p->params.gravity != KD_GRAVITY_KERR && p->t < end && p->steps - first < p->params.budget)
+        go(p);
+    progress->done = p->t - begin;
+    progress->steps = (uint32_t)(p->steps - first);
+    progress->slowed = p->t < end;
+}

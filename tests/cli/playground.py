@@ -1,0 +1,56 @@
+"""kerrd playground: what it takes, what it says of mistakes, and what it writes. Needs no device."""
+import csv
+import json
+
+from support import Case, main, run
+
+
+class Playground(Case):
+    def test_usage(self):
+        for words, *arguments in [(b"NAME=VALUE", "--set", "waves"), (b"--time is -1", "--time", "-1"),
+                                  (b"names its preset itself", "-p", "emri", "a.json")]:
+            done = run("playground", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, b""))
+            self.assertIn(words, done.stderr)
+        self.bad(2, "No such file", "playground", self.path("absent.json"))
+        self.bad(2, "at /preset", "playground", "-p", "chaos")
+        self.bad(2, "at /softening", "playground", "-p", "emri", "--set", "softening=0")
+        self.bad(2, "at /spin", "playground", "-p", "emri", "--set", "spin=0.5")
+        self.bad(2, "there is no field colour", "playground", "--set", "colour=1")
+
+    def test_presets_begin_and_go_on(self):
+        names = [line.split()[0] for line in self.good("playground", "--list").decode().splitlines()]
+        self.assertEqual(names, ["disruption", "system", "binary", "emri", "swarm", "figure-eight"])
+        for name in names:
+            begun = json.loads(self.good("playground", "-p", name))
+            later = json.loads(self.good("playground", "-p", name, "--time", "3"))
+            self.assertGreater(len(begun["bodies"]), 0)
+            self.assertEqual(len(later["bodies"]), len(begun["bodies"]))
+            self.assertGreaterEqual(later["state"]["t"], 3)
+            self.assertNotEqual(later["bodies"][0]["position"], begun["bodies"][0]["position"])
+
+    def test_a_snapshot_goes_on(self):
+        first, series, events = self.path("first.json"), self.path("series.csv"), self.path("events.ndjson")
+        self.good("playground", "-p", "binary", "--time", "3000", "-o", first)
+        end = json.loads(self.good("playground", first, "--time", "4000", "--series", series, "--events", events))
+        whole = json.loads(self.good("playground", "-p", "binary", "--time", str(end["state"]["t"])))
+        self.assertEqual(whole, end)
+        self.assertEqual(len(end["bodies"]), 1)
+        with open(events) as file:
+            merger, = map(json.loads, file)
+        self.assertEqual((merger["kind"], merger["mass"], merger["other_mass"]), ("merger", 0.01, 0.01))
+        with open(series) as file:
+            rows = list(csv.DictReader(file))
+        balance = [float(row["energy_balance"]) for row in rows]
+        self.assertLess(max(balance) - min(balance), 2e-3 * float(rows[-1]["radiated"]))
+        separations = [float(row["separation"]) for row in rows if row["bodies"] == "2"]
+        self.assertLess(separations[-1], 0.5 * separations[0])
+
+    def test_the_budget_is_told(self):
+        done = run("playground", "-p", "system", "--set", "budget=5", "--time", "1000")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(b"the budget of 5 sub-steps was spent after", done.stderr)
+        self.assertLess(json.loads(done.stdout)["state"]["t"], 20)
+
+
+main()

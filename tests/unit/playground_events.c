@@ -1,0 +1,262 @@
+/* What becomes of bodies: inspiral against Peters' closed form, mergers to rounding, debris that comes back, and scenes that mean harm. */
+#include "playground_support.h"
+
+#include "physics/inspiral.h"
+#include "playground/tide.h"
+#include "playground/wave.h"
+
+#include <stdio.h>
+
+/* Two equal bodies far from the hole spiral together; with the loss exaggerated A times from A^(2/5) times as far, so that the relation of pull and loss
+ * is the same. P. C. Peters 1964, eq. 5.10, by physics/inspiral.c: from d0 to d1 it takes T(d0) - T(d1). */
+static void pairs_spiral_in_as_peters_says(void **state)
+{
+    (void)state;
+    static const double amplifications[] = { 1, 1e3, 1e6 };
+    for (int i = 0; i < 3; i++) {
+        struct kd_playground_params params = playground_quiet();
+        const double amplification = amplifications[i], d0 = 40 * pow(amplification, 0.4), d1 = 0.7 * d0, v = 0.5 * sqrt(2 / d0);
+        params.waves = true;
+        params.amplification = amplification;
+        params.h_max = 1e6;
+        params.softening = 1e-3;
+        struct kd_playground *p = playground_make(params);
+        playground_put(p, (struct kd_playground_body) { .mass = 1, .x = { 9e5, d0 / 2, 0 }, .v = { v, 0, 0 } });
+        playground_put(p, (struct kd_playground_body) { .mass = 1, .x = { 9e5, -d0 / 2, 0 }, .v = { -v, 0, 0 } });
+        /* In units of m1 + m2 = 2: eta = 1/4. */
+        const double expected = 2 * (kd_inspiral_time(0.25, d0 / 2, 0) - kd_inspiral_time(0.25, d1 / 2, 0)) / amplification;
+        double t = 0, d = d0;
+        /* The axis by the energy, which does not swing as the distance does: E = -m1 m2/(2 a). */
+        while (d > d1 && t < 2 * expected) {
+            playground_advance(p, expected / 2000);
+            t = p->t;
+            const struct kd_playground_body *b = p->bodies;
+            const double w = kd_playground_radius((double[3]) { b[0].v[0] - b[1].v[0], b[0].v[1] - b[1].v[1], b[0].v[2] - b[1].v[2] });
+            const double gap = kd_playground_radius((double[3]) { b[0].x[0] - b[1].x[0], b[0].x[1] - b[1].x[1], b[0].x[2] - b[1].x[2] });
+            d = 1 / (2 / gap - w * w / 2);
+        }
+        print_message("amplification %g: %.6g M, Peters %.6g M, %.3f %%\n", amplification, t, expected, 100 * (t / expected - 1));
+        assert_true(fabs(t / expected - 1) < 0.01);
+        assert_false(p->held);
+        kd_playground_destroy(p);
+    }
+}
+
+/* The same of a light body and the hole, far out in its potential, where that is Newton's but for 2/r^2. */
+static void a_light_body_spirals_in_as_peters_says(void **state)
+{
+    (void)state;
+    struct kd_playground_params params = playground_quiet();
+    const double r0 = 2000, r1 = 1800, mass = 0.01, amplification = 1e6;
+    params.waves = true;
+    params.amplification = amplification;
+    params.h_max = 1e6;
+    struct kd_playground *p = playground_make(params);
+    playground_put(p, (struct kd_playground_body) { .mass = mass, .x = { r0, 0, 0 }, .v = { 0, kd_playground_circular(r0), 0 } });
+    const double m = 1 + mass, eta = mass / (m * m);
+    const double expected = m * (kd_inspiral_time(eta, r0 / m, 0) - kd_inspiral_time(eta, r1 / m, 0)) / amplification;
+    double r = r0;
+    while (r > r1 && p->t < 2 * expected) {
+        playground_advance(p, expected / 1000);
+        const double e = kd_playground_totals(p).energy / mass; /* of a circle: (4 - r)/(2 (r - 2)^2) */
+        r = 2 + (-1 + sqrt(1 - 16 * -e)) / (4 * e);
+        const double x = (-0.5 - sqrt(0.25 + 4 * e)) / (2 * e); /* e = 1/x^2 - 1/(2 x), x = r - 2 */
+        r = x + 2;
+    }
+    print_message("%.6g M, Peters %.6g M, %.3f %%\n", p->t, expected, 100 * (p->t / expected - 1));
+    assert_true(fabs(p->t / expected - 1) < 0.01);
+    kd_playground_destroy(p);
+}
+
+/* An eccentric pair: Peters' e(a), eq. 5.11. */
+static void an_eccentric_pair_grows_round_as_peters_says(void **state)
+{
+    (void)state;
+    struct kd_playground_params params = playground_quiet();
+    const double a0 = 4000, e0 = 0.6, r = a0 * (1 + e0), v = sqrt(2 * (1 - e0) / (a0 * (1 + e0)));
+    params.waves = true;
+    params.amplification = 1e4;
+    params.h_max = 1e6;
+    params.softening = 1e-3;
+    struct kd_playground *p = playground_make(params);
+    playground_put(p, (struct kd_playground_body) { .mass = 1, .x = { 9e5, r / 2, 0 }, .v = { v / 2, 0, 0 } });
+    playground_put(p, (struct kd_playground_body) { .mass = 1, .x = { 9e5, -r / 2, 0 }, .v = { -v / 2, 0, 0 } });
+    double a = a0, e = e0;
+    for (int i = 0; i < 20000 && e > 0.45; i++) {
+        playground_advance(p, 2e5);
+        const struct kd_playground_body *b = p->bodies;
+        const double x[3] = { b[0].x[0] - b[1].x[0], b[0].x[1] - b[1].x[1], 0 }, w[3] = { b[0].v[0] - b[1].v[0], b[0].v[1] - b[1].v[1], 0 };
+        const double l = x[0] * w[1] - x[1] * w[0], energy = 0.5 * (w[0] * w[0] + w[1] * w[1]) - 2 / kd_playground_radius(x);
+        a = -1 / energy;
+        e = sqrt(fmax(1 - l * l / (2 * a), 0));
+    }
+    const double expected = kd_inspiral_axis(a0, e0, e);
+    print_message("e = %.4f at a = %.2f, Peters %.2f\n", e, a, expected);
+    assert_true(e <= 0.45);
+    assert_true(fabs(a / expected - 1) < 0.01);
+    kd_playground_destroy(p);
+}
+
+static void mergers_keep_mass_and_momentum(void **state)
+{
+    (void)state;
+    struct kd_playground_params params = kd_playground_defaults();
+    params.tides = false;
+    struct kd_playground *p = playground_make(params);
+    playground_put(p, (struct kd_playground_body) { .mass = 3e-4, .radius = 0.5, .x = { 1e5, 5, 0.1 }, .v = { 0.01, -0.2, 0 } });
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-4, .radius = 0.3, .x = { 1e5, -5, 0 }, .v = { 0, 0.3, 0.01 } });
+    /* Too fast to be seen touching at the end of a step. */
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-5, .radius = 0.01, .x = { -1e5, -5, 0 }, .v = { 0, 0.99, 0 } });
+    playground_put(p, (struct kd_playground_body) { .mass = 2e-5, .radius = 0.01, .x = { -1e5, 5, 0 }, .v = { 0, -0.99, 0 } });
+    const struct kd_playground_totals before = kd_playground_totals(p);
+    playground_advance(p, 40);
+    const struct kd_playground_totals after = kd_playground_totals(p);
+    assert_int_equal(p->n, 2);
+    assert_true(fabs(after.mass / before.mass - 1) < 4e-16);
+    /* The hole pulls meanwhile: 1e-10 a M. What it has done is known to its own rounding. */
+    for (int k = 0; k < 3; k++) {
+        const double pulled = k ? 0 : -p->t * 1e-10 * (4e-4 - 3e-5);
+        assert_true(fabs(after.momentum[k] - before.momentum[k] - pulled) < 2e-15);
+    }
+    assert_true(fabs(pow(p->bodies[0].radius, 3) - 0.125 - 0.027) < 1e-15);
+    assert_int_equal(kd_playground_event_at(&p->events, 1)->kind, KD_PLAYGROUND_MERGER);
+    /* The books: what was lost is heat, half of mu v^2, and the pair's own potential; the step's error is a thousandth of it. */
+    assert_true(fabs(after.energy + p->spent.merged - before.energy) < 1e-3 * p->spent.merged);
+    kd_playground_destroy(p);
+}
+
+/* The slope of the rate at which debris comes back, by least squares over the decade from twice the time of the first piece; nothing in the counting knows
+ * Kepler's law. Half of the debris is bound. */
+static void debris_comes_back_as_the_fifth_third_power(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":12000,\"h_max\":50,\"budget\":100000000}");
+    playground_advance(p, 3000);
+    assert_int_equal(p->n, 0);
+    const struct kd_debris_source *source = kd_debris_source_of(&p->debris, 1);
+    assert_int_equal(source->pieces, 12000);
+    assert_true(fabs(p->spent.torn_mass / 1e-6 - 1) < 1e-12);
+    p->params.h_max = 1e4;
+    playground_advance(p, 1.5e7);
+    /* dM/deps is flat: t_min = 2 pi (2 deps)^(-3/2) */
+    const double first = 2 * M_PI * pow(2 * source->spread, -1.5);
+    double sw = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, line = 0;
+    uint32_t early = 0;
+    for (int i = 0; i < KD_DEBRIS_BINS; i++) {
+        const struct kd_debris_rate rate = kd_debris_rate(source, i);
+        early += rate.t + rate.width / 2 < 0.9 * first ? rate.pieces : 0;
+        if (rate.t < 2 * first || rate.t > 20 * first || !rate.pieces)
+            continue;
+        const double x = log(rate.t), y = log(rate.rate), w = rate.pieces;
+        sw += w, sx += w * x, sy += w * y, sxx += w * x * x, sxy += w * x * y;
+        line += w * log(rate.rate / rate.line);
+    }
+    const double slope = (sw * sxy - sx * sy) / (sw * sxx - sx * sx);
+    print_message("slope %.4f, %.0f pieces, over the line by %.2f %%, back %u, early %u\n", slope, sw, 100 * (exp(line / sw) - 1), source->all_back, early);
+    assert_true(fabs(slope + 5. / 3) < 0.05);
+    assert_true(fabs(line / sw) < 0.05);
+    assert_true(source->all_back > 4800 && source->all_back < 6040);
+    assert_int_equal(early, 0);
+    kd_playground_destroy(p);
+}
+
+/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter is gone; and a star that turns at depth d has lost what the fit
+ * says there. */
+static void a_grazing_star_sheds_and_goes_on(void **state)
+{
+    (void)state;
+    struct kd_playground_params params = kd_playground_defaults();
+    params.h_max = 20;
+    params.budget = 1000000;
+    struct kd_playground *p = playground_make(params);
+    const double radius = 0.47, mass = 1e-6, depth = 0.7, pericentre = kd_tide_radius(mass, radius) / depth, r = 300;
+    const double l = pericentre * sqrt(2 / (pericentre - 2)), across = l / r;
+    playground_put(p, (struct kd_playground_body) { .mass = mass, .radius = radius, .x = { r, 0, 0 }, .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } });
+    playground_advance(p, 6000);
+    assert_int_equal(p->n, 1);
+    const double lost = 1 - p->bodies[0].mass / mass;
+    print_message("lost %.4f, the fit %.4f\n", lost, kd_tide_share(depth));
+    assert_true(fabs(lost - kd_tide_share(depth)) < 0.003);
+    assert_true(fabs(pow(p->bodies[0].radius / radius, 3) - (1 - lost)) < 1e-12);
+    assert_true(p->events.last >= 1 && kd_playground_event_at(&p->events, 1)->kind == KD_PLAYGROUND_SHEDDING);
+    kd_playground_destroy(p);
+}
+
+static void all_finite(struct kd_playground *p)
+{
+    for (size_t i = 0; i < p->n; i++)
+        for (int k = 0; k < 3; k++)
+            if (!isfinite(p->bodies[i].x[k]) || !(fabs(p->bodies[i].v[k]) <= 1 + 1e-12))
+                fail_msg("body %u: x %g, v %g", p->bodies[i].id, p->bodies[i].x[k], p->bodies[i].v[k]);
+    assert_true(isfinite(p->t) && isfinite(kd_playground_totals(p).energy));
+}
+
+static void scenes_that_mean_harm_stay_finite(void **state)
+{
+    (void)state;
+    static const double masses[] = { 0, 1e-12, 1, 1e12 };
+    for (int i = 0; i < 4; i++)
+        for (int waves = 0; waves < 2; waves++) {
+            struct kd_playground_params params = kd_playground_defaults();
+            struct kd_playground_progress progress;
+            params.budget = 300;
+            params.softening = 1e-4;
+            params.waves = waves;
+            params.amplification = 1e9;
+            struct kd_playground *p = playground_make(params);
+            const double m = masses[i];
+            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } });                          /* on top of each other */
+            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 }, .v = { 1, 0, 0 } });
+            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } });        /* at the horizon at c */
+            playground_put(p, (struct kd_playground_body) { .mass = m, .radius = 3, .x = { 2.06, 0, 0 } });           /* next to it, at rest */
+            playground_put(p, (struct kd_playground_body) { .mass = 1e12, .x = { 0, 0, -1e6 } });
+            playground_put(p, (struct kd_playground_body) { .mass = m, .radius = 1e6, .x = { 0, 500, 0 } });
+            kd_playground_advance(p, 100, &progress);
+            all_finite(p);
+            kd_playground_advance(p, 1e9, &progress);
+            all_finite(p);
+            assert_true(progress.slowed);
+            kd_playground_destroy(p);
+        }
+}
+
+static void four_thousand_at_one_point(void **state)
+{
+    (void)state;
+    for (int touching = 0; touching < 2; touching++) {
+        struct kd_playground_params params = kd_playground_defaults();
+        struct kd_playground_progress progress;
+        params.budget = 2;
+        params.tides = false;
+        struct kd_playground *p = playground_make(params);
+        struct kd_error error = { 0 };
+        for (unsigned i = 0; i < KD_PLAYGROUND_BODIES_MAX; i++) {
+            const struct kd_playground_body body = { .mass = 1e-6, .radius = touching, .x = { 50, 0, 0 }, .v = { 0, 0.1, 0 } };
+            if (i < 40 || touching == 0)
+                playground_put(p, body);
+        }
+        if (!touching)
+            assert_int_equal(kd_playground_add(p, &p->bodies[0], NULL, &error), KD_ETOOBIG);
+        const double mass = kd_playground_totals(p).mass;
+        kd_playground_advance(p, 1, &progress);
+        all_finite(p);
+        assert_int_equal(p->n, touching ? 1 : KD_PLAYGROUND_BODIES_MAX);
+        assert_true(fabs(kd_playground_totals(p).mass / mass - 1) < 1e-12);
+        kd_playground_destroy(p);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_spiral_in_as_peters_says),
+        cmocka_unit_test(a_light_body_spirals_in_as_peters_says),
+        cmocka_unit_test(an_eccentric_pair_grows_round_as_peters_says),
+        cmocka_unit_test(mergers_keep_mass_and_momentum),
+        cmocka_unit_test(debris_comes_back_as_the_fifth_third_power),
+        cmocka_unit_test(a_grazing_star_sheds_and_goes_on),
+        cmocka_unit_test(scenes_that_mean_harm_stay_finite),
+        cmocka_unit_test(four_thousand_at_one_point),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,211 @@
+/* Test bodies of gravity "kerr" against the closed form of bound orbits (physics/orbit_bound.h), which is no integration; and snapshots, which start again to the
+ * bit. */
+#include "playground_support.h"
+
+#include "physics/orbit_bound.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* A body that begins with the velocity v that an observer of zero angular momentum sees, for a hundred radial periods: where it is at each of a thousand times is where
+ * the closed form has it when its time is that, found by bisection. */
+static void test_bodies_follow_the_closed_form(void **state)
+{
+    (void)state;
+    static const struct { double spin, x[3], v[3]; } cases[] = {
+        { 0.9, { 10, 0, 0 }, { 0, 0.36, 0 } }, { 0.9, { 6, 0, 2 }, { 0.1, 0.4, 0.2 } }, { -0.5, { 0, 20, 3 }, { -0.22, 0.02, 0.1 } }, { 0, { 12, 3, 0 }, { 0, 0.34, 0.1 } },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_playground_params params = playground_quiet();
+        struct kd_error error = { 0 };
+        params.gravity = KD_GRAVITY_KERR;
+        params.spin = cases[i].spin;
+        params.h_max = 10;
+        struct kd_playground *p = playground_make(params);
+        struct kd_playground_body body = { .mass = 1e-6 };
+        memcpy(body.x, cases[i].x, sizeof body.x);
+        memcpy(body.v, cases[i].v, sizeof body.v);
+        playground_put(p, body);
+        const struct kd_playground_spherical from = kd_playground_spherical(body.x, body.v);
+        struct kd_orbit orbit;
+        struct kd_orbit_state start;
+        if (kd_orbit_from_state(params.spin, from.r, from.theta * 180 / M_PI, KD_OBSERVER_ZAMO, from.v, &orbit, &start, &error))
+            fail_msg("%s", error.message);
+        assert_int_equal(orbit.fate, KD_ORBIT_BOUND);
+        const struct kd_orbit_bound bound = kd_orbit_bound_of(&orbit, &start);
+        const struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&bound);
+        const double end = 100 * 2 * M_PI / f.r;
+        double worst = 0, mino = 0;
+        for (int k = 0; k < 1000; k++) {
+            playground_advance(p, end / 1000);
+            double low = mino, high = mino + 4 * end / 1000 / f.mino_t + 1e-3;
+            while (high - low > 1e-15 * high && 0.5 * (low + high) > low && 0.5 * (low + high) < high) {
+                const double middle = 0.5 * (low + high);
+                *(kd_orbit_bound_at(&bound, middle).t < p->t ? &low : &high) = middle;
+            }
+            mino = high;
+            const struct kd_orbit_place at = kd_orbit_bound_at(&bound, mino);
+            const double phi = from.phi + at.phi, s = at.r * sin(at.theta), want[3] = { s * cos(phi), s * sin(phi), at.r * cos(at.theta) };
+            for (int n = 0; n < 3; n++)
+                worst = fmax(worst, fabs(p->bodies[0].x[n] - want[n]) / at.r);
+        }
+        print_message("spin %g: t = %.4g, worst %.2g\n", params.spin, p->t, worst);
+        assert_true(worst < 1e-8);
+        kd_playground_destroy(p);
+    }
+}
+
+/* The velocity that is told begins the same motion. */
+static void the_velocity_told_begins_the_same_motion(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"spin\":0.8,\"h_max\":1,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]}]}");
+    playground_advance(p, 137);
+    struct kd_playground *q = playground_read("{\"gravity\":\"kerr\",\"spin\":0.8,\"h_max\":1}");
+    playground_put(q, p->bodies[0]);
+    playground_advance(p, 500);
+    playground_advance(q, 500);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(p->bodies[0].x[k] - q->bodies[0].x[k]) < 1e-8);
+    kd_playground_destroy(p);
+    kd_playground_destroy(q);
+}
+
+/* One that falls in and one that flies away are told; speeds of c are none of a body. */
+static void who_leaves_is_told(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"spin\":0.5,\"h_max\":1e5,\"budget\":10000000,\"bodies\":[{\"position\":[9,0,0],\"velocity\":[-0.5,0,0]},"
+                                              "{\"position\":[0,30,0],\"velocity\":[0,0.9,0]},{\"position\":[0,0,40],\"velocity\":[0.1,0.01,0]}]}");
+    struct kd_error error = { 0 };
+    playground_advance(p, 3e6);
+    assert_int_equal(p->n, 1);
+    assert_int_equal(p->events.last, 2);
+    unsigned kinds = 0;
+    for (uint64_t k = 1; k <= 2; k++)
+        kinds |= 1u << kd_playground_event_at(&p->events, k)->kind;
+    assert_int_equal(kinds, 1u << KD_PLAYGROUND_CAPTURED | 1u << KD_PLAYGROUND_ESCAPE);
+    const struct kd_playground_body fast = { .x = { 10, 0, 0 }, .v = { 0, 1, 0 } }, inside = { .x = { 1, 0, 0 } };
+    assert_int_equal(kd_playground_add(p, &fast, NULL, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/velocity");
+    assert_int_equal(kd_playground_add(p, &inside, NULL, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/position");
+    kd_playground_destroy(p);
+}
+
+static struct kd_buffer snapshot(struct kd_playground *p)
+{
+    struct kd_buffer out = { 0 };
+    assert_int_equal(kd_playground_write(p, true, &out), KD_OK);
+    return out;
+}
+
+/* Snapshot, go on, snapshot; read the first, go on, snapshot: the same bytes. In the middle of shedding, of an inspiral, of geodesics. */
+static void snapshots_start_again_to_the_bit(void **state)
+{
+    (void)state;
+    static const struct { const char *text; double first, then; } cases[] = {
+        { "{\"preset\":\"disruption\",\"debris_per_body\":300,\"debris_capacity\":250}", 2600, 400 },
+        { "{\"preset\":\"binary\"}", 3000, 4000 },
+        { "{\"preset\":\"system\",\"waves\":true,\"amplification\":10}", 100, 100 },
+        { "{\"gravity\":\"kerr\",\"spin\":0.9,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},{\"position\":[0,12,0],\"velocity\":[-0.4,-0.25,0.1]}]}", 25, 40 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct kd_playground *p = playground_read(cases[i].text), *q;
+        struct kd_error error = { 0 };
+        playground_advance(p, cases[i].first);
+        struct kd_buffer middle = snapshot(p);
+        if (kd_playground_read((const char *)middle.data, middle.size, &q, &error))
+            fail_msg("case %zu: %s (at %s)", i, error.message, error.pointer);
+        struct kd_buffer again = snapshot(q);
+        assert_int_equal(again.size, middle.size);
+        assert_memory_equal(again.data, middle.data, middle.size);
+        playground_advance(p, cases[i].then);
+        playground_advance(q, cases[i].then);
+        struct kd_buffer one = snapshot(p), other = snapshot(q);
+        assert_int_equal(one.size, other.size);
+        assert_memory_equal(one.data, other.data, one.size);
+        kd_buffer_finish(&middle);
+        kd_buffer_finish(&again);
+        kd_buffer_finish(&one);
+        kd_buffer_finish(&other);
+        kd_playground_destroy(p);
+        kd_playground_destroy(q);
+    }
+}
+
+/* A snapshot with one byte changed is refused, or is a playground that stays finite. */
+static void damaged_snapshots_do_no_harm(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":100,\"debris_capacity\":90}");
+    playground_advance(p, 2600);
+    struct kd_buffer whole = snapshot(p);
+    unsigned read = 0;
+    for (size_t at = 0; at < whole.size; at += 7) {
+        const uint8_t kept = whole.data[at];
+        struct kd_playground *q = NULL;
+        struct kd_playground_progress progress;
+        whole.data[at] = (uint8_t)"9.-e,A/"[at % 7];
+        if (!kd_playground_read((const char *)whole.data, whole.size, &q, NULL)) {
+            q->params.budget = 5;
+            kd_playground_advance(q, 5, &progress);
+            for (size_t k = 0; k < q->n; k++)
+                assert_true(isfinite(q->bodies[k].x[0]) && isfinite(q->bodies[k].v[1]));
+            read++;
+        }
+        kd_playground_destroy(q);
+        whole.data[at] = kept;
+    }
+    assert_true(read > 10);
+    kd_buffer_finish(&whole);
+    kd_playground_destroy(p);
+}
+
+static void refuse(struct kd_playground **p, const char *text, const char *pointer)
+{
+    struct kd_error error = { 0 };
+    const enum kd_status status = *p ? kd_playground_patch(p, text, strlen(text), &error) : kd_playground_read(text, strlen(text), p, &error);
+    assert_int_equal(status, KD_EINVAL);
+    assert_string_equal(error.pointer, pointer);
+}
+
+static void documents_are_checked_and_changes_are_whole(void **state)
+{
+    (void)state;
+    struct kd_playground *none = NULL;
+    refuse(&none, "[]", "");
+    refuse(&none, "{\"gravity\":\"newton\"}", "/gravity");
+    refuse(&none, "{\"softening\":0}", "/softening");
+    refuse(&none, "{\"preset\":\"chaos\"}", "/preset");
+    refuse(&none, "{\"colour\":1}", "/colour");
+    refuse(&none, "{\"bodies\":[{\"mass\":1}]}", "/bodies/0");
+    refuse(&none, "{\"bodies\":[{\"position\":[10,0,0]},{\"position\":[1,1,1]}]}", "/bodies/1/position");
+    refuse(&none, "{\"bodies\":[{\"position\":[10,0,0],\"velocity\":[0.9,0.9,0]}]}", "/bodies/0/velocity");
+    struct kd_playground *p = playground_read("{\"preset\":\"system\"}");
+    struct kd_error error = { 0 };
+    refuse(&p, "{\"waves\":true,\"add\":[{\"position\":[40,0,0]}],\"remove\":[99]}", "/remove/0");
+    refuse(&p, "{\"change\":[{\"id\":2,\"mass\":-1}]}", "/change/0/mass");
+    refuse(&p, "{\"spin\":0.5}", "/spin");
+    assert_int_equal(p->n, 6);
+    assert_false(p->params.waves);
+    const char *good = "{\"waves\":true,\"add\":[{\"position\":[40,0,0],\"name\":\"new\"}],\"change\":[{\"id\":2,\"mass\":0.5}],\"remove\":[1]}";
+    assert_int_equal(kd_playground_patch(&p, good, strlen(good), &error), KD_OK);
+    assert_int_equal(p->n, 6);
+    assert_true(p->params.waves && kd_playground_find(p, 2)->mass == 0.5 && !kd_playground_find(p, 1));
+    assert_string_equal(kd_playground_find(p, 7)->name, "new");
+    kd_playground_destroy(p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bodies_follow_the_closed_form),
+        cmocka_unit_test(the_velocity_told_begins_the_same_motion),
+        cmocka_unit_test(who_leaves_is_told),
+        cmocka_unit_test(snapshots_start_again_to_the_bit),
+        cmocka_unit_test(damaged_snapshots_do_no_harm),
+        cmocka_unit_test(documents_are_checked_and_changes_are_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
