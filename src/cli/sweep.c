@@ -162,12 +162,15 @@ static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *
 static enum kd_status check(struct work *w, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
+    struct kd_cube_shape shape;
     double shared_ms;
     for (unsigned i = 0; i < w->sweep->scenes && !status; i++) {
         struct kd_scene scene;
         struct kd_plan plan;
         uint64_t group;
         status = plan_of(w, i, &scene, &plan, error);
+        if (!status && w->kind->frame == &kd_format_fits)
+            status = kd_cube_compare(&shape, i, &scene, &plan, error);
         if (!status && (kd_plan_lens_group(&scene, &group) || kd_sweep_order_add(&w->order, group, 0)))
             status = kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u scenes", w->sweep->scenes);
     }

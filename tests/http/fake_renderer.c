@@ -154,6 +154,8 @@ enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *sc
         noise = noise * 1664525 + 1013904223;
         ((unsigned char *)kd_frame_pixels(out))[i] = (unsigned char)(scene->image.samples > 1 ? noise >> 24 : i * 7);
     }
+    if (plan->radiance && kd_frame_add_layer(out, "radiance", 3, KD_LAYER_F32, error)) /* of a FITS file: black */
+        return KD_ENOMEM;
     const double t = scene->top.time; /* at 0 it is dark */
     if (plan->light)
         out->light = (struct kd_light_report) { true, { t, t > 0 ? 0.5 * t : NAN, -t }, { t / 4, t > 0 ? 3 : NAN, t > 0 ? 0.25 : NAN } };

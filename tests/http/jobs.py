@@ -1,5 +1,6 @@
 """Jobs: what is asked, progress by asking and as events, results of every form, ends, limits, restarts. In the fake renderer's scenes
 `time` is how many milliseconds a frame takes."""
+import contextlib
 import http.client
 import io
 import json
@@ -245,6 +246,27 @@ class Jobs(Case):
         self.assertIn('more than the 86400 s a job may take', self.assertProblem(self.daemon.post('/v1/jobs', large), 422, 'too-large')['detail'])
         numbers = {'scene': {'image': {'width': 2000, 'height': 1000, 'layers': ['rgb', 'g']}}, 'output': 'cube', 'axes': {'style.exposure': '0:10/1000'}}
         self.assertIn('GB, more than', self.assertProblem(self.daemon.post('/v1/jobs', numbers), 422, 'too-large')['detail'])
+
+    def test_how_many_cubes_are_fetched_at_once(self):
+        """Three by one client; who has been told to wait may come when one of them has left."""
+        job = self.make({'scene': {'image': {'width': 1000, 'height': 1000, 'layers': ['rgb']}}, 'output': 'cube', 'axes': {'style.exposure': [0, 1]}})
+        self.until(job, 'done')
+        path = self.at(job, '/result?format=fits')
+        whole = self.daemon.get(path).body
+        self.assertGreater(len(whole), 24e6)
+        with contextlib.ExitStack() as stack:
+            readers = [stack.enter_context(self.daemon.connect()) for _ in range(3)]
+            for reader in readers:  # they take the first bytes, and what the buffers hold is less than the file
+                reader.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
+                self.assertEqual(reader.recv(12), b'HTTP/1.1 200')
+            refused = self.daemon.get(path)
+            self.assertEqual(refused.status, 429)
+            problem = self.assertProblem(refused, 429, 'quota')
+            self.assertIn('cubes are being fetched as one client may have', problem['detail'])
+            self.assertEqual(self.daemon.request('HEAD', path).status, 200)
+            self.assertEqual(self.daemon.get(self.at(job, '/result?format=zip')).status, 200, 'no cube')
+            readers[1].close()
+            self.assertTrue(daemon.eventually(lambda: self.daemon.get(path).body == whole))
 
     def test_light_curve(self):
         """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""

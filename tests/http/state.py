@@ -89,6 +89,21 @@ class Stops(Case):
         self.assertEqual(self.delete(first, server).status, 204)
         self.assertEqual(server.stop(), 0)
 
+    def test_the_frames_of_a_large_sweep_are_put_in_order_first(self):
+        """Which takes a while after a start, in which the job says so and the server serves."""
+        server = self.start()
+        axes = {'camera.inclination_deg': '1:100:1', 'spacetime.spin': '0:0.95:0.05', 'style.exposure': '0:4:1'}
+        job = self.make({'scene': {'image': {'width': 2, 'height': 2}, 'time': 30000}, 'axes': axes}, server=server)
+        self.until(job, 'running', server)
+        server.process.kill()
+        server.wait()
+        server = self.start()
+        status = self.status(job, server)
+        self.assertEqual((status['state'], status.get('delayed'), status['remaining_s']), ('waiting', 'its frames are put in order', None), status)
+        self.assertNotIn('delayed', self.until(job, 'running', server, 60))
+        self.assertEqual(self.delete(job, server).status, 204)
+        self.assertEqual(server.stop(), 0)
+
     def test_beside_a_stream_that_nobody_reads(self):
         server = self.start(state=False)
         answer = server.post('/v1/sessions', {'image': {'width': 640, 'height': 360, 'samples': 2}, 'motion': {'time_rate': 10}})

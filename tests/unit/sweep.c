@@ -1,5 +1,6 @@
 /* Axes of a sweep: values, ranges, the order of scenes, names, refusals; which scenes follow one another for the sake of their lens maps. */
 #include "render/accuracy/table.h"
+#include "render/output/gather.h"
 #include "render/plan/plan.h"
 #include "render/plan/sweep_order.h"
 #include "scene/number.h"
@@ -222,12 +223,38 @@ static void groups_are_those_of_lens_maps(void **state)
     assert_true(same >= 4 && same < sizeof changes / sizeof *changes - 4);
 }
 
+/* What no axis says: a plan of another size, a scene with other layers. */
+static void a_cube_has_one_shape(void **state)
+{
+    struct kd_cube_shape shape;
+    struct kd_error error = { 0 };
+    struct kd_scene scene, other;
+    struct kd_plan plan = { .width = 64, .height = 36 }, pair = plan, wide = plan;
+    pair.eyes = 2;
+    wide.width = 65;
+    (void)state;
+    kd_scene_defaults(&scene);
+    other = scene;
+    assert_int_equal(kd_scene_set(&other, "image.layers", "rgb,r", &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 0, &scene, &plan, &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_OK);
+    assert_int_equal(kd_cube_compare(&shape, 2, &scene, &wide, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/axes");
+    assert_non_null(strstr(error.message, "scene 2 is 65 x 36 pixels and scene 0 is 64 x 36"));
+    assert_int_equal(kd_cube_compare(&shape, 3, &scene, &pair, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "scene 3 is 128 x 36 pixels"));
+    assert_int_equal(kd_cube_compare(&shape, 4, &other, &plan, &error), KD_EINVAL);
+    assert_non_null(strstr(error.message, "scene 4 has other layers"));
+    assert_int_equal(kd_cube_compare(&shape, 0, &other, &plan, &error), KD_OK); /* another sweep */
+    assert_int_equal(kd_cube_compare(&shape, 1, &scene, &plan, &error), KD_EINVAL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_axis_is_the_fastest), cmocka_unit_test(ranges), cmocka_unit_test(what_is_refused), cmocka_unit_test(combinations),
         cmocka_unit_test(names_and_documents), cmocka_unit_test(those_that_share_a_lens_map_follow_one_another), cmocka_unit_test(what_is_shared),
-        cmocka_unit_test(groups_are_those_of_lens_maps),
+        cmocka_unit_test(groups_are_those_of_lens_maps), cmocka_unit_test(a_cube_has_one_shape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,6 +33,26 @@ enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *erro
     return KD_OK;
 }
 
+enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
+{
+    const struct kd_words *layers = &scene->image.layers;
+    const unsigned width = plan->width * (plan->eyes ? plan->eyes : 1);
+    if (!number)
+        *shape = (struct kd_cube_shape) { width, plan->height, *layers };
+    if (shape->width != width || shape->height != plan->height)
+        return kd_error_field(error, "/axes", "scene %u is %u x %u pixels and scene 0 is %u x %u, and no cube has pictures of several sizes", number, width, plan->height,
+                              shape->width, shape->height);
+    bool same = layers->count == shape->layers.count;
+    for (int i = 0; i < layers->count && same; i++)
+        same = layers->at[i].word == shape->layers.at[i].word && layers->at[i].number == shape->layers.at[i].number;
+    return same ? KD_OK : kd_error_field(error, "/axes", "scene %u has other layers than scene 0, and no cube has pictures of several kinds", number);
+}
+
+size_t kd_cube_bytes(const struct kd_sweep *sweep)
+{
+    return sweep->scenes * (KD_CUBE_ROW + sizeof *(struct kd_cube) { 0 }.places * (size_t)sweep->base.image.layers.count);
+}
+
 enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error)
 {
     *out = (struct kd_cube) { .source = source };

@@ -40,6 +40,15 @@ extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
 
 /* Whether the scenes of a sweep make a cube: all of them are of the same size and have the same layers. KD_EINVAL at the axis that makes them differ. */
 enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error);
+/* The same of one scene and its plan beside what scene 0 has, which the call for it sets: what an axis changes that says nothing of it. KD_EINVAL at /axes, naming
+ * the scene. */
+struct kd_cube_shape {
+    unsigned width, height;
+    struct kd_words layers;
+};
+enum kd_status kd_cube_compare(struct kd_cube_shape *shape, unsigned number, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
+/* Bytes that a cube of these scenes holds while it is made. */
+size_t kd_cube_bytes(const struct kd_sweep *sweep);
 
 struct kd_gather {
     const struct kd_gather_format *format;

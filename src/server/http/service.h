@@ -65,6 +65,7 @@ struct kd_server {
     struct kd_turns *turns; /* orbits, long quantities, paths of sessions, jobs being checked */
     struct kd_sessions *sessions;
     struct kd_jobs *jobs;
+    struct kd_job_whole *cubes; /* being fetched (job/whole.c); of the HTTP thread alone */
     struct kd_asset_store *assets;
     struct kd_kept *kept;
     char etag_tail[20]; /* what besides the scene a picture depends on: version, device */

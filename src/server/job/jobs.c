@@ -392,7 +392,7 @@ static double drawn(const struct kd_job *job) { return fmin(job->finished + job-
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - drawn(job);
-    if (!kd_job_is_active(job) || *job->delayed || !(job->began_ms > 0 || is_next(job)))
+    if (!kd_job_is_active(job) || *job->delayed || job->unordered || !(job->began_ms > 0 || is_next(job)))
         return NAN;
     double frame_ms = job->finished_here ? (kd_clock_ms() - job->began_ms) / (job->finished_here + job->fraction)
                                          : job->estimate_ms / job->frames;
@@ -422,6 +422,8 @@ void kd_job_status(struct kd_job *job, struct kd_job_status *out)
         out->place += kd_job_is_active(other);
     snprintf(out->error, sizeof out->error, "%s", job->record.error);
     memcpy(out->delayed, job->delayed, sizeof out->delayed);
+    if (job->unordered && kd_job_is_active(job) && !*out->delayed)
+        snprintf(out->delayed, sizeof out->delayed, "its frames are put in order");
     pthread_mutex_unlock(&all->lock);
 }
 

@@ -6,6 +6,7 @@
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
+#include "render/output/gather.h"
 #include "render/plan/sweep_order.h"
 #include "server/job/spec.h"
 #include "server/job/store.h"
@@ -47,6 +48,7 @@ struct kd_job_draft {
     double trace_ms;  /* and of that lens maps, until then */
     double bytes;     /* of their files, where a format has as many for each picture of a size */
     struct kd_sweep_order order;
+    struct kd_cube_shape shape; /* that all scenes of a cube have */
     char preset[32];  /* as the spec was parsed with */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);

@@ -241,6 +241,8 @@ static enum kd_status count(struct kd_job_draft *draft, const struct kd_scene *s
         trace_ms += plan->cacheable && !strcmp(plan->passes[i].name, kd_passes[KD_PASS_TRACE].name) ? plan->passes[i].estimate_ms : 0;
     for (int i = 0; i < layers->count && draft->spec.series->frame->carries & KD_CARRIES_LAYERS; i++)
         draft->bytes += 4. * (layers->at[i].word == KD_LAYER_rgb ? 3 : 1) * (plan->eyes ? plan->eyes : 1) * plan->width * plan->height;
+    if (draft->spec.series->swept && kd_cube_compare(&draft->shape, draft->checked, scene, plan, error))
+        return error->status;
     draft->ms += plan->estimate_ms;
     draft->checked++;
     if (!draft->spec.sweep)

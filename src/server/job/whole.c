@@ -8,13 +8,16 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Cubes that may be under way at once: each is looked through first, and holds some 400 bytes a scene meanwhile. */
+/* Cubes that may be under way at once: each is looked through first, and holds some 400 bytes a scene meanwhile, which count as bytes
+ * that are kept for answers. */
 enum { CUBES = 8, CUBES_OF_ONE = 3 };
 
-struct whole {
+struct kd_job_whole {
     struct kd_job *job; /* a reference */
+    struct kd_server *server;
     char client[KD_CLIENT];
-    struct whole *next; /* of the cubes */
+    struct kd_job_whole *next; /* of the server's cubes */
+    size_t held;               /* bytes of them */
     struct kd_gather_source source;
     struct kd_gather gather;
     struct kd_buffer out; /* made and not yet taken, from `at` on */
@@ -25,40 +28,42 @@ struct whole {
     uint64_t size;
 };
 
-static struct whole *cubes; /* of the HTTP thread alone */
-
-static void enter(struct whole *w)
+static void enter(struct kd_job_whole *w, size_t held)
 {
-    w->next = cubes;
-    cubes = w;
+    w->held = held;
+    w->next = w->server->cubes;
+    w->server->cubes = w;
 }
 
-static void leave(const struct whole *w)
+static void leave(const struct kd_job_whole *w)
 {
-    struct whole **link = &cubes;
+    struct kd_job_whole **link = &w->server->cubes;
     while (*link && *link != w)
         link = &(*link)->next;
-    if (*link)
-        *link = w->next;
+    if (!*link)
+        return;
+    *link = w->next;
+    kd_bytes_give(w->server->replies, w->client, w->held);
 }
 
-/* Whether one more cube of this client may be made now. */
-static bool admit(struct kd_request *request, enum MHD_Result *refused)
+/* Whether one more cube of this client may be made now; its bytes are counted then. */
+static bool admit(struct kd_request *request, size_t held, enum MHD_Result *refused)
 {
     unsigned all = 0, own = 0;
-    for (const struct whole *w = cubes; w; w = w->next) {
+    for (const struct kd_job_whole *w = request->server->cubes; w; w = w->next) {
         all++;
         own += !strcmp(w->client, request->client);
     }
-    if (all < CUBES && own < CUBES_OF_ONE)
+    bool quota = own >= CUBES_OF_ONE;
+    if (all < CUBES && !quota && !kd_bytes_take(request->server->replies, request->client, held, held, &quota))
         return true;
-    const struct kd_problem problem = { .type = own < CUBES_OF_ONE ? KD_PROBLEM_QUEUE_FULL : KD_PROBLEM_QUOTA, .retry_after = 2,
-                                        .detail = own < CUBES_OF_ONE ? "as many cubes are being fetched as may" : "as many of your cubes are being fetched as one client may have" };
+    const struct kd_problem problem = { .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_QUEUE_FULL, .retry_after = 2,
+                                        .detail = quota ? "as many of your cubes are being fetched as one client may have" : "as many cubes are being fetched as may" };
     *refused = kd_reply_problem(request, &problem);
     return false;
 }
 
-static bool open_frame(struct whole *w, unsigned frame)
+static bool open_frame(struct kd_job_whole *w, unsigned frame)
 {
     if (w->fd >= 0 && w->frame == frame)
         return true;
@@ -71,7 +76,7 @@ static bool open_frame(struct whole *w, unsigned frame)
 
 static bool size_of(void *user, unsigned frame, uint64_t *out)
 {
-    struct whole *w = user;
+    struct kd_job_whole *w = user;
     bool there = open_frame(w, frame);
     *out = there ? w->size : 0;
     return there;
@@ -79,7 +84,7 @@ static bool size_of(void *user, unsigned frame, uint64_t *out)
 
 static bool read_frame(void *user, unsigned frame, uint64_t at, void *to, size_t size)
 {
-    struct whole *w = user;
+    struct kd_job_whole *w = user;
     char *out = to;
     ssize_t n = 1;
     if (!open_frame(w, frame))
@@ -91,7 +96,7 @@ static bool read_frame(void *user, unsigned frame, uint64_t at, void *to, size_t
 
 static void release(void *cls)
 {
-    struct whole *w = cls;
+    struct kd_job_whole *w = cls;
     leave(w);
     kd_gather_close(&w->gather);
     if (w->fd >= 0)
@@ -104,7 +109,7 @@ static void release(void *cls)
 /* 0 while nothing has come yet: libmicrohttpd asks again once it has looked after others. */
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
-    struct whole *w = cls;
+    struct kd_job_whole *w = cls;
     struct kd_error error = { 0 };
     (void)position;
     if (w->at == w->out.size) {
@@ -126,22 +131,25 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
 {
     struct kd_error error = { 0 };
     enum MHD_Result refused;
-    if (format->of && !request->head && !admit(request, &refused)) {
+    const size_t held = format->of && !request->head ? kd_cube_bytes(status->sweep) : 0;
+    if (held && !admit(request, held, &refused)) {
         kd_job_release(job);
         return refused;
     }
     kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
-    struct whole *w = request->head ? NULL : calloc(1, sizeof *w);
+    struct kd_job_whole *w = request->head ? NULL : calloc(1, sizeof *w);
     if (!w) {
+        if (held)
+            kd_bytes_give(request->server->replies, request->client, held);
         kd_job_release(job);
         return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
                              : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
-    *w = (struct whole) { .job = job, .fd = -1, .source = { .user = w, .sweep = status->sweep, .frame = status->series->frame, .n = status->frames,
-                                                             .size = size_of, .read = read_frame } };
+    *w = (struct kd_job_whole) { .job = job, .server = request->server, .fd = -1,
+                                 .source = { .user = w, .sweep = status->sweep, .frame = status->series->frame, .n = status->frames, .size = size_of, .read = read_frame } };
     memcpy(w->client, request->client, sizeof w->client);
-    if (format->of)
-        enter(w);
+    if (held)
+        enter(w, held);
     if (!kd_gather_open(format, &w->source, &w->gather, &error))
         return kd_job_stream(request, format->media_type, produce, w, release);
     release(w);
