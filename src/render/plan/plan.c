@@ -6,16 +6,12 @@
 #include "lens.h"
 #include "physics/angle.h"
 #include "physics/kerr.h"
-#include "scene/table.h"
 #include "render/accuracy/table.h"
-#include "render/view/critical_kept.h"
 #include "render/view/layout.h"
-#include "render/view/rim.h"
-#include "render/plan/photometry.h"
-#include "scene/sha256.h"
+#include "render/plan/lens_key.h"
+#include "render/plan/room.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
@@ -91,55 +87,6 @@ static void approximations(struct kd_plan *plan, const struct kd_scene *scene)
             say(plan, sentences[i].text);
 }
 
-/* Writes what a camera sees of a hole, as far as the lens map depends on it: all of the camera but its azimuth, which adds a constant to all azimuths and
- * is added where light is made. */
-static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer *text)
-{
-    const struct kd_section *camera = kd_section_find("camera");
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(text, "a %a", scene->spacetime.spin));
-    for (size_t i = camera->first; i < camera->first + camera->count; i++)
-        if (strcmp(kd_fields[i].name, "azimuth_deg"))
-            KD_TRY(kd_buffer_printf(text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));
-done:
-    return status;
-}
-
-/* The key is a hash of what the lens map depends on: the hole, the camera, the rays, how they are followed, and the quantities that it holds. */
-static enum kd_status lens_key(struct kd_plan *plan, const struct kd_scene *scene)
-{
-    struct kd_buffer text = { 0 };
-    const struct kd_setting *by = &plan->setting;
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, ", plan->quantities, plan->orders,
-                            scene->image.width, scene->image.height, (int)plan->side, scene->image.critical_factor, (int)by->engine,
-                            (int)by->precision, by->steps, (int)plan->path));
-    KD_TRY(write_view(scene, &text));
-    kd_sha256(text.data, text.size, plan->lens_key);
-done:
-    kd_buffer_finish(&text);
-    return status;
-}
-
-enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
-{
-    struct kd_buffer text = { 0 };
-    const struct kd_section *accuracy = kd_section_find("accuracy");
-    char hash[65];
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d, ", kd_needs_of(scene).quantities, scene->image.width, scene->image.height, (int)kd_scene_side(scene),
-                            scene->image.critical_factor));
-    for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)
-        KD_TRY(kd_buffer_printf(&text, "%a ", kd_field_get(scene, &kd_fields[i], 0)));
-    KD_TRY(write_view(scene, &text));
-    kd_sha256(text.data, text.size, hash);
-    hash[16] = 0;
-    *out = strtoull(hash, NULL, 16);
-done:
-    kd_buffer_finish(&text);
-    return status;
-}
-
 static void passes(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
 {
     plan->trace_ns = kd_pass_cost(&kd_passes[KD_PASS_TRACE], plan, c).ns;
@@ -158,136 +105,6 @@ double kd_plan_exposure(const struct kd_plan *plan, double stops)
 {
     double share = plan->exposure_share;
     return share > 0 ? plan->exposure_from + share * (stops - plan->exposure_from) : stops;
-}
-
-/* The limits are the device's, with what Vulkan 1.2 guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize) where the
- * capacity names none. */
-static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
-static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
-static uint64_t buffer_bytes(const struct kd_capacity *c)
-{
-    uint64_t allocation = c->max_allocation_bytes ? c->max_allocation_bytes : 1ull << 30;
-    return allocation < c->max_binding_bytes ? allocation : c->max_binding_bytes;
-}
-
-static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
-
-/* Counts the rows of pixels that each pass can take in one dispatch: trace has a row of groups for each row of rays; the others go
- * through the pixels of a band in one line, light 64 and post 4 to an invocation. expose, with a few hundred groups, is far from
- * it. */
-static uint64_t rows_of_groups(const struct kd_plan *plan, const struct kd_capacity *c)
-{
-    uint64_t rows = groups_y(c) / plan->side, in_line = groups_x(c) * KD_GROUP_SIZE;
-    return least(rows, in_line * KD_POST_PIXELS / plan->width);
-}
-
-/* Checks that all of it fits. On the host a picture is there twice, as pixels and as the file that they become. */
-static enum kd_status fits(struct kd_plan *plan, uint64_t fixed, uint64_t one_band, const struct kd_capacity *c, struct kd_error *error)
-{
-    const char *where = "device", *by = c->memory_by ? c->memory_by : "the device";
-    uint64_t host = 2 * plan->host_bytes + plan->making_bytes, bytes = c->host_memory ? fixed + host : fixed, most = c->memory_bytes;
-    plan->cacheable = bytes + plan->lens_bytes <= most;
-    plan->device_bytes = fixed + (plan->cacheable ? plan->lens_bytes : one_band);
-    bytes += plan->device_bytes - fixed;
-    if (bytes <= most && !c->host_memory && c->host_bytes && host > c->host_bytes) {
-        where = "host";
-        by = "what the host has left";
-        bytes = host;
-        most = c->host_bytes;
-    }
-    if (bytes <= most)
-        return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG,
-                        "the picture needs %.2f GiB of %s memory, %.2f GiB are allowed (by %s): lower image.width, image.height or "
-                        "image.samples", (double)bytes / (1 << 30), where, (double)most / (1 << 30), by);
-}
-
-/* Counts the bytes of a beam, which goes through rows of cells and grids of them. */
-static uint64_t beam_bytes(const struct kd_plan *plan)
-{
-    if (!plan->beam.cell)
-        return 0;
-    return 12ull * plan->width * plan->height + kd_beam_lines_bytes(&plan->beam) + kd_beam_grids_bytes(&plan->beam);
-}
-
-static enum kd_status beam_fits(const struct kd_plan *plan, const struct kd_capacity *c, struct kd_error *error)
-{
-    const uint64_t lines = kd_beam_lines_bytes(&plan->beam), grids = kd_beam_grids_bytes(&plan->beam), bytes = lines > grids ? lines : grids;
-    if (!plan->beam.cell || bytes <= buffer_bytes(c))
-        return KD_OK;
-    return kd_error_set(error, KD_ETOOBIG, "a beam as narrow as style.beam_uas is in pixels needs %llu bytes at once, this device binds %llu: lower image.width and "
-                        "image.height, or raise style.beam_uas", (unsigned long long)bytes, (unsigned long long)buffer_bytes(c));
-}
-
-/* Rows of pixels whose lens map, radiance and packed pixels each fit one buffer and one binding, and whose workgroups one
- * dispatch. */
-static enum kd_status bands(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
-                            struct kd_error *error)
-{
-    uint64_t row_lens = 4ull * plan->planes * plan->width * plan->side * plan->side;
-    uint64_t row_light = kd_plan_pixel_bytes(plan) * plan->width, row_out = plan->unseen ? 0 : (scene->image.bit_depth == 16 ? 6ull : 3ull) * plan->width;
-    uint64_t row_shown = plan->adaptive ? 6ull * plan->width : row_out; /* pixels are chosen by 16 bits */
-    uint64_t row_layers = 4ull * plan->n_layers * plan->width;
-    uint64_t widest = row_lens > row_light ? row_lens : row_light;
-    widest = row_layers > widest ? row_layers : widest;
-    uint64_t row_points = plan->points ? 24ull * plan->width : 0;
-    widest = row_points > widest ? row_points : widest;
-    uint64_t rows = (buffer_bytes(c) - 64 - 256 * plan->n_layers) / widest, fit = rows_of_groups(plan, c);
-    if (rows < 1)
-        return kd_error_set(error, KD_ETOOBIG, "one row of the picture needs %llu bytes, this device binds %llu at once",
-                            (unsigned long long)widest, (unsigned long long)buffer_bytes(c));
-    if (fit < 1 || (uint64_t)plan->width * plan->side > groups_x(c) * KD_GROUP_SIZE)
-        return kd_error_set(error, KD_ETOOBIG, "one row of the picture has %llu rays, this device dispatches %llu workgroups of %d",
-                            (unsigned long long)plan->width * plan->side, (unsigned long long)groups_x(c), KD_GROUP_SIZE);
-    rows = least(rows, fit);
-    plan->band_rows = (uint32_t)(rows < plan->height ? rows : plan->height);
-    plan->bands = (plan->height + plan->band_rows - 1) / plan->band_rows;
-    uint64_t at_curve = kd_plan_critical_parts(plan) * kd_plan_critical_bytes(plan);
-    plan->lens_bytes = row_lens * plan->height + at_curve;
-    plan->making_bytes = kd_emit_making_bytes(scene);
-    plan->host_bytes = (row_out + row_layers + (plan->adaptive ? 12ull * plan->width : 0) + (plan->radiance ? 12ull * plan->width : 0)) * plan->height;
-    uint64_t fixed = plan->listed_bytes + kd_emit_device_bytes(scene) + row_light * plan->height + 2 * (row_shown * plan->band_rows + 64) + (1 << 20) +
-                     plan->bloom.bytes + beam_bytes(plan) + (plan->light ? 2 * kd_light_bytes(plan) : 0) +
-                     row_points * plan->height + (plan->points ? kd_plan_pair_bytes() + kd_plan_star_ray_bytes(plan) + kd_rim_bytes(KD_RIM_ANGLES * KD_RIM_ROWS) : 0) +
-                     plan->n_layers * kd_plan_layer_bytes(plan) * plan->bands + kd_plan_readback_bytes(plan);
-    uint64_t one_band = row_lens * plan->band_rows + at_curve;
-    return fits(plan, fixed, one_band, c, error);
-}
-
-/* Plans the pixels at the critical curve, where the image orders that are thinner than a pixel would show. */
-static enum kd_status critical(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c,
-                               struct kd_error *error)
-{
-    struct kd_critical_pixels list;
-    const uint64_t side = least(plan->side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
-    const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
-    if (plan->ring || side <= plan->side || !(plan->orders > 1 || plan->ends)) /* the direct image is nowhere thin */
-        return KD_OK;
-    enum kd_status status = kd_critical_kept(scene, &list, error);
-    uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->planes * side * side + 2));
-    kd_critical_pixels_finish(&list);
-    if (status || !n)
-        return status;
-    most = least(most, groups_x(c) * KD_GROUP_SIZE / (side * side));
-    most = least(most, (1ull << 32) / (4 * (plan->planes * side * side + 2))); /* the kernel counts in 32 bits */
-    if (!most)
-        return KD_OK;
-    plan->critical = (uint32_t)(side * side);
-    plan->critical_dense = plan->adaptive ? (uint32_t)(dense * dense) : 0;
-    plan->critical_pixels = n;
-    plan->critical_part = n < most ? n : most;
-    return KD_OK;
-}
-
-/* Pixels may have more rays than others; those of a ring are wide as it is. One buffer is for all, part by part. */
-static void adapt(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c)
-{
-    if (!kd_scene_adapts(scene) || plan->ring || plan->unseen || !plan->picture || !plan->planes)
-        return;
-    plan->adaptive = KD_PLAN_ADAPTIVE_SIDE * KD_PLAN_ADAPTIVE_SIDE;
-    plan->listed_bytes = least(least(4ull * plan->rays * (plan->planes * plan->adaptive + 2), KD_PLAN_LISTED_BYTES), buffer_bytes(c) - 64);
-    if (!kd_plan_listed_most(plan, KD_CRITICAL_SIDE * KD_CRITICAL_SIDE)) /* not one pixel */
-        plan->listed_bytes = 4ull * (plan->planes * KD_CRITICAL_SIDE * KD_CRITICAL_SIDE + 2);
 }
 
 /* A lens map keeps w = 1/r in 32 bits. */
@@ -447,7 +264,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", whose rays are listed, where light is followed through volumes: "
                               "allowed are the others");
     KD_TRY(kd_layers_check(scene, error));
-    KD_TRY(beam_fits(&plan, capacity, error));
+    KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
     if (kd_emit_along(scene)) {
         if (scene->accuracy.tolerance < KD_MARCH_HOLDS)
@@ -456,11 +273,11 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
         plan.march = kd_march_of(scene, &plan.setting);
     }
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
-    adapt(&plan, scene, capacity);
+    kd_plan_adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;
     plan.accuracy_measured = capacity->accuracy_measured;
     *out = plan;
-    KD_TRY(bands(out, scene, capacity, error));
+    KD_TRY(kd_plan_bands(out, scene, capacity, error));
 done:
     return status;
 }
@@ -498,7 +315,7 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     plan.eyes = 2;
     plan.n_approximations = 0;
     approximations(&plan, scene);
-    if (lens_key(&plan, scene))
+    if (kd_plan_lens_key(&plan, scene))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene"));
     *out = plan;
 done:
@@ -513,13 +330,13 @@ enum kd_status kd_plan_make_for(const struct kd_scene *scene, const struct kd_ne
     if (scene->camera.stereo == KD_STEREO_PAIR)
         return make_pair(scene, needs, capacity, out, error);
     KD_TRY(outline(scene, needs, capacity, &plan, error)); /* limits first: a list of what is too large takes long */
-    KD_TRY(critical(&plan, scene, capacity, error));
+    KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
     if (plan.critical)
-        KD_TRY(bands(&plan, scene, capacity, error));
+        KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
     plan.audit = plan.cacheable && plan.orders && !within_horizon(scene) ? KD_AUDIT_RAYS : 0; /* which the closed form judges by, outside */
     passes(&plan, scene, capacity);
     approximations(&plan, scene);
-    if (lens_key(&plan, scene))
+    if (kd_plan_lens_key(&plan, scene))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory while hashing the scene"));
     *out = plan;
 done:

@@ -1,0 +1,56 @@
+#include "render/plan/lens_key.h"
+
+#include "scene/sha256.h"
+#include "scene/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Writes what a camera sees of a hole, as far as the lens map depends on it: all of the camera but its azimuth, which adds a constant to all azimuths and
+ * is added where light is made. */
+static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer *text)
+{
+    const struct kd_section *camera = kd_section_find("camera");
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(text, "a %a", scene->spacetime.spin));
+    for (size_t i = camera->first; i < camera->first + camera->count; i++)
+        if (strcmp(kd_fields[i].name, "azimuth_deg"))
+            KD_TRY(kd_buffer_printf(text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));
+done:
+    return status;
+}
+
+/* The key is a hash of what the lens map depends on: the hole, the camera, the rays, how they are followed, and the quantities that it holds. */
+enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *scene)
+{
+    struct kd_buffer text = { 0 };
+    const struct kd_setting *by = &plan->setting;
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&text, "lens %u %u, rays %d x %d x %d, %d at the curve, by %d %d %u %d, ", plan->quantities, plan->orders,
+                            scene->image.width, scene->image.height, (int)plan->side, scene->image.critical_factor, (int)by->engine,
+                            (int)by->precision, by->steps, (int)plan->path));
+    KD_TRY(write_view(scene, &text));
+    kd_sha256(text.data, text.size, plan->lens_key);
+done:
+    kd_buffer_finish(&text);
+    return status;
+}
+
+enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
+{
+    struct kd_buffer text = { 0 };
+    const struct kd_section *accuracy = kd_section_find("accuracy");
+    char hash[65];
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d, ", kd_needs_of(scene).quantities, scene->image.width, scene->image.height, (int)kd_scene_side(scene),
+                            scene->image.critical_factor));
+    for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)
+        KD_TRY(kd_buffer_printf(&text, "%a ", kd_field_get(scene, &kd_fields[i], 0)));
+    KD_TRY(write_view(scene, &text));
+    kd_sha256(text.data, text.size, hash);
+    hash[16] = 0;
+    *out = strtoull(hash, NULL, 16);
+done:
+    kd_buffer_finish(&text);
+    return status;
+}
