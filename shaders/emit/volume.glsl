@@ -25,14 +25,24 @@ float kd_volume_energy(kd_midst p)
     return (p.energy - 2.0 * a * w2 * p.w / area * p.momentum) * sqrt(area / (sigma * max(delta, 1e-30)));
 }
 
+/* The march finds the edges of all volumes together. Those of the shell may lie within others: there a stretch is no longer than the way to them, or than this
+ * part of r, which is what is uncertain of the shell's length. */
+#define KD_VOLUME_EDGE 1e-3
+float kd_volume_grain(float r, float grain)
+{
+    float edge = min(abs(r - emission.volume.inner), abs(r - emission.volume.outer));
+    return KD_VOLUMES > 1 ? min(grain, max(edge, KD_VOLUME_EDGE * r)) : grain;
+}
+
 kd_medium kd_volume_along(kd_midst p)
 {
     bool shifts = (TRAITS_volume & KD_TRAIT_REDSHIFT) != 0u;
     float r = 1.0 / p.w, seen = shifts ? kd_volume_energy(p) : 1.0, g = 1.0 / max(seen, 1e-6);
     vec3 colour = kd_colour_of(kd_colour_at(g * emission.volume.temperature));
-    kd_medium medium = kd_medium(min(emission.volume.emissivity * g * g * g, 1e30) * colour, emission.volume.opacity * seen, shifts ? 0.6 * (r - 1.0 / cam.horizon) : 1e30);
+    kd_medium medium = kd_medium(min(emission.volume.emissivity * g * g * g, 1e30) * colour, emission.volume.opacity * seen,
+                                 kd_volume_grain(r, shifts ? 0.6 * (r - 1.0 / cam.horizon) : 1e30));
     if (r < emission.volume.inner || r > emission.volume.outer)
-        return kd_medium(vec3(0.0), 0.0, max(max(emission.volume.inner - r, r - emission.volume.outer), 0.1 * r));
+        return kd_medium(vec3(0.0), 0.0, kd_volume_grain(r, max(max(emission.volume.inner - r, r - emission.volume.outer), 0.1 * r)));
     return medium;
 }
 #endif

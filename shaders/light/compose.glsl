@@ -30,6 +30,9 @@ struct kd_beam { vec3 light; float apart, through; };
 KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_HAS(name) ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u)
 #define KD_NO_EMITTER_(number, name)
+/* Volumes in the scene. */
+#define KD_PRESENT_(number, name) + ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u ? 1 : 0)
+const int KD_VOLUMES = 0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_PRESENT_);
 
 #define KD_EMIT_CODE
 #define KD_EMIT_END_CODE
@@ -73,6 +76,7 @@ kd_medium kd_medium_at(kd_midst p)
 #define KD_ALONG_(number, name)                                                                                \
     if (KD_HAS(name)) {                                                                                        \
         kd_medium one = kd_##name##_along(p);                                                                  \
+        KD_TELL_MEDIUM(name, one)                                                                              \
         sum.light += one.light;                                                                                \
         sum.depth += one.depth;                                                                                \
         sum.grain = min(sum.grain, one.grain);                                                                 \
@@ -86,6 +90,7 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {
     float x = medium.depth * way, passes = exp(-x);
     float mean = x < 0.02 ? 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))) : (1.0 - passes) / x;
+    KD_TELL_ON(beam.through * mean, way)
     beam.light += (beam.through * mean) * min(way * medium.light, KD_BEAM_MOST);
     beam.through *= passes;
 }

@@ -178,6 +178,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, v
         float next = from + length_;
         length_ = next - from; /* as rounded */
         kd_beam trial = beam;
+        KD_TELL_TRY
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
         for (int k = 0; k < 3; k++) {
@@ -195,6 +196,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, v
         }
         wish = max(most, least);
         if (length_ > 0.0 && length_ <= KD_MARCH_TOO_LONG * wish) {
+            KD_TELL_TAKE(beam.light, trial.light, beam.through * kd_march_rest(one, two, three))
             beam.light = min(trial.light + beam.through * kd_march_rest(one, two, three), KD_BEAM_MOST);
             beam.through = trial.through;
             from = length_ < left ? next : to;
@@ -340,6 +342,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
     }
     if (y.lost)
         KD_MARCH_GIVEN_UP(beam);
+    KD_TELL_MARCHED(y.steps)
     for (uint n = y.crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)

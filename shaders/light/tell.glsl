@@ -8,8 +8,9 @@
  *   KD_TELL_ENDS      where it ends: cosine of the polar angle, azimuth, footprint
  *   KD_TELL_OF_END, KD_TELL_OF_POINTS   an emitter there: its number, light
  *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through before and behind it
+ *   KD_TELL_OF_VOLUME a volume, of the whole ray: its number, light as it arrives, optical depth
  *   KD_TELL_LOST      the ray was given up
- *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through */
+ *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, and the steps and places of the march */
 #ifndef KD_TELL_GLSL
 #define KD_TELL_GLSL
 
@@ -58,8 +59,45 @@ void kd_tell_place(kd_sample s, float through)
 #define KD_TELL_END(end) kd_tell(KD_TELL_ENDS, vec4(end.u, end.phi, end.footprint, 0.0), vec4(0.0), vec2(0.0));
 #define KD_TELL_LIGHT(of, number, light) kd_tell(of, vec4(number, light), vec4(0.0), vec2(0.0));
 #define KD_TELL_GIVEN_UP kd_tell(KD_TELL_LOST, vec4(0.0), vec4(0.0), vec2(0.0));
-#define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(0.0), vec2(0.0));
+#define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(kd_told_steps, kd_told_places, 0.0, 0.0), vec2(0.0));
+
+/* Light and depth of each volume: of a place a unit of the affine parameter, of the stretch that is tried, and of all that were taken. */
+float kd_told_steps = 0.0, kd_told_places = 0.0;
+#define KD_TELL_NONE_(number, name)
+#define KD_TELL_VOLUME_(number, name) vec4 kd_place_##name = vec4(0.0), kd_tried_##name = vec4(0.0), kd_told_##name = vec4(0.0);
+#define KD_TELL_VOLUMES_(OF) KD_EMITTERS(KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, OF)
+KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
+#define KD_TELL_MEDIUM(name, one) kd_place_##name = vec4(one.light, one.depth);
+#define KD_TELL_TRY_(number, name) kd_tried_##name = vec4(0.0);
+#define KD_TELL_TRY                                                                                            \
+    kd_told_places += 3.0;                                                                                     \
+    KD_TELL_VOLUMES_(KD_TELL_TRY_)
+#define KD_TELL_ON_(number, name) kd_tried_##name += vec4(tells * min(told_way * kd_place_##name.rgb, 1e30), told_way * kd_place_##name.a);
+#define KD_TELL_ON(comes, way)                                                                                 \
+    {                                                                                                          \
+        float tells = comes, told_way = way;                                                                   \
+        KD_TELL_VOLUMES_(KD_TELL_ON_)                                                                          \
+    }
+/* What the stretch adds beyond the sum of its places is each volume's by its share of that. */
+#define KD_TELL_TAKE_(number, name) kd_told_##name += kd_tried_##name * vec4(share, 1.0);
+#define KD_TELL_TAKE(before, tried, rest)                                                                      \
+    {                                                                                                          \
+        vec3 added = tried - before, share = vec3(1.0) + rest / max(added, vec3(1e-30));                       \
+        share = vec3(added.r > 0.0 ? share.r : 1.0, added.g > 0.0 ? share.g : 1.0, added.b > 0.0 ? share.b : 1.0); \
+        KD_TELL_VOLUMES_(KD_TELL_TAKE_)                                                                        \
+    }
+#define KD_TELL_OF_(number, name)                                                                              \
+    if (KD_HAS(name))                                                                                          \
+        kd_tell(KD_TELL_OF_VOLUME, vec4(number, kd_told_##name.rgb), vec4(kd_told_##name.a, 0.0, 0.0, 0.0), vec2(0.0));
+#define KD_TELL_MARCHED(steps)                                                                                 \
+    kd_told_steps = float(steps);                                                                              \
+    KD_TELL_VOLUMES_(KD_TELL_OF_)
 #else
+#define KD_TELL_MEDIUM(name, one)
+#define KD_TELL_TRY
+#define KD_TELL_ON(comes, way)
+#define KD_TELL_TAKE(before, tried, rest)
+#define KD_TELL_MARCHED(steps)
 #define KD_TELL_PLACE(s, through)
 #define KD_TELL_GLOW(number, seen, glow)
 #define KD_TELL_BEFORE(beam)

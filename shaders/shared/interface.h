@@ -202,6 +202,7 @@
 #define KD_TELL_FRONT 6.0
 #define KD_TELL_WHOLE 7.0
 #define KD_TELL_ALONG 8.0
+#define KD_TELL_OF_VOLUME 9.0
 #define KD_TELL_SUMS 2u /* records in front of the others: KD_TELL_FRONT and KD_TELL_WHOLE */
 
 #endif

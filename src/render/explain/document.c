@@ -154,9 +154,29 @@ static void put_crossings(struct kd_json *json, const struct kd_explained *x)
     kd_json_end(json);
 }
 
-#define NOT_(number, name)
-#define ALONG_(number, name) [number] = true,
-static const bool is_along[KD_EMITTER_COUNT] = { KD_EMITTERS(NOT_, NOT_, NOT_, NOT_, ALONG_) };
+static void put_volume(struct kd_json *json, const struct kd_told_volume *v)
+{
+    kd_json_object(json, NULL);
+    kd_json_string(json, "name", kd_emitters[v->emitter]->name);
+    put_rgb(json, "seen", v->light, 1);
+    kd_json_number(json, "luminance_seen", luminance(v->light));
+    kd_json_number(json, "optical_depth", v->depth);
+    kd_json_end(json);
+}
+
+static void put_stretch(struct kd_json *json, const struct kd_told_stretch *s)
+{
+    kd_json_object(json, NULL);
+    kd_json_number(json, "order", s->order);
+    for (int end = 0; end < 2; end++) {
+        kd_json_number(json, end ? "to_r" : "from_r", 1 / (double)s->w[end]);
+        kd_json_number(json, end ? "to_theta" : "from_theta", acos(fmax(-1, fmin(1, (double)s->u[end]))));
+    }
+    put_rgb(json, "seen", s->light, 1);
+    kd_json_number(json, "through", s->through[0]);
+    put_depth(json, passed(s));
+    kd_json_end(json);
+}
 
 /* What lies along the ray, if the scene has volumes. */
 static void put_along(struct kd_json *json, const struct kd_explained *x)
@@ -173,27 +193,21 @@ static void put_along(struct kd_json *json, const struct kd_explained *x)
         return;
     kd_json_object(json, "along");
     kd_json_array(json, "names");
-    for (size_t i = 0; i < KD_EMITTER_COUNT; i++)
-        if (kd_emit_has(&x->scene, kd_emitters[i]) && is_along[i])
-            kd_json_string(json, NULL, kd_emitters[i]->name);
+    for (size_t i = 0; i < t->n_volumes; i++)
+        kd_json_string(json, NULL, kd_emitters[t->volumes[i].emitter]->name);
     kd_json_end(json);
+    kd_json_number(json, "steps", t->steps);
+    kd_json_number(json, "samples", t->samples);
     put_rgb(json, "seen", sum, 1);
     kd_json_number(json, "luminance_seen", luminance(sum));
     put_depth(json, passes);
+    kd_json_array(json, "volumes");
+    for (size_t i = 0; i < t->n_volumes; i++)
+        put_volume(json, &t->volumes[i]);
+    kd_json_end(json);
     kd_json_array(json, "stretches");
-    for (size_t i = 0; i < t->n_stretches; i++) {
-        const struct kd_told_stretch *s = &t->stretches[i];
-        kd_json_object(json, NULL);
-        kd_json_number(json, "order", s->order);
-        for (int end = 0; end < 2; end++) {
-            kd_json_number(json, end ? "to_r" : "from_r", 1 / (double)s->w[end]);
-            kd_json_number(json, end ? "to_theta" : "from_theta", acos(fmax(-1, fmin(1, (double)s->u[end]))));
-        }
-        put_rgb(json, "seen", s->light, 1);
-        kd_json_number(json, "through", s->through[0]);
-        put_depth(json, passed(s));
-        kd_json_end(json);
-    }
+    for (size_t i = 0; i < t->n_stretches; i++)
+        put_stretch(json, &t->stretches[i]);
     kd_json_end(json);
     kd_json_end(json);
 }

@@ -55,7 +55,6 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
 {
     const struct kd_told *t = x->told;
     char where[16];
-    float along[3] = { 0 };
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "\n%-8s %-10s %35s   %35s %8s\n", "order", "emitter", "light there, linear RGB", "as it arrives", "opacity"));
     for (size_t i = 0; i < t->n_places; i++)
@@ -63,11 +62,11 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
             snprintf(where, sizeof where, "%u", t->places[i].order);
             KD_TRY(put_glow(&t->places[i].glows[k], where, out));
         }
-    for (size_t i = 0; i < t->n_stretches; i++)
-        for (int c = 0; c < 3; c++)
-            along[c] += t->stretches[i].light[c];
-    if (t->n_stretches)
-        KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "along the ray", "", (double)along[0], (double)along[1], (double)along[2]));
+    for (size_t i = 0; i < t->n_volumes; i++) {
+        const struct kd_told_volume *v = &t->volumes[i];
+        KD_TRY(kd_buffer_printf(out, "%-8s %-10s %35s   %11.4e %11.4e %11.4e   depth %.5g\n", "along", kd_emitters[v->emitter]->name, "", (double)v->light[0],
+                                (double)v->light[1], (double)v->light[2], (double)v->depth));
+    }
     for (size_t i = 0; i < t->n_ends; i++)
         KD_TRY(put_glow(&t->ends[i], t->ends[i].points ? "points" : "end", out));
     if (t->lost)
@@ -86,6 +85,8 @@ static enum kd_status put_accuracy(const struct kd_picture *picture, const struc
     if (!isnan(x->path_error))
         KD_TRY(kd_buffer_printf(out, ", crossings of the closed form to %.1e", x->path_error));
     KD_TRY(kd_buffer_printf(out, "\n"));
+    if (x->told->n_volumes)
+        KD_TRY(kd_buffer_printf(out, "march: %u steps, light looked at in %u places\n", x->told->steps, x->told->samples));
     if (!isnan(x->picture_error))
         KD_TRY(kd_buffer_printf(out, "picture: %s %s, radii off by %.1e at most\n", kd_engine_name(picture->plan->setting.engine),
                                 kd_precision_name(picture->plan->setting.precision), x->picture_error));

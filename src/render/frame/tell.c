@@ -77,10 +77,12 @@ static void take(struct kd_told *told, const struct record *r)
         told->end_u = r->a[0], told->end_phi = r->a[1], told->end_footprint = r->a[2], told->ended = true;
     else if (r->of == (float)KD_TELL_OF_END || r->of == (float)KD_TELL_OF_POINTS)
         add_glow(told->ends, &told->n_ends, 2 * KD_PLAN_EMITTERS, r, 0, told->through);
+    else if (r->of == (float)KD_TELL_OF_VOLUME && told->n_volumes < KD_PLAN_EMITTERS)
+        told->volumes[told->n_volumes++] = (struct kd_told_volume) { (uint32_t)r->a[0], { r->a[1], r->a[2], r->a[3] }, r->b[0] };
     else if (r->of == (float)KD_TELL_LOST)
         told->given_up = true;
     else if (r->of == (float)KD_TELL_FRONT)
-        told->through = r->a[3];
+        told->through = r->a[3], told->steps = (uint32_t)r->b[0], told->samples = (uint32_t)r->b[1];
     else if (r->of == (float)KD_TELL_WHOLE)
         memcpy(told->light, r->a, sizeof told->light);
 }

@@ -39,13 +39,22 @@ struct kd_told_stretch {
 };
 #define KD_TOLD_STRETCHES 256
 
+/* A volume gave this along the whole ray, as far as that was followed. */
+struct kd_told_volume {
+    uint32_t emitter;
+    float light[3]; /* as it arrives */
+    float depth;
+};
+
 struct kd_told {
     uint32_t x, y;      /* the pixel, and */
     uint32_t ray_x, ray_y; /* its ray, counted from the upper left one */
     uint32_t rays;      /* that the pixel's light is the mean of */
     struct kd_told_place places[KD_TOLD_PLACES];
     struct kd_told_stretch stretches[KD_TOLD_STRETCHES];
-    size_t n_places, n_stretches, lost; /* lost: records that had no room */
+    struct kd_told_volume volumes[KD_PLAN_EMITTERS];
+    uint32_t steps, samples; /* of the march: of its integrator, and places that it looked at */
+    size_t n_places, n_stretches, n_volumes, lost; /* lost: records that had no room */
     bool given_up;      /* the engine gave the ray up, and the picture shows magenta */
     bool ended;         /* something may shine where it ends: */
     float end_u, end_phi, end_footprint;

@@ -1,0 +1,52 @@
+"""A FITS file of numbers as ehtim and astropy read it, in a virtual environment of its own: pixels to the bit, the total flux to 1e-6, the angular scale."""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+import support
+
+PYTHON = pathlib.Path(__file__).resolve().parents[2] / "venv-ehtim/bin/python"
+M_UAS = 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16) * math.degrees(1) * 3.6e9  # G m_sun/c^2 = 1476.625 m
+READER = """
+import json, sys
+import ehtim, numpy
+from astropy.io import fits
+image, light = ehtim.image.load_fits(sys.argv[1]), numpy.load(sys.argv[2])["intensity"].astype(float)
+sums = [float(image.total_flux()), float(fits.getdata(sys.argv[1]).astype(float).sum()), float(light.sum())]
+off = float(abs(image.imvec.reshape(light.shape) - light).max())
+print(json.dumps({"sums": sums, "off": off, "size": list(light.shape), "pixel_uas": image.psize / ehtim.RADPERUAS}))
+"""
+
+if not PYTHON.exists():
+    print("left out: there is no venv-ehtim/; scripts/setup --ehtim makes it")
+    sys.exit(77)
+
+
+class Ehtim(support.Case):
+    def read_by_ehtim(self, *scene):
+        for end in ("fits", "npz"):
+            self.good("render", *scene, "--set", "image.layers=intensity", "-o", self.path("a." + end))
+        done = subprocess.run([PYTHON, "-I", "-c", READER, self.path("a.fits"), self.path("a.npz")], capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout.splitlines()[-1])
+        by_ehtim, by_astropy, light = found["sums"]
+        self.assertGreater(light, 0)
+        self.assertAlmostEqual(by_ehtim / light, 1, delta=1e-6)
+        self.assertAlmostEqual(by_astropy / light, 1, delta=1e-6)
+        self.assertEqual(found["off"], 0)
+        return found
+
+    def test_the_hole_of_m87(self):
+        """Through a beam; as many microarcseconds across as mass, distance and field say."""
+        found = self.read_by_ehtim("-p", "m87-eht", "--size", "128x128")
+        field = json.loads(self.good("scene", "-p", "m87-eht"))["camera"]["field_m"]
+        self.assertEqual(found["size"], [128, 128])
+        self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
+
+    def test_light_along_rays(self):
+        self.read_by_ehtim("-p", "thick-disk", "--size", "64x64", "--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6")
+
+
+support.main(needs_device=True)
