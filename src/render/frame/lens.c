@@ -128,8 +128,10 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
+    enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error); /* for the light of the rows before, whose time is not these rays' */
     double start = kd_clock_ms();
-    enum kd_status status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
+    if (!status)
+        status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);
     j->listed_ms += kd_clock_ms() - start;
     return status;
 }
