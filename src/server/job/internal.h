@@ -1,4 +1,4 @@
-/* jobs.c, run.c and watch.c share this. */
+/* jobs.c, resume.c, run.c and watch.c share this. */
 #ifndef KD_SERVER_JOB_INTERNAL_H
 #define KD_SERVER_JOB_INTERNAL_H
 
@@ -76,6 +76,12 @@ void kd_job_delay(struct kd_job *job, const char *why);
 /* Takes the job off the list, whose reference is then the caller's; its files go with the last one. */
 void kd_job_unlist(struct kd_job *job);
 void kd_job_wake(struct kd_job *job, double now); /* those whose wait is over */
+
+/* A job of a spec, which it empties; not on the list yet. NULL: out of memory. Unlocked. */
+struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec);
+void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* to the list, as the youngest */
+/* resume.c, for kd_job_store_load: goes on with a job that the store knows; user: the jobs. Before any other thread has them. */
+void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request);
 
 /* Remove files of jobs that are gone, at most so many. Unlocked, on one thread. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files);

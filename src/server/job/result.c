@@ -83,12 +83,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     while (!f->out.size && !f->over && !wait)
         if (!advance(f, &wait))
             return MHD_CONTENT_READER_END_WITH_ERROR;
-    size_t left = f->out.size - f->at, n = left < size ? left : size;
-    if (!n)
-        return f->over ? MHD_CONTENT_READER_END_OF_STREAM : 0;
-    memcpy(to, f->out.data + f->at, n);
-    f->at += n;
-    return (ssize_t)n;
+    return kd_job_hand_over(&f->out, &f->at, to, size, f->over ? MHD_CONTENT_READER_END_OF_STREAM : 0);
 }
 
 static void release(void *cls)

@@ -239,12 +239,7 @@ static ssize_t produce_events(void *cls, uint64_t position, char *to, size_t siz
     (void)position;
     if (e->at == e->text.size && next_event(e, &instead))
         return MHD_CONTENT_READER_END_WITH_ERROR;
-    size_t left = e->text.size - e->at, n = left < size ? left : size;
-    if (!n)
-        return instead;
-    memcpy(to, e->text.data + e->at, n);
-    e->at += n;
-    return (ssize_t)n;
+    return kd_job_hand_over(&e->text, &e->at, to, size, instead);
 }
 
 static void release_events(void *cls)

@@ -119,12 +119,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
             return MHD_CONTENT_READER_END_WITH_ERROR;
         }
     }
-    size_t left = w->out.size - w->at, n = left < size ? left : size;
-    if (!n)
-        return w->over ? MHD_CONTENT_READER_END_OF_STREAM : 0;
-    memcpy(to, w->out.data + w->at, n);
-    w->at += n;
-    return (ssize_t)n;
+    return kd_job_hand_over(&w->out, &w->at, to, size, w->over ? MHD_CONTENT_READER_END_OF_STREAM : 0);
 }
 
 enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format)

@@ -1,0 +1,83 @@
+/* A start goes on with the jobs that its state folder holds. */
+#include "server/job/internal.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void find_frames(struct kd_job *job)
+{
+    for (unsigned i = 0; i < job->frames; i++) {
+        uint64_t size = kd_job_store_size(job->all->store, job->record.id, i);
+        job->have[i] = size > 0;
+        job->finished += size > 0;
+        job->bytes += size;
+    }
+    job->all->bytes += job->bytes;
+}
+
+/* A clock that has been put back makes no job younger than now; one that has been put forward leaves an hour to fetch what is done. */
+static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
+{
+    double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
+    return 1e3 * fmin(fmax(s, 0), most);
+}
+
+/* Makes a job wait that may be what has ended the servers; others go first (kd_job_store_load). It is never given up for that. */
+static void wait_after_strikes(struct kd_job *job)
+{
+    unsigned n = job->record.attempts;
+    if (n < KD_JOB_ATTEMPTS)
+        return;
+    job->due_ms = kd_clock_ms() + fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
+    snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times before another frame was there", n);
+    kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
+}
+
+/* Goes on with a job that the store knows. */
+void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request)
+{
+    struct kd_jobs *all = user;
+    struct kd_job_spec spec = { 0 };
+    struct kd_error error = { 0 };
+    char why[sizeof error.message] = "";
+    enum kd_status status = kd_job_spec_parse((const char *)request->data, request->size, known->preset, NULL, &spec, &error);
+    kd_buffer_finish(request);
+    if (status == KD_ENOMEM) {
+        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        return;
+    }
+    if (status)
+        snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
+    if (*why) { /* what is done is there for who reads it, whatever the request says to this version */
+        spec.frames = known->frames;
+        spec.series = known->series;
+    }
+    struct kd_job *job = kd_job_make(all, &spec);
+    if (!job) {
+        kd_job_spec_finish(&spec);
+        kd_log(KD_LOG_ERROR, "no memory for job %.4s..., which waits for the next start", known->id);
+        return;
+    }
+    job->record = *known;
+    if (!job->record.frames) {
+        job->record.frames = job->frames;
+        job->record.series = job->series;
+    }
+    find_frames(job);
+    job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
+    kd_job_append(all, job);
+    if (job->record.state != KD_JOB_ACTIVE) {
+        job->ended_ms = kd_clock_ms() - age_ms(all, known);
+        return;
+    }
+    wait_after_strikes(job);
+    if (*why) { /* another version can: until then it waits */
+        job->due_ms = INFINITY;
+        snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
+        kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);
+    } else if (job->finished == job->frames)
+        kd_job_end(job, KD_JOB_DONE, "");
+}
