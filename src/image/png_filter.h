@@ -1,4 +1,4 @@
-/* Filters of PNG rows before compression (PNG specification, third edition, W3C 2025, section 9). Pure, any thread.
+/* Rows of a PNG are filtered before compression (PNG specification, third edition, W3C 2025, section 9). Pure, any thread.
  *
  * A row is `stride` bytes, `step` of them a pixel; filtered it is one byte more, the filter's number in front. */
 #ifndef KD_IMAGE_PNG_FILTER_H
