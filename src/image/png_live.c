@@ -39,7 +39,7 @@ void kd_png_live_destroy(struct kd_png_live *live)
     free(live);
 }
 
-/* Of the filters whose cost is nothing beside deflate's this makes kerrd's pictures smallest (docs/decisions/0004-live-png.md). */
+/* This filter makes kerrd's pictures smallest, among those whose cost is nothing beside deflate's (docs/decisions/0004-live-png.md). */
 static void filter_rows(uint8_t *restrict to, const uint8_t *restrict pixels, size_t stride, uint32_t height)
 {
     for (uint32_t y = 0; y < height; y++, to += stride + 1, pixels += stride)

@@ -1,4 +1,5 @@
-/* A sweep is a scene with axes: fields, each of which takes some values, and a scene of every combination. Any thread; one that is read stays as it is.
+/* A sweep is a scene with axes: fields, each of which takes some values, and a scene of every combination. Nothing changes a sweep once
+ * it has been read: any thread may use it.
  *
  *     {"spacetime.spin": [0, 0.5, 0.9], "camera.inclination_deg": "10:80:15", "disk.model": ["novikov-thorne", "particles"]}
  *

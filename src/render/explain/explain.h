@@ -1,5 +1,5 @@
-/* This explains the light of one pixel: the middle one of its rays by closed form, what each emitter gave it as the picture's own kernel adds it up
- * (frame/tell.h), its path for drawing, and how far the two are apart. The plan of the picture names the pixel (kd_plan.told). Any thread.
+/* This explains the light of one pixel. Its middle ray is followed by closed form; what each emitter gave that ray is told by the picture's own kernel
+ * (frame/tell.h). The document has both, how far they are apart, and the ray's path for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
  *
  * Lengths and times in M, angles in radians, frequencies by those that the observer measures. docs/pixel.md says what the document holds. */
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H

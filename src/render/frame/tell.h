@@ -54,7 +54,7 @@ struct kd_told {
     struct kd_told_stretch stretches[KD_TOLD_STRETCHES];
     struct kd_told_volume volumes[KD_PLAN_EMITTERS];
     uint32_t steps, samples; /* of the march: of its integrator, and places that it looked at */
-    size_t n_places, n_stretches, n_volumes, lost; /* lost: records that had no room */
+    size_t n_places, n_stretches, n_volumes, lost; /* lost: records that were not kept because there was no room */
     bool given_up;      /* the engine gave the ray up, and the picture shows magenta */
     bool ended;         /* something may shine where it ends: */
     float end_u, end_phi, end_footprint;

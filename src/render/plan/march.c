@@ -16,7 +16,7 @@ static uint32_t fine_of(double error)
     return (uint32_t)fmin(fmax(fine, LEAST), MOST);
 }
 
-/* Of sixteen steps a half period the sixth order leaves 1e-7; of eight, 1e-5. */
+/* The sixth order leaves an error of 1e-7 with sixteen steps a half period, and 1e-5 with eight. */
 static uint32_t steps_of(double error, const struct kd_setting *rays)
 {
     uint32_t least = error > 5e-4 ? 8 : 16;
