@@ -232,7 +232,7 @@ bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
     bool within = w.y >= emission.frame.along_least && w.x <= emission.frame.along_most && u.y >= -emission.frame.along_u && u.x <= emission.frame.along_u;
-    bool beside = u.x < -emission.frame.along_hollow || u.y > emission.frame.along_hollow;
+    bool beside = !(emission.frame.along_hollow > 0.0) || u.x < -emission.frame.along_hollow || u.y > emission.frame.along_hollow;
     return (within && beside) || (KD_GLOWS && kd_march_crosses(y));
 }
 

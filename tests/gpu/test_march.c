@@ -234,6 +234,23 @@ static void test_no_bands(void **state)
     }
 }
 
+/* A ray that stays in the plane, where cos theta is 0 exactly, meets what its neighbours meet. */
+static void test_in_the_plane(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of(0, 90, INFINITY, "{\"volume\":{\"inner\":6,\"outer\":20,\"emissivity\":0.01}}");
+    enum { SIDE = 9, MIDDLE = SIDE / 2 };
+    scene.image.width = scene.image.height = SIDE;
+    struct kd_frame frame = rendered(&scene);
+    const float *light = intensity(&frame);
+    for (int x = 0; x < SIDE; x++) {
+        double is = light[MIDDLE * SIDE + x], beside = light[(MIDDLE - 1) * SIDE + x];
+        if (!(beside > 0 && is > 0.5 * beside))
+            fail_msg("column %d: %g in the plane, %g in the row above", x, is, beside);
+    }
+    kd_frame_finish(&frame);
+}
+
 /* What is off has no pass, and what is on has one, which takes the place of the transfer. */
 static void test_plan(void **state)
 {
@@ -312,6 +329,7 @@ int main(void)
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_thin_limit),
         cmocka_unit_test(test_no_bands),
+        cmocka_unit_test(test_in_the_plane),
         cmocka_unit_test(test_plan),
         cmocka_unit_test(test_adversarial),
     };
