@@ -26,8 +26,8 @@ float kd_volume_energy(kd_midst p)
 }
 
 /* The march finds the edges of all volumes together. Those of the shell may lie within others: there a stretch is no longer than the way to them, or than this
- * part of r, which is what is uncertain of the shell's length. */
-#define KD_VOLUME_EDGE 1e-3
+ * part of r, by which the shell's length is uncertain at `balanced`, and less the finer stretches are. */
+#define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {
     float edge = min(abs(r - emission.volume.inner), abs(r - emission.volume.outer));

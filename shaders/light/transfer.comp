@@ -51,7 +51,8 @@ vec3 background(uvec2 place, uint at, uint pixel)
 
 #ifdef KD_MARCH
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
-#define KD_MARCH_GIVEN_UP(beam) kd_beam_given_up(beam)
+bool lost = false; /* the ray at hand */
+#define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true)
 #include "light/march.glsl"
 
 /* Follows one ray, light of its end included. */
@@ -210,7 +211,7 @@ void main()
 #ifdef KD_MARCH
     kd_beam beam = follow_one(uvec2(px, py), listed, slice.ray, to);
     if (sampled) {
-        store_light(number, beam.light);
+        store_light(number, lost ? vec3(-1.0) : beam.light);
         return;
     }
     vec3 sum = share * beam.light;

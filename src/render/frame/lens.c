@@ -128,7 +128,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error); /* for the light of the rows before, whose time is not these rays' */
+    enum kd_status status = j->plan->march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK; /* a march takes long: its time is not these rays' */
     double start = kd_clock_ms();
     if (!status)
         status = kd_lens_listed(j->r, j->scene, j->plan, rows, &j->undecided, j->error);

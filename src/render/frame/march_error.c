@@ -47,7 +47,7 @@ enum kd_status kd_frame_sample_march(struct kd_frame_job *j, uint32_t band)
     const struct kd_march *march = &j->plan->march, finer = kd_march_finer(*march);
     const uint32_t n = pixels_of(&march->sample);
     enum kd_status status = KD_OK;
-    if (!march->steps)
+    if (!march->steps || !n)
         return KD_OK;
     if (!j->marched)
         KD_TRY(kd_vk_buffer_create(j->r->vk, 2 * n * sizeof(float[3]), KD_VK_READBACK, "a sample of the light of volumes", &j->marched, j->error));
@@ -66,17 +66,22 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Relative differences of n rays' light, where there is any, in order; how many. */
+/* Light that is a number, of a ray that was not given up, whose is -1. */
+static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
+
+/* Relative differences of n rays' light, where there is any, in order; how many. Rays without a right one are off by 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;
     uint32_t lit = 0;
     for (uint32_t i = 0; i < n; i++)
-        most = fmax(most, brightest(finer + 3 * i));
+        most = right(finer + 3 * i) ? fmax(most, brightest(finer + 3 * i)) : most;
     for (uint32_t i = 0; i < n; i++) {
         const float *a = light + 3 * i, *b = finer + 3 * i, apart[3] = { fabsf(a[0] - b[0]), fabsf(a[1] - b[1]), fabsf(a[2] - b[2]) };
         const double own = fmax(brightest(a), brightest(b));
-        if (own > 0)
+        if (!right(a) || !right(b))
+            off[lit++] = 1;
+        else if (own > 0)
             off[lit++] = brightest(apart) / fmax(own, KD_MARCH_DARK * most);
     }
     qsort(off, lit, sizeof *off, by_size);
