@@ -140,8 +140,13 @@ static void hold(struct kd_pace *pace, bool narrower)
     }
 }
 
-static void move(const struct kd_governor *g, struct kd_pace *pace, uint32_t rung, bool up, double now)
+/* cost: of frames on the rung that is left, NULL: nobody knows. */
+static void move(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, uint32_t rung, bool up, double now)
 {
+    if (cost) {
+        pace->other = g->ladder.rungs[pace->rung];
+        pace->other_ms = cost->rays_ms;
+    }
     const bool narrower = MORE * target(g) < pace->widest; /* the rung was in time before others began */
     if (pace->climbed && !up && !narrower)
         pace->retry_ms *= 2;
@@ -196,6 +201,29 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
+/* Finds which part of what rays take on this rung stays at any size: on the line through what they took at another size a moment ago, and take now. */
+static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
+{
+    const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
+    if (other->rays > 0 && other->pixels != here->pixels && cost->rays_ms > 0) {
+        const double per_ray = fmax(0, (pace->other_ms - cost->rays_ms) / (other->rays - here->rays));
+        pace->stays = fmax(0, 1 - per_ray * here->rays / cost->rays_ms);
+    }
+    pace->other.rays = 0;
+}
+
+/* Says whether one rung up is in time if the time of rays goes by that line. */
+static bool may_climb_by_line(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost)
+{
+    const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung], *to = here - 1;
+    const double stays = pace->stays * cost->rays_ms;
+    struct kd_frame_cost line = *cost;
+    line.rays_ms -= stays;
+    line.total_ms -= stays;
+    return stays > 0 && stays + predict(&line, here, to, false) <= CLIMB_BELOW * room(g, cost) &&
+           traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
+}
+
 /* Climbs as far as is safe, or else one rung on the better assumption: if that is wrong the rung is left again, and not climbed to
  * soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
@@ -203,10 +231,10 @@ static void climb(const struct kd_governor *g, struct kd_pace *pace, const struc
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
     while (to > ceiling && may_climb(g, pace, cost, to - 1, false))
         to--;
-    if (to == pace->rung && to > ceiling && may_climb(g, pace, cost, to - 1, true))
+    if (to == pace->rung && to > ceiling && (may_climb(g, pace, cost, to - 1, true) || may_climb_by_line(g, pace, cost)))
         to--;
     if (to < pace->rung)
-        move(g, pace, to, true, now);
+        move(g, pace, cost, to, true, now);
 }
 
 static void spare_a_stall(struct kd_governor *g, double now)
@@ -216,7 +244,7 @@ static void spare_a_stall(struct kd_governor *g, double now)
     while (to < last && !traceable(g, pace, &g->ladder.rungs[to], g->share * g->params.stall_ms))
         to++;
     if (to > pace->rung)
-        move(g, pace, to, false, now);
+        move(g, pace, NULL, to, false, now);
 }
 
 static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
@@ -226,6 +254,7 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
     if (!far && pace->count < ENOUGH)
         return;
     struct kd_frame_cost cost = far ? cheapest_of_latest(pace, at_most(pace->count, FEW)) : mean_of_middle(pace);
+    learn(g, pace, &cost);
     if (pace == &g->paces[1]) {
         g->traced = cost;
         g->traced_on = *here;
@@ -233,7 +262,7 @@ static void decide(struct kd_governor *g, struct kd_pace *pace, double now)
     }
     if (far || varying(&cost) > OVER * room(g, &cost)) {
         if (pace->rung < last_rung(g, pace))
-            move(g, pace, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
+            move(g, pace, &cost, first_that_fits(g, pace, &cost, here, pace->rung + 1), false, now);
         return;
     }
     if (now - pace->changed_at >= COOLDOWN_MS)
@@ -277,6 +306,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
                                  : at_most(pace->rung, (uint32_t)g->ladder.n_rungs - 1);
         pace->ceiling = pace->count = 0;
         pace->held_target = 0;
+        pace->other.rays = pace->stays = 0;
         pace->climbed = false;
     }
     g->ladders++;

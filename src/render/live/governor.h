@@ -31,7 +31,8 @@
  *   s, and whenever a climb was in vain that time doubles: of N hours only log N climbs are lost to a machine that seems faster
  *   than it is.
  * - Up as far as would take at most 80 % of it if all of the cost but what is known not to grew, or by one rung if only what is
- *   known to grow did; not within a second of the last change.
+ *   known to grow did, or if rays cost what the line through two sizes says that were measured: rays next to the critical curve and the search
+ *   for stars take their time at any size; not within a second of the last change.
  * - After each change of rung averages start again; so do ceilings when the scene is of another kind, such as particles for a
  *   smooth disk.
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
@@ -99,6 +100,9 @@ struct kd_pace {
     bool climbed;                 /* the last change was upwards */
     uint32_t held;                /* the rung that was left because others began to share; */
     double held_target;           /* at which it was in time; 0: none */
+    struct kd_rung other;         /* the rung before; no rays: nobody knows, or it was made use of; */
+    double other_ms;              /* what its rays took */
+    double stays;                 /* which part of what rays take is the same at any size, as far as is known */
 };
 
 /* All members are private. */
