@@ -2,8 +2,8 @@
  * steps, that the lens map takes to the star; and there the star's light, magnified, over the nearest pixels.
  *
  * About its ray the map is taken to be quadratic, in the plane of the sky that is square to the ray (orthographic projection): coefficients by
- * the eight rays round it, least squares for the first ones, second differences for the others; beside rays that do not escape, and at edges,
- * by those that there are, to first order. It has its roots by Newton's method, from four starts where it is not plain that there is but one, each
+ * the eight rays round it, least squares for the first ones, second differences for the others; on the rim of higher order, by twenty; beside rays that do not escape,
+ * and at edges, by those that there are, to first order. It has its roots by Newton's method, from four starts where it is not plain that there is but one, each
  * counted once: up to four where a caustic passes.
  *
  * A star's flux F in an image is F dOmega/dOmega_s: with the solid angle of a pixel, its mean radiance there is F over the solid angle of
@@ -30,8 +30,8 @@ layout(set = 0, binding = 6) buffer PointLight { uint point_light[]; };
 
 #define KD_STAR_THIN 0.02 /* the area of a patch over the square of its size */
 
-/* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, in radians. */
-struct kd_patch { vec2 c, a, b, aa, ab, bb, aaa, aab, abb, bbb; bool there; };
+/* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim + aaab x^3 y + abbb x y^3; in radians. */
+struct kd_patch { vec2 c, a, b, aa, ab, bb, aaa, aab, abb, bbb, aaab, abbb; bool there; };
 
 struct kd_chart { vec3 n, e1, e2; };
 
@@ -44,6 +44,7 @@ kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
     bool inside = px >= 0 && px < int(push.width) && py >= 0 && py < int(push.rows);
     uint there = inside ? uint(py) * push.width + uint(px) : at;
     vec3 n = kd_sky_from(there);
+    n -= c.n; /* so that what is near has all its digits */
     return kd_neighbour(vec2(dot(c.e1, n), dot(c.e2, n)), inside && kd_sky_escapes(there));
 }
 
@@ -93,20 +94,45 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
+/* On the rim steps are long, and its numbers have lost next to nothing: by 20 rays, 5 x 5 without the corners, all terms of third order, and x^3 y and x y^3. */
+void extend(kd_chart c, uint at, uint x, uint y, kd_neighbour w, kd_neighbour e, kd_neighbour n, kd_neighbour s, vec2 nw, vec2 ne, vec2 sw, vec2 se, inout kd_patch o)
+{
+    kd_neighbour w2 = neighbour(c, at, x, y, -2, 0), e2 = neighbour(c, at, x, y, 2, 0), n2 = neighbour(c, at, x, y, 0, -2), s2 = neighbour(c, at, x, y, 0, 2);
+    vec2 before = 0.5 * (neighbour(c, at, x, y, -2, 1).f - neighbour(c, at, x, y, -2, -1).f), after = 0.5 * (neighbour(c, at, x, y, 2, 1).f - neighbour(c, at, x, y, 2, -1).f);
+    vec2 above = 0.5 * (neighbour(c, at, x, y, 1, -2).f - neighbour(c, at, x, y, -1, -2).f), below = 0.5 * (neighbour(c, at, x, y, 1, 2).f - neighbour(c, at, x, y, -1, 2).f);
+    kd_quartic along = kd_quartic_of(w2.f, w.f, vec2(0.0), e.f, e2.f), down = kd_quartic_of(n2.f, n.f, vec2(0.0), s.f, s2.f);
+    kd_quartic slope_y = kd_quartic_of(before, 0.5 * (sw - nw), 0.5 * (s.f - n.f), 0.5 * (se - ne), after), slope_x = kd_quartic_of(above, 0.5 * (ne - nw), 0.5 * (e.f - w.f), 0.5 * (se - sw), below);
+    if (w2.there && e2.there && n2.there && s2.there) {
+        o.a = along.x;
+        o.aa = along.xx;
+        o.aaa = along.xxx;
+        o.b = down.x;
+        o.bb = down.xx;
+        o.bbb = down.xxx;
+        o.aab = slope_y.xx;
+        o.abb = slope_x.xx;
+        o.aaab = slope_y.xxx;
+        o.abbb = slope_x.xxx;
+        o.ab = slope_y.x - o.abbb;
+    }
+}
+
 kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
     kd_neighbour w = neighbour(c, at, x, y, -1, 0), e = neighbour(c, at, x, y, 1, 0), n = neighbour(c, at, x, y, 0, -1), s = neighbour(c, at, x, y, 0, 1);
     kd_neighbour nw = neighbour(c, at, x, y, -1, -1), ne = neighbour(c, at, x, y, 1, -1), sw = neighbour(c, at, x, y, -1, 1), se = neighbour(c, at, x, y, 1, 1);
     kd_patch o;
     o.there = true;
-    o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = vec2(0.0);
+    o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
     one_sided(w, e, o.a, o.aa, o.there);
     one_sided(n, s, o.b, o.bb, o.there);
     if (w.there && e.there && n.there && s.there && nw.there && ne.there && sw.there && se.there) {
         o.a = ((ne.f - nw.f) + (e.f - w.f) + (se.f - sw.f)) * (1.0 / 6.0);
         o.b = ((sw.f - nw.f) + (s.f - n.f) + (se.f - ne.f)) * (1.0 / 6.0);
         o.ab = 0.25 * (se.f - sw.f - ne.f + nw.f);
-        if (!AT_RIM) /* whose steps are long, and whose numbers have lost more than a smooth curve through them brings back */
+        if (AT_RIM)
+            extend(c, at, x, y, w, e, n, s, nw.f, ne.f, sw.f, se.f, o);
+        else
             refine(c, at, x, y, o);
     }
     return o;
@@ -114,14 +140,18 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 
 vec2 value(kd_patch m, vec2 p)
 {
-    return m.c + p.x * (m.a + p.x * (m.aa + m.aaa * p.x + m.aab * p.y) + m.ab * p.y) + p.y * (m.b + p.y * (m.bb + m.bbb * p.y + m.abb * p.x));
+    vec2 f = m.c + p.x * (m.a + p.x * (m.aa + m.aaa * p.x + m.aab * p.y) + m.ab * p.y) + p.y * (m.b + p.y * (m.bb + m.bbb * p.y + m.abb * p.x));
+    return AT_RIM ? f + p.x * p.y * (p.x * p.x * m.aaab + p.y * p.y * m.abbb) : f;
 }
 
 /* Columns: d/dx, d/dy. */
 mat2 derivative(kd_patch m, vec2 p)
 {
-    return mat2(m.a + p.x * (2.0 * m.aa + 3.0 * m.aaa * p.x + 2.0 * m.aab * p.y) + p.y * (m.ab + m.abb * p.y),
-                m.b + p.y * (2.0 * m.bb + 3.0 * m.bbb * p.y + 2.0 * m.abb * p.x) + p.x * (m.ab + m.aab * p.x));
+    mat2 j = mat2(m.a + p.x * (2.0 * m.aa + 3.0 * m.aaa * p.x + 2.0 * m.aab * p.y) + p.y * (m.ab + m.abb * p.y),
+                  m.b + p.y * (2.0 * m.bb + 3.0 * m.bbb * p.y + 2.0 * m.abb * p.x) + p.x * (m.ab + m.aab * p.x));
+    if (AT_RIM)
+        j += mat2(p.y * (3.0 * p.x * p.x * m.aaab + p.y * p.y * m.abbb), p.x * (p.x * p.x * m.aaab + 3.0 * p.y * p.y * m.abbb));
+    return j;
 }
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 
@@ -213,7 +243,7 @@ void images(uint at, uint k)
     c.e1 = normalize(abs(c.n.z) < 0.9 ? vec3(-c.n.y, c.n.x, 0.0) : vec3(0.0, -c.n.z, c.n.y));
     c.e2 = cross(c.n, c.e1);
     vec3 star = kd_sky_from_galactic(vec3(stars[4u * k], stars[4u * k + 1u], stars[4u * k + 2u]));
-    vec2 q = vec2(dot(c.e1, star), dot(c.e2, star));
+    vec2 q = vec2(dot(c.e1, star - c.n), dot(c.e2, star - c.n));
     kd_patch m = patch_about(c, at, x, y);
     float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
     vec2 found[4];

@@ -63,6 +63,15 @@ float kd_rim_share(vec2 place)
     return clamp((push.none - off) / (push.none - push.full), 0.0, 1.0);
 }
 
+/* The quartic through five places in a row, -2 ... 2, without its first and last term: x, x^2, x^3. */
+struct kd_quartic { vec2 x, xx, xxx; };
+
+kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
+{
+    vec2 far = n2 - p2, near = n1 - p1;
+    return kd_quartic((8.0 * near - far) * (1.0 / 12.0), (16.0 * (n1 + p1) - (n2 + p2) - 30.0 * o) * (1.0 / 24.0), (far - 2.0 * near) * (1.0 / 12.0));
+}
+
 /* A place p in the rim's cell (x, y): on the plane, as the direction, and the area of the plane that the cell has there. */
 struct kd_rim_cell { vec2 place; vec3 d; float area; };
 
@@ -71,7 +80,8 @@ vec2 kd_rim_curve(uint k) { return vec2(rim[push.rim + 2u * k], rim[push.rim + 2
 kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
 {
     vec2 own = kd_rim_curve(x), before = kd_rim_curve((x + KD_RIM_ANGLES - 1u) % KD_RIM_ANGLES), after = kd_rim_curve((x + 1u) % KD_RIM_ANGLES);
-    vec2 slope = 0.5 * (after - before), bend = 0.5 * (after + before) - own, at = own + p.x * (slope + p.x * bend), along = slope + 2.0 * p.x * bend;
+    kd_quartic c = kd_quartic_of(kd_rim_curve((x + KD_RIM_ANGLES - 2u) % KD_RIM_ANGLES), before, own, after, kd_rim_curve((x + 2u) % KD_RIM_ANGLES));
+    vec2 at = own + p.x * (c.x + p.x * (c.xx + p.x * c.xxx)), along = c.x + p.x * (2.0 * c.xx + 3.0 * p.x * c.xxx);
     float off = push.far * exp(-push.fall * (float(y) + p.y));
     kd_rim_cell o;
     o.place = (1.0 + off) * at;

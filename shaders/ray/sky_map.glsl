@@ -1,5 +1,5 @@
 /* Kernels that look for stars in a lens map share these bindings: the map, and numbers and tables of the emitters. Bindings 0, 1, 2. Needs the
- * specialisation constants QUANTITIES and ORDERS. */
+ * specialisation constants QUANTITIES, ORDERS and RIM: where that is 2, the rays at hand are the rim's (rim.glsl), whose map is where they come from, x, y and z. */
 #ifndef KD_SKY_MAP_GLSL
 #define KD_SKY_MAP_GLSL
 
@@ -36,11 +36,13 @@ void kd_sky_map_read()
 #include "emit/sky.glsl"
 
 float kd_sky_number(uint quantity, uint at) { return lens[at + kd_plane(quantity) * push.stride]; }
-bool kd_sky_escapes(uint at) { return kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
+bool kd_sky_escapes(uint at) { return RIM == 2u || kd_sky_number(KD_LENS_FATE, at) == KD_FATE_ESCAPED; }
 
 /* Where a ray comes from, in the hole's frame. */
 vec3 kd_sky_from(uint at)
 {
+    if (RIM == 2u)
+        return vec3(lens[at], lens[at + push.stride], lens[at + 2u * push.stride]);
     float u = kd_sky_number(KD_LENS_SKY_U, at), s = sqrt(max(1.0 - u * u, 0.0));
     kd_phasor phi = kd_cos_sin(kd_sky_number(KD_LENS_SKY_PHI, at));
     return vec3(s * phi.c, s * phi.s, u);

@@ -185,10 +185,9 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
     return q;
 }
 
-struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double along)
+static struct kd_critical_point upper(const struct kd_critical *c, double at)
 {
-    double half = sin(0.5 * M_PI * along); /* denser at the ends, where beta is a root */
-    struct place p = see(c, c->low + (c->high - c->low) * half * half);
+    struct place p = see(c, at);
     double y = sqrt(fmax(p.y2, 0));
     struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = atan2(y, p.x), .inwards = 1 };
     if (isinf(c->observer.radius)) {
@@ -200,6 +199,37 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     q.beta = y * c->tetrad.theta.polar / p.energy;
     q.rho = atan2(hypot(p.x, y), p.inwards * cos(c->centre) + p.right * sin(c->centre));
     return q;
+}
+
+struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double along)
+{
+    double half = sin(0.5 * M_PI * along); /* denser at the ends, where beta is a root */
+    return upper(c, c->low + (c->high - c->low) * half * half);
+}
+
+/* (ln y - ln y_P)/(a sin i) of a place, which is w/(y_P sin i) where that is small; and the place back. */
+static double evenly(const struct kd_critical *c, double at)
+{
+    const struct kd_shell *s = &c->shell;
+    const double scale = s->spin * c->sine, half = 0.5 * s->y_polar, w = scale * at / s->y_polar;
+    if (w < -0.5) /* y < y_P/2, where places are logarithms */
+        return (log(0.5) + scale * at / half + 1) / scale;
+    return scale > 1e-8 ? log1p(w) / scale : at / s->y_polar;
+}
+
+static double place_evenly(const struct kd_critical *c, double q)
+{
+    const struct kd_shell *s = &c->shell;
+    const double scale = s->spin * c->sine, half = 0.5 * s->y_polar;
+    if (scale * q < log(0.5))
+        return half * (scale * q - log(0.5) - 1) / scale;
+    return s->y_polar * (scale > 1e-8 ? expm1(scale * q) / scale : q);
+}
+
+struct kd_critical_point kd_critical_round(const struct kd_critical *c, double along)
+{
+    const double half = sin(0.5 * M_PI * along), low = evenly(c, c->low), high = evenly(c, c->high);
+    return upper(c, along <= 0 ? c->low : along >= 1 ? c->high : place_evenly(c, low + (high - low) * half * half));
 }
 
 /* Sums over the upper half, with half the weight at the ends. rho enters less half the width, so that its squares keep their

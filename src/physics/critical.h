@@ -85,6 +85,9 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double 
  * some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
+/* The same, with a smooth function of `along`: the orbits' radii are so by ln(r - 1), in which kd_critical_upper has a bend. */
+struct kd_critical_point kd_critical_round(const struct kd_critical *curve, double along);
+
 /* Turns right, up and inwards of a point of kd_critical_upper, or of its mirror image, into those of an observer that moves along theta;
  * nothing for others. kd_critical_at has done so. */
 void kd_critical_see(const struct kd_critical *curve, struct kd_critical_point *point);

@@ -34,9 +34,8 @@ static double from_plane(const struct kd_null_polar *p, double eta, double gap, 
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);
 }
 
-/* gap = z - u^2, weight = N + a^2 u^2 at the observer, whose product is (s beta)^2 and whose difference is
- * known. */
-static void observer(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
+/* Their product is (s beta)^2, and their difference is known. */
+void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
     double a2 = m->a * m->a, s2 = m->s * m->s;
     double d = a2 * s2 - m->alpha * m->alpha - m->beta * m->beta; /* a^2 gap - weight */
@@ -73,7 +72,7 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m)
                                .u = fabs(m->c),
                                .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1 };
     double disc, gap, weight, a2 = m->a * m->a;
-    observer(m, &disc, &gap, &weight);
+    kd_null_polar_gap(m, &disc, &gap, &weight);
     p.sense = m->alpha <= 0 ? 1 : -1;
     p.s = disc;
     p.z = p.u * p.u + gap;

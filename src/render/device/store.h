@@ -37,7 +37,7 @@ struct kd_lens_map {
     struct kd_rim rim;           /* where stars have images of high orders, of the map's camera; rows 0: there is none, or it was not asked for, */
     bool rim_known;              /* if not */
     bool rim_traced;
-    struct kd_vk_buffer *rim_lens; /* its lens map, the list of its rays, and its tables (frame/rim.c); NULL: never was any */
+    struct kd_vk_buffer *rim_lens; /* where its rays come from, and its tables (frame/rim.c); NULL: never was any */
     struct kd_star_key star_key; /* what that was made of, "" lens: it was not, or not to its end */
     struct kd_accuracy_report accuracy;
     uint64_t used;

@@ -101,14 +101,13 @@ enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct 
 /* Spreads the points of light that the rays of a band see, and of the rows next to it where the whole map is kept, over its pixels; nothing where
  * that light is there from the frame before. Its map must be whole. The bands of a frame from the first to the last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
-/* All of its kernels, and that of the rim's rays. */
+/* All of its kernels. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
 /* Whether that light is there: to be told as soon as the emitters are. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
 /* Where the rim of the job's lens map is, if it has one (view/rim.h); and its rays, if they were not followed before. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
-enum kd_status kd_frame_rim_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out);
 /* Rays of the whole map that were given up. */
 enum kd_status kd_frame_undecided(struct kd_frame_job *job, uint64_t *out);
 

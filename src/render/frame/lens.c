@@ -97,7 +97,6 @@ enum kd_status kd_frame_send_cameras(struct kd_frame_job *j)
         [KD_CAMERA_GRID] = kd_camera_block(j->scene), [KD_CAMERA_CRITICAL] = kd_camera_block(&critical),
         [KD_CAMERA_DENSE] = kd_camera_block(&dense), [KD_CAMERA_DENSE_CRITICAL] = kd_camera_block(&dense_critical),
         [KD_CAMERA_TRUTH] = kd_camera_block(&truth),
-        [KD_CAMERA_RIM] = j->lens->rim.rows ? kd_rim_camera(j->scene, &j->lens->rim) : kd_camera_block(j->scene),
     };
     return kd_store_send_cameras(j->store, cameras, j->error);
 }

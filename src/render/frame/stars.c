@@ -27,7 +27,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
 {
     const struct kd_plan *p = j->plan;
     const struct kd_spec_stars spec = {
-        .QUANTITIES = rays == OF_RIM ? KD_RIM_QUANTITIES : p->quantities, .ORDERS = rays == OF_RIM ? 1 : p->orders, .SIDE = p->side,
+        .QUANTITIES = p->quantities, .ORDERS = p->orders, .SIDE = p->side,
         .SIGHT = kd_camera_sight(j->scene), .VISIBLE = j->scene->disk.band == KD_BAND_VISIBLE, .TILE = tile, .RIM = rays,
     };
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
@@ -47,10 +47,8 @@ enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
         KD_TRY(kernel(j, rays, find, 0, &later));
         KD_TRY(kernel(j, rays, KD_KERNEL_STAR_IMAGES, 0, &later));
     }
-    if (rim) {
-        KD_TRY(kd_frame_rim_kernel(j, &later));
+    if (rim)
         KD_TRY(kernel(j, OF_RIM, tiles, RIM_TILE, &later));
-    }
 done:
     return status;
 }
@@ -142,7 +140,7 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     const struct kd_sky_buffers *sky = j->prepared->own[KD_EMITTER_sky];
     return (struct kd_stars_push) {
         .room = KD_PLAN_PAIRS, .tiles = kd_plan_star_tiles(j->plan), .stars = sky->n,
-        .rim = kd_rim_rays(r) * (kd_lens_planes(KD_RIM_QUANTITIES, 1) + 2),
+        .rim = (uint32_t)kd_rim_tables(kd_rim_rays(r)),
         .far = (float)r->far, .fall = (float)r->fall, .none = (float)r->none, .full = (float)r->full,
         .ahead_x = (float)r->ahead[0], .ahead_y = (float)r->ahead[1], .ahead_z = (float)r->ahead[2],
         .right_x = (float)r->right[0], .right_y = (float)r->right[1], .right_z = (float)r->right[2],

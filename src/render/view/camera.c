@@ -161,11 +161,16 @@ void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, 
         *out = (struct kd_camera_label) { .alpha = k.x, .beta = k.y, .energy = 1 };
         return;
     }
-    double n = 1 / sqrt(k.x * k.x + k.y * k.y + k.z * k.z), m_r = -k.x * n, m_theta = -k.y * n, m_phi = -k.z * n;
+    kd_camera_label_towards(c, (double[]) { k.x, k.y, k.z }, out);
+}
+
+void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3], struct kd_camera_label *out)
+{
+    double n = 1 / sqrt(k[0] * k[0] + k[1] * k[1] + k[2] * k[2]), m_r = -k[0] * n, m_theta = -k[1] * n, m_phi = -k[2] * n;
     kd_camera_label_of(c->e_t + c->e_r * m_r + c->e_theta * m_theta + c->e_phi * m_phi,
                        c->l_t + c->l_r * m_r + c->l_theta * m_theta + c->l_phi * m_phi,
-                       c->p_t - (c->p_r * k.x + c->p_theta * k.y + c->p_phi * k.z) * n,
-                       c->dw_t - (c->dw_r * k.x + c->dw_theta * k.y + c->dw_phi * k.z) * n < 0, out);
+                       c->p_t - (c->p_r * k[0] + c->p_theta * k[1] + c->p_phi * k[2]) * n,
+                       c->dw_t - (c->dw_r * k[0] + c->dw_theta * k[1] + c->dw_phi * k[2]) * n < 0, out);
 }
 
 /* Labels have no place for E = 0; a ray next to it is the same to 1e-12 of what the observer measures. */

@@ -42,6 +42,7 @@ void kd_camera_direction(const struct kd_camera_exact *camera, double x, double 
 
 /* From E, L/sin(theta), and what beta is times |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
+void kd_camera_label_towards(const struct kd_camera_exact *camera, const double direction[3], struct kd_camera_label *out); /* of any length; at a finite radius */
 void kd_camera_label(const struct kd_camera_exact *camera, uint32_t x, uint32_t y, struct kd_camera_label *out);
 
 #endif

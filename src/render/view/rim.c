@@ -3,6 +3,7 @@
 #include "physics/critical.h"
 #include "physics/kerr.h"
 #include "render/view/camera.h"
+#include "render/view/rim_sky.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,7 +23,7 @@ static void directions(const struct kd_critical *curve, double out[KD_RIM_ANGLES
     const bool flat = isinf(curve->observer.radius);
     for (int k = 0; k < KD_RIM_ANGLES; k++) {
         const double turn = 2.0 * k / KD_RIM_ANGLES, half = turn <= 1 ? 1 : -1;
-        struct kd_critical_point p = kd_critical_upper(curve, turn <= 1 ? 1 - turn : turn - 1);
+        struct kd_critical_point p = kd_critical_round(curve, turn <= 1 ? 1 - turn : turn - 1);
         p.up *= half;
         kd_critical_see(curve, &p);
         const double d[] = { -p.inwards, -p.up, p.right }, plane[] = { p.alpha, half * p.beta, 0 };
@@ -30,12 +31,18 @@ static void directions(const struct kd_critical *curve, double out[KD_RIM_ANGLES
     }
 }
 
-/* The plane about the mean of the directions. */
+/* The plane about the mean of the directions along the curve. */
 static void set_legs(struct kd_rim *o, bool flat, double d[KD_RIM_ANGLES][3])
 {
-    for (int k = 0; k < KD_RIM_ANGLES; k++)
+    double all = 0;
+    for (int k = 0; k < KD_RIM_ANGLES; k++) {
+        const double *before = d[(k + KD_RIM_ANGLES - 1) % KD_RIM_ANGLES], *after = d[(k + 1) % KD_RIM_ANGLES];
+        const double step[] = { after[0] - before[0], after[1] - before[1], after[2] - before[2] }, length = sqrt(dot(step, step));
+        all += length;
         for (int i = 0; i < 3; i++)
-            o->ahead[i] += d[k][i] / KD_RIM_ANGLES;
+            o->ahead[i] += length * d[k][i];
+    }
+    scale(o->ahead, 1 / all);
     if (flat) {
         o->right[0] = o->up[1] = 1;
         return;
@@ -89,19 +96,26 @@ static bool set_edges(struct kd_rim *o)
     return true;
 }
 
-/* How far the sky goes by while a ray comes e times nearer to the curve: the more, the slower light leaves its orbit (photon_shell.h). */
-static double pace(const struct kd_critical *curve)
+/* How far the sky goes by while a ray comes e times nearer to the curve: the more, the slower light leaves its orbit (photon_shell.h). *apart: how much less or more that
+ * is at the next column. */
+static double pace(const struct kd_critical *curve, double *apart)
 {
-    double most = 1;
-    for (int i = 0; i <= 8; i++) {
-        const struct kd_critical_point p = kd_critical_upper(curve, i / 8.0);
+    enum { PLACES = 32 };
+    double most = 1, turn = 0, drag = 0;
+    *apart = 0;
+    for (int i = 0; i <= PLACES; i++) {
+        const struct kd_critical_point p = kd_critical_round(curve, (double)i / PLACES);
         const struct kd_shell_exponents e = kd_shell_exponents(&p.orbit);
+        const double turned = M_PI / e.gamma, dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* the latter without the jump of delta */
+        if (i)
+            *apart = fmax(*apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
         most = fmax(most, fmax(fabs(e.delta), M_PI) / e.gamma);
+        turn = turned, drag = dragged;
     }
     return most;
 }
 
-/* From row to row the sky goes by a tenth of a radian, if so many rows are enough for that. */
+/* From row to row the sky goes by KD_RIM_STEP, if so many rows are enough for that. */
 static void set_rows(struct kd_rim *o, const struct kd_scene *scene, const struct kd_critical *curve)
 {
     double radius = INFINITY;
@@ -109,27 +123,31 @@ static void set_rows(struct kd_rim *o, const struct kd_scene *scene, const struc
         radius = fmin(radius, hypot(o->x[k], o->y[k]));
     const struct kd_camera_exact camera = kd_camera_exact(scene);
     const double turn = fmin(camera.turn_x, camera.turn_y), pixel = turn > 0 ? 0.5 * M_PI * turn * kd_scene_side(scene) : kd_camera_pixel(scene);
-    o->none = fmin(KD_RIM_PIXELS * pixel / radius, KD_RIM_MOST);
+    o->none = fmin(fmax(KD_RIM_PIXELS * pixel / radius, KD_RIM_NOISE * radius / pixel), KD_RIM_MOST);
     o->full = 0.8 * o->none;
-    o->fall = fmin(0.1 / pace(curve), 0.14);
-    o->far = o->none * exp(1.5 * o->fall); /* a row and a half further, for differences */
-    const double all = log(o->far / KD_RIM_LEAST);
+    double apart;
+    const double by_e = pace(curve, &apart), seen = KD_RIM_SEEN * KD_STAR_LEAST * pixel * pixel / (KD_RIM_BRIGHTEST * radius * radius);
+    o->fall = KD_RIM_STEP / by_e;
+    o->far = o->none * exp(2.5 * o->fall); /* two rows and a half further, for differences */
+    const double all = log(o->far / fmin(fmax(seen, KD_RIM_NEAREST), KD_RIM_LEAST));
     o->fall = fmax(o->fall, all / (KD_RIM_ROWS - 1));
+    o->apart = fmax(o->fall * by_e, all * apart);
     o->rows = all > 2 * o->fall ? (uint32_t)ceil(all / o->fall) : 0;
-}
-
-/* Places are whole numbers that a float holds. */
-static void set_steps(struct kd_rim *o)
-{
-    double most = 0;
-    for (int k = 0; k < KD_RIM_ANGLES; k++)
-        most = fmax(most, fmax(fabs(o->x[k]), fabs(o->y[k])));
-    o->steps = exp2(floor(log2((1 << 22) / ((1 + o->far) * most))));
 }
 
 bool kd_rim_may_be(const struct kd_scene *scene)
 {
     return scene->camera.projection != KD_PROJECTION_RING && scene->camera.r >= 1.05 * kd_kerr_photon_orbit(-fabs(scene->spacetime.spin));
+}
+
+/* Rays of the first row and of the last, all round, end in the sky. */
+static bool escapes(const struct kd_scene *scene, const struct kd_rim *o)
+{
+    double where[3];
+    bool all = true;
+    for (uint32_t k = 0; k < KD_RIM_ANGLES && all; k += KD_RIM_ANGLES / 16)
+        all = kd_rim_sky_at(scene, o, k, o->far, where) && kd_rim_sky_at(scene, o, k, o->far * exp(-(o->rows - 1.0) * o->fall), where);
+    return all;
 }
 
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
@@ -151,31 +169,8 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
     if (!set_curve(&rim, isinf(scene->camera.r), d) || !set_edges(&rim))
         return false;
     set_rows(&rim, scene, &curve);
-    set_steps(&rim);
-    if (!rim.rows)
+    if (!rim.rows || !escapes(scene, &rim))
         return false;
     *out = rim;
     return true;
-}
-
-#define MIDDLE (1 << 22)
-
-double kd_rim_off(const struct kd_rim *rim, uint32_t i) { return rim->far * exp(-(double)i * rim->fall); }
-
-struct kd_rim_pixel kd_rim_ray(const struct kd_rim *rim, uint32_t k, double off)
-{
-    const double out = (1 + off) * rim->steps;
-    return (struct kd_rim_pixel) { (uint32_t)(MIDDLE + (int)lrint(rim->x[k] * out)), (uint32_t)(MIDDLE - (int)lrint(rim->y[k] * out)) };
-}
-
-struct kd_camera_block kd_rim_camera(const struct kd_scene *scene, const struct kd_rim *rim)
-{
-    struct kd_camera_block o = kd_camera_block(scene);
-    const double step = 1 / rim->steps;
-    o.c0x = (float)rim->ahead[0], o.c0y = (float)rim->ahead[1], o.c0z = (float)rim->ahead[2];
-    o.cxx = (float)(step * rim->right[0]), o.cxy = (float)(step * rim->right[1]), o.cxz = (float)(step * rim->right[2]);
-    o.cyx = (float)(step * rim->up[0]), o.cyy = (float)(step * rim->up[1]), o.cyz = (float)(step * rim->up[2]);
-    o.middle_x = o.middle_y = MIDDLE;
-    o.turn_x = o.turn_y = 0;
-    return o;
 }

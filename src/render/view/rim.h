@@ -4,7 +4,8 @@
  *
  * The rim lies on a plane: of an observer at infinity (alpha, beta) about the curve's middle; of others the tangent plane of the sky of
  * directions at the middle of the curve, tangents of angles. Column k of `angles` begins at the point (x[k], y[k]) of the curve, row i is further out from the
- * middle by the factor 1 + far e^(-i fall). The last row is KD_RIM_LEAST from the curve: of rays that are nearer 32 bits tell too little. */
+ * middle by the factor 1 + far e^(-i fall). The last row is KD_RIM_LEAST from the curve, or so near that the brightest star would be seen no more, if that is nearer, but not nearer than KD_RIM_NEAREST: an
+ * image at `off` of a star of flux F has the radiance F off (radius/pixel)^2 at least, and not much more unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
@@ -15,13 +16,18 @@
 
 #define KD_RIM_ROWS 256    /* at most, of KD_RIM_ANGLES rays (interface.h) */
 #define KD_RIM_LEAST 3e-5
-#define KD_RIM_PIXELS 14.0 /* as wide is the rim, or KD_RIM_MOST of its radius */
-#define KD_RIM_MOST 0.35
+#define KD_RIM_NEAREST 1e-7      /* nearer even double precision loses 1e-6 rad and more */
+#define KD_RIM_STEP 0.1          /* rad */
+#define KD_RIM_BRIGHTEST 0.0235  /* sr: of V = -1.5, Sirius's and some more (sky/star.h) */
+#define KD_RIM_SEEN 0.1          /* of KD_STAR_LEAST: what moves makes stars brighter */
+#define KD_RIM_PIXELS 14.0 /* as wide is the rim, where neighbouring pixels lead far apart; */
+#define KD_RIM_NOISE 1.3e-3 /* or, over its radius, so many radii in pixels: beyond, what 32 bits lose, 7e-6 over the distance, is less than half a percent of where the next pixel leads; */
+#define KD_RIM_MOST 1.0     /* of its radius at most */
 
 struct kd_rim {
     uint32_t rows;                             /* 0: there is none */
     double far, fall;
-    double steps;                              /* of the rays' raster to a unit of the plane: a power of two */
+    double apart;                              /* where neighbouring rays lead, at most, rad; roughly */
     double none, full;                         /* distances from the curve, over its own from the middle: from the first on images of stars are the grid's alone, up to
                                                   the second the rim's, between them they are shared */
     double ahead[3], right[3], up[3];          /* legs of the plane in the observer's frame; at infinity `ahead` is alpha and beta of the middle */
@@ -34,18 +40,9 @@ bool kd_rim_may_be(const struct kd_scene *scene);
 /* There is one where the observer is beyond the orbits of light, and sees all of the curve less than 80 degrees from its middle. Some 0.3 ms. */
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 
-/* The camera of its rays, which looks at the middle, and the place there of the one in column k and row i. */
-struct kd_camera_block kd_rim_camera(const struct kd_scene *scene, const struct kd_rim *rim);
-struct kd_rim_pixel { uint32_t x, y; };
-struct kd_rim_pixel kd_rim_ray(const struct kd_rim *rim, uint32_t k, double off); /* off: of the row, */
-double kd_rim_off(const struct kd_rim *rim, uint32_t i);                          /* far e^(-i fall) */
-
-/* A lens map of it has one order, w and where rays go; with the list of rays and the tables behind it, at most so many bytes. */
-#define KD_RIM_QUANTITIES (KD_LENS_W | KD_LENS_SKY)
+/* Its buffer holds where its rays come from (rim_sky.h), three planes of numbers, and the tables that say where it is: x and y of the curve's points, and `edge`. */
 static inline uint32_t kd_rim_rays(const struct kd_rim *rim) { return rim->rows * KD_RIM_ANGLES; }
-static inline uint64_t kd_rim_bytes(uint32_t rays)
-{
-    return 4ull * rays * (kd_lens_planes(KD_RIM_QUANTITIES, 1) + 2) + 4ull * (2 * KD_RIM_ANGLES + KD_RIM_EDGES);
-}
+static inline uint64_t kd_rim_tables(uint32_t rays) { return 3ull * rays; } /* the number that they begin at */
+static inline uint64_t kd_rim_bytes(uint32_t rays) { return 4ull * (kd_rim_tables(rays) + 2 * KD_RIM_ANGLES + KD_RIM_EDGES); }
 
 #endif
