@@ -62,15 +62,16 @@ void kd_playground_merge(struct kd_playground *p, double h)
 {
     double before = 0;
     size_t joined = 0;
+    bool grown[KD_PLAYGROUND_BODIES_MAX] = { false }; /* where it was before this step means nothing any more */
     for (size_t i = 0; i < p->n; i++) {
         bool again = p->mutual.near[i] > 0 && p->bodies[i].id;
         while (again) {
             again = false;
             for (size_t j = 0; j < p->n; j++)
-                if (j != i && p->bodies[j].id && touched(&p->bodies[i], &p->bodies[j], joined ? 0 : h)) {
+                if (j != i && p->bodies[j].id && touched(&p->bodies[i], &p->bodies[j], grown[i] || grown[j] ? 0 : h)) {
                     before = joined++ ? before : kd_playground_totals(p).energy;
                     join(p, &p->bodies[i], &p->bodies[j]);
-                    again = true; /* it has grown, and may touch more */
+                    grown[i] = again = true; /* it has grown, and may touch more */
                 }
         }
     }
@@ -88,6 +89,8 @@ void kd_playground_merge(struct kd_playground *p, double h)
 
 void kd_playground_capture(struct kd_playground *p)
 {
+    double before = 0;
+    size_t taken = 0;
     for (size_t i = 0; i < p->n;) {
         const struct kd_playground_body *body = &p->bodies[i];
         struct kd_playground_spent *spent = &p->spent;
@@ -101,7 +104,7 @@ void kd_playground_capture(struct kd_playground *p)
             i++;
             continue;
         }
-        const double before = kd_playground_totals(p).energy;
+        before = taken++ ? before : kd_playground_totals(p).energy;
         struct kd_playground_event event = event_of(p, KD_PLAYGROUND_CAPTURED, body);
         event.energy = body->mass * kd_playground_specific(body->x, body->v);
         kd_playground_event_add(&p->events, event);
@@ -109,6 +112,7 @@ void kd_playground_capture(struct kd_playground *p)
         for (int k = 0; k < 3; k++)
             spent->captured_momentum[k] += body->mass * (body->x[(k + 1) % 3] * body->v[(k + 2) % 3] - body->x[(k + 2) % 3] * body->v[(k + 1) % 3]);
         kd_playground_drop(p, i);
-        spent->captured_energy += before - kd_playground_totals(p).energy;
     }
+    if (taken) /* once for all of them: it goes over all pairs */
+        p->spent.captured_energy += before - kd_playground_totals(p).energy;
 }

@@ -31,7 +31,8 @@ static const struct number body[] = { OF(kd_playground_body, id, COUNT32), OF(kd
                                       OF(kd_playground_body, source, COUNT32), OF(kd_playground_body, radiated, REAL),
                                       OF(kd_playground_body, told_inspiral, TRUTH) };
 static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32), OF(kd_playground_debris, next, COUNT32),
-                                        OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, REAL) };
+                                        OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, REAL),
+                                        OF(kd_playground_debris, haste, REAL) };
 static const struct number source[] = { OF(kd_debris_source, number, COUNT32), OF(kd_debris_source, t, REAL),
                                         OF(kd_debris_source, piece_mass, REAL), OF(kd_debris_source, spread, REAL),
                                         OF(kd_debris_source, pieces, COUNT32), OF(kd_debris_source, captured, COUNT32),
@@ -166,7 +167,6 @@ done:
 static bool look(struct kd_playground_debris *d)
 {
     d->alive = 0;
-    d->haste = 0;
     for (uint32_t i = 0; i < d->used; i++) {
         const struct kd_debris_piece *piece = &d->pieces[i];
         const double x[3] = { piece->x[0], piece->x[1], piece->x[2] }, v[3] = { piece->v[0], piece->v[1], piece->v[2] }, r = kd_playground_radius(x);
@@ -177,9 +177,8 @@ static bool look(struct kd_playground_debris *d)
         if (!(r < 1e18) || !(kd_playground_radius(v) < 1.001) || !isfinite(piece->back) || !d->sources[piece->source].number)
             return false;
         d->alive++;
-        d->haste += 1 / (fmax(r, KD_PLAYGROUND_CAPTURE) - KD_PLAYGROUND_HORIZON);
     }
-    return true;
+    return !d->alive || (d->haste > 0 && d->haste < 1e9);
 }
 
 static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *item, struct kd_error *error)

@@ -106,12 +106,14 @@ static void drift(struct kd_playground *p, double time)
     p->forced = false;
 }
 
+/* Returns h; 0, and nothing has moved: it is less than the time can tell. */
 static double step(struct kd_playground *p)
 {
     kd_playground_force(p);
-    const double least = demanded(p), aim = CLEARANCE * least;
-    p->rate = p->rate > 0 ? fmax(2 * aim - p->rate, least) : aim;
-    const double h = 1 / p->rate;
+    const double least = demanded(p), aim = CLEARANCE * least, rate = p->rate > 0 ? fmax(2 * aim - p->rate, least) : aim, h = 1 / rate;
+    if (!(p->t + h > p->t))
+        return 0;
+    p->rate = rate;
     kick(p, 0.5 * h);
     drift(p, h);
     p->margin = fmin(2 * h, 1e6); /* two bodies may have come nearer by so much, and be apart again */
@@ -182,22 +184,28 @@ static void advance_debris(struct kd_playground *p)
         kd_debris_advance(debris, p->t, p->params.safety, p->params.feeds);
 }
 
-/* One sub-step, and what comes of it. With nothing but debris left, as far as that may go at once. */
-static void go(struct kd_playground *p)
+/* One sub-step, and what comes of it. With nothing but debris left, as far as that may go at once. False: the time cannot tell so little. */
+static bool go(struct kd_playground *p)
 {
     if (p->n) {
         const double h = step(p);
+        if (!(h > 0))
+            return false;
         if (p->params.mergers)
             kd_playground_merge(p, h);
         kd_playground_capture(p);
         if (p->params.tides)
             kd_playground_tides(p);
     } else {
-        p->t += fmin(p->params.h_max, kd_debris_stride(&p->debris, p->params.safety));
+        const double h = fmin(p->params.h_max, kd_debris_stride(&p->debris, p->params.safety));
+        if (!(p->t + h > p->t))
+            return false;
+        p->t += h;
         p->steps++;
     }
     advance_debris(p);
     record(p);
+    return true;
 }
 
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress)
@@ -209,16 +217,18 @@ void kd_playground_advance(struct kd_playground *p, double time, struct kd_playg
     if (p->params.gravity == KD_GRAVITY_KERR) {
         uint32_t left = p->params.budget;
         bool late = false;
-        while (!late && p->t < end) {
+        while (!late && p->t < end && p->steps - first < p->params.budget) {
             const double t = fmin(p->t + p->params.h_max, end);
+            if (!(t > p->t)) /* less than the time can tell */
+                break;
             follow(p, t, &left, &late);
             p->t = late ? p->t : t;
             p->steps++;
             record(p);
         }
     }
-    while (p->params.gravity != KD_GRAVITY_KERR && p->t < end && p->steps - first < p->params.budget)
-        go(p);
+    while (p->params.gravity != KD_GRAVITY_KERR && p->t < end && p->steps - first < p->params.budget && go(p))
+        ;
     progress->done = p->t - begin;
     progress->steps = (uint32_t)(p->steps - first);
     progress->slowed = p->t < end;

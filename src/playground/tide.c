@@ -82,6 +82,8 @@ static bool shed(struct kd_playground *p, struct kd_playground_body *body)
 
 void kd_playground_tides(struct kd_playground *p)
 {
+    bool counted = false;
+    double before = 0;
     for (size_t i = 0; i < p->n;) {
         struct kd_playground_body *body = &p->bodies[i];
         const bool passes = body->whole_mass > 0;
@@ -98,11 +100,13 @@ void kd_playground_tides(struct kd_playground *p)
             begin(p, body);
         if (!(depth > body->depth))
             continue;
-        const double before = kd_playground_totals(p).energy, mass = body->mass;
+        if (!counted)
+            before = kd_playground_totals(p).energy;
+        counted = true;
         body->depth = depth;
         if (shed(p, body))
             kd_playground_drop(p, --i);
-        if (mass != body->mass || !p->forced)
-            p->spent.torn_energy += before - kd_playground_totals(p).energy;
     }
+    if (counted) /* once for all stars: it goes over all pairs */
+        p->spent.torn_energy += before - kd_playground_totals(p).energy;
 }

@@ -106,6 +106,7 @@ static void snapshots_start_again_to_the_bit(void **state)
     (void)state;
     static const struct { const char *text; double first, then; } cases[] = {
         { "{\"preset\":\"disruption\",\"debris_per_body\":300,\"debris_capacity\":250}", 2600, 400 },
+        { "{\"preset\":\"disruption\",\"debris_per_body\":200000,\"debris_capacity\":200000,\"h_max\":100}", 2760, 60 }, /* debris bounds the step */
         { "{\"preset\":\"binary\"}", 3000, 4000 },
         { "{\"preset\":\"system\",\"waves\":true,\"amplification\":10}", 100, 100 },
         { "{\"gravity\":\"kerr\",\"spin\":0.9,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},{\"position\":[0,12,0],\"velocity\":[-0.4,-0.25,0.1]}]}", 25, 40 },
