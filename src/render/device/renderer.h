@@ -52,7 +52,7 @@ struct kd_accuracy_report {
     uint64_t refined, between;   /* pixels that were given more rays, followed or taken from between others; with image.samples "auto" alone, as what follows: */
     uint32_t pixel_sampled;      /* pixels compared with 64 rays each */
     double pixel_error, pixel_error_worst; /* how far off what is shown is there, of white: root mean square of the picture; worst of the sample */
-    uint32_t volume_sampled;     /* of scenes with volumes: rays with light that were followed KD_MARCH_FINER times as closely; and what that changed, */
+    uint32_t volume_sampled;     /* of scenes with volumes: rays whose light changed when they were followed KD_MARCH_FINER times as closely; and by how much, */
     double volume_error, volume_error_worst; /* relative to their light, or KD_MARCH_DARK of the brightest: nine of ten are within; worst; 1 where there is no light that is a number, or an end */
 };
 

@@ -69,7 +69,7 @@ static int by_size(const void *a, const void *b)
 /* Light that is a number, of a ray that was not given up, whose is -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
-/* Relative differences of n rays' light, where there is any, in order; how many. Rays without a right one are off by 1. */
+/* Relative differences of n rays' light, where there is any, in order; how many: rays that meet no volume have none. Rays without a right one are off by 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;
@@ -81,7 +81,7 @@ static uint32_t compare(const float *light, const float *finer, uint32_t n, doub
         const double own = fmax(brightest(a), brightest(b));
         if (!right(a) || !right(b))
             off[lit++] = 1;
-        else if (own > 0)
+        else if (brightest(apart) > 0)
             off[lit++] = brightest(apart) / fmax(own, KD_MARCH_DARK * most);
     }
     qsort(off, lit, sizeof *off, by_size);
