@@ -91,7 +91,8 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
         if (!old)
             return kd_error_field(error, pointer, "there is no body with this id, or it is there no more");
         body = *old;
-        body.whole_mass = 0;
+        if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
+            body.whole_mass = 0; /* another star, whose pass through the tides begins anew */
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, error));
     if (isnan(body.x[0]))

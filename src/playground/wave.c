@@ -7,15 +7,16 @@
 
 #define MOST 0.1 /* of the pull: beyond it an orbit has no meaning, and the formula might give energy back */
 
-bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3])
+/* By m1 m2 = eta m^2 and m. */
+static bool react(double product, double m, const double x[3], const double v[3], double amplification, double a[3])
 {
-    const double m = m1 + m2, r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     a[0] = a[1] = a[2] = 0;
-    if (!(m > 0) || !(r > 0) || !(m1 > 0) || !(m2 > 0))
+    if (!(m > 0) || !(r > 0) || !(product > 0))
         return false;
     const double out = (x[0] * v[0] + x[1] * v[1] + x[2] * v[2]) / r;
-    const double strength = 8. / 5 * amplification * (m1 / m) * (m2 / m) * (m / r) * (m / r) / r;
+    const double strength = 8. / 5 * amplification * product / (r * r * r);
     const double along_n = out * (3 * v2 + 17. / 3 * m / r), along_v = v2 + 3 * m / r;
     double size2 = 0;
     for (int k = 0; k < 3; k++) {
@@ -30,10 +31,15 @@ bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3]
     return true;
 }
 
+bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3])
+{
+    return react(m1 * m2, m1 + m2, x, v, amplification, a);
+}
+
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3])
 {
     const double r = kd_playground_radius(x), scale = (r - KD_PLAYGROUND_HORIZON) / r;
-    const bool held = kd_wave_reaction(1, m, x, (const double[3]) { scale * v[0], scale * v[1], scale * v[2] }, amplification, a);
+    const bool held = react(m * (1 + m), 1, x, (const double[3]) { scale * v[0], scale * v[1], scale * v[2] }, amplification, a);
     for (int k = 0; k < 3; k++)
         a[k] *= scale;
     return held;

@@ -19,7 +19,8 @@ struct kd_playground_body;
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
 /* The same of a body of mass m that goes round the hole at x in its potential (hole.h), where a circle has v^2 = r/(r - 2)^2 instead of 1/r: speeds
- * are scaled by (r - 2)/r, and the force too, so that a circle of radius r loses what Peters says of one of radius r. */
+ * are scaled by (r - 2)/r, and the force too, so that a circle of radius r shrinks as Peters says of one of radius r and
+ * the masses 1 and m, though the hole stands still. */
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3]);
 
 /* For each of n bodies the index of the one that pulls it most, if that holds for the other, too, and the two are bound to each other; else n. */

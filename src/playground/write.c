@@ -39,6 +39,7 @@ enum kd_status kd_playground_write(struct kd_playground *p, bool snapshot, struc
 {
     struct kd_json json = kd_json_begin(out);
     enum kd_status status = KD_OK;
+    kd_playground_settle(p);
     kd_json_object(&json, NULL);
     settings(p, &json);
     bodies(p, false, &json);

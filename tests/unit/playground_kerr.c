@@ -196,6 +196,18 @@ static void documents_are_checked_and_changes_are_whole(void **state)
     assert_true(p->params.waves && kd_playground_find(p, 2)->mass == 0.5 && !kd_playground_find(p, 1));
     assert_string_equal(kd_playground_find(p, 7)->name, "new");
     kd_playground_destroy(p);
+    /* A star in its pass that is given another temperature goes on with it; the books of a snapshot know what was given. */
+    p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":1000}");
+    playground_advance(p, 2600);
+    const double shed = p->bodies[0].shed;
+    const char *warm = "{\"change\":[{\"id\":1,\"temperature_k\":9000}]}", *more = "{\"add\":[{\"position\":[500,0,0],\"mass\":0.001}]}";
+    assert_int_equal(kd_playground_patch(&p, warm, strlen(warm), &error), KD_OK);
+    assert_true(shed > 0 && p->bodies[0].shed == shed && p->bodies[0].whole_mass == 1e-6);
+    assert_int_equal(kd_playground_patch(&p, more, strlen(more), &error), KD_OK);
+    struct kd_buffer out = snapshot(p);
+    assert_true(fabs(p->spent.given + 0.001 / 498) < 1e-7);
+    kd_buffer_finish(&out);
+    kd_playground_destroy(p);
 }
 
 int main(void)
