@@ -91,6 +91,7 @@ const labels = {
   'motion.time_rate': 'Pace of time',
   'motion.proper_time_rate': 'Pace of its own time',
   spots: 'Spot',
+  bodies: 'Body',
 };
 
 const spell = name => (name[0].toUpperCase() + name.slice(1)).replace(/_(deg|k|uas|pc|msun|edd|s|hz|km)$/, '').replaceAll('_', ' ');

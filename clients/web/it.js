@@ -188,6 +188,18 @@ export const fields = {
   'spots.size': ['Grandezza', 'Distanza dal centro a cui la gaussiana è scesa a exp(−1/2)'],
   'spots.index': ['Indice spettrale', 'I_ν cala come ν a questa potenza, così che se ne vede g^(3 + indice)'],
   'spots.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
+  bodies: ['Corpo'],
+  'bodies.radius': ['Raggio', 'Raggio della sfera nel proprio riferimento; 0: il corpo non c’è'],
+  'bodies.r': ['Distanza', 'Raggio di Boyer-Lindquist del centro, almeno un centesimo fuori dell’orizzonte'],
+  'bodies.inclination_deg': ['Angolo polare', 'Del centro: 0 sopra il polo della rotazione del disco, 90 nel suo piano'],
+  'bodies.phase_deg': ['Fase', 'Azimut del centro al tempo 0; 0 è quello dell’osservatore con camera.azimuth_deg 0'],
+  'bodies.motion': ['Moto', 'Sposta la sua luce; fermo, ZAMO, kepleriano e retrogrado lo portano in giro col tempo, gli ultimi due solo nel piano del disco'],
+  'bodies.velocity_r': ['Velocità verso l’esterno', 'Rispetto a un osservatore di momento angolare nullo (moto: velocità a scelta)'],
+  'bodies.velocity_theta': ['Velocità verso sud', 'Via dal polo nord, allo stesso modo'],
+  'bodies.velocity_phi': ['Velocità nel verso del disco', 'Lungo la rotazione del disco, allo stesso modo'],
+  'bodies.temperature_k': ['Temperatura', 'Splende come un corpo nero di questa temperatura, spostato da g'],
+  'bodies.brightness': ['Luminosità', 'Luce della superficie rispetto a quella del corpo nero, sulla scala delle temperature del disco; 0: scuro'],
+  'bodies.limb_darkening': ['Oscuramento al bordo', 'Di tanto la luce del bordo è minore che al centro, linearmente nel coseno dell’angolo; 0: nessuno'],
   volume: ['Volume'],
   'volume.model': ['Modello', 'Materia lungo tutto il raggio: nessuna, o uniforme, un guscio ovunque uguale e fermo: quanto fanno luce e opacità lungo raggi curvi'],
   'volume.inner': ['Bordo interno', 'Orizzonte: un centesimo al di fuori, quanto il bordo è almeno'],
@@ -326,6 +338,8 @@ export const presets = {
   falling: 'Ciò che vede chi cade liberamente da lontano, a 6 M; camera.r continua oltre l’orizzonte',
   infall:
     'Una caduta libera da 20 M attraverso l’orizzonte, secondo l’orologio di chi cade, con la massa di Sagittarius A*; in una sessione prosegue',
+  'star-behind': 'Una stella che esce da dietro un buco, il quale fa un anello della sua luce, davanti ad altre stelle; in una sessione va avanti',
+  companions: 'Due stelle che girano in un disco di gas, una nel suo verso e una contro; le loro immagini sono piegate come quella del disco',
   'thick-disk': 'Un disco di gas turbolento alto un decimo della distanza dall’asse, con la luce seguita lungo ogni raggio; in una sessione gira',
   'gargantua-gas': 'Gas turbolento attorno al buco di James et al. 2015, senza Doppler né redshift, come nel film',
   jet: 'Due getti da un buco in gas turbolento, davanti alle stelle: quello che viene verso di noi è il più luminoso; stilizzati',
@@ -449,6 +463,8 @@ const refusals = [
   ['A disk of {} particles from the ISCO to {}.', 'Un disco di {} particelle dall’ISCO a {}.'],
   ['A disk of {} particles from {} to {}.', 'Un disco di {} particelle da {} a {}.'],
   ['Hot spots going round at {…}.', 'Macchie calde in orbita a {…}.'],
+  ['A body at {…}.', 'Un corpo a {…}.'],
+  ['Bodies at {…}.', 'Corpi a {…}.'],
 ].map(([english, italian]) => {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
   const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
@@ -498,8 +514,10 @@ export const sentences = {
   gas: 'gas',
   volume: 'volume',
   jets: 'getti',
+  bodies: 'corpi',
   'Disk of particles': 'Disco di particelle',
   'Hot spot': 'Macchia calda',
+  Body: 'Corpo',
   Jets: 'Getti',
   'A celestial grid behind.': 'Dietro, un reticolo celeste.',
   'Stars and a Milky Way behind.': 'Dietro, stelle e una Via Lattea.',
@@ -533,6 +551,18 @@ export const sentences = {
     'macchie: lo spostamento Doppler o il redshift gravitazionale del gas è disattivato',
   "spots: fast light: shown where they are at one coordinate time, whatever the light's delay":
     'macchie: luce veloce: mostrate dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
+  'bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows, no light of the disk on them':
+    'corpi: sfere opache nel proprio riferimento; lo spazio è piatto, e la luce dritta, alla scala di ognuno: niente maree, gravità propria, ombre, né luce del disco su di loro',
+  'bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening':
+    'corpi: splendono come corpi neri di una sola temperatura, con una legge lineare scelta di oscuramento al bordo',
+  "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay":
+    'corpi: luce veloce: mostrati dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
+  'bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no more':
+    'corpi: quelli che cadono o hanno una velocità a scelta restano dove sono messi: essa sposta la loro luce e basta',
+  'bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum':
+    'corpi: la luminosità è bolometrica (g^4), il colore quello della parte visibile dello spettro',
+  'bodies: one that is smaller than a pixel may lie between its rays':
+    'corpi: uno più piccolo di un pixel può stare tra i suoi raggi',
   'disk: opacity is a chosen number a crossing, not computed from the gas':
     'disco: l’opacità è un numero scelto per attraversamento, non calcolata dal gas',
   'gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and colour, and the optical depth where that is in force':

@@ -21,18 +21,22 @@ struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; vec3 spre
  * its own length, depth = alpha (-k.U), and bolometric light = j (-k.U)^-3, 1/(-k.U) being g. grain: M along the ray over which it changes by about
  * its own size; where there is nothing, as much as the way to where there is something. */
 struct kd_medium { vec3 light; float depth, grain; };
+/* A surface that a ray meets. time: Mino time from the observer; body: which one, KD_NOBODY: none; crossed: crossings of the plane before it; w, u, phi and
+ * dw, du as in kd_midst; energy, momentum: E and L; cosine: of the angle of emission, in the frame of the surface. */
+struct kd_met { float time; uint body, crossed; float w, u, phi, dw, du, energy, momentum, cosine; };
+#define KD_NOBODY 0xffffffffu
 /* A ray on its way: the light so far, and what all in front lets pass. */
 struct kd_beam { vec3 light; float apart, through; };
 
 #include "light/tell.glsl"
 
 #define KD_SPEC_TRAIT_(number, name) layout(constant_id = KD_SPEC_TRAITS + number) const uint TRAITS_##name = 0;
-KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
+KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_)
 #define KD_HAS(name) ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u)
 #define KD_NO_EMITTER_(number, name)
 /* Volumes in the scene. */
 #define KD_PRESENT_(number, name) + ((TRAITS_##name & KD_TRAIT_PRESENT) != 0u ? 1 : 0)
-const int KD_VOLUMES = 0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_PRESENT_);
+const int KD_VOLUMES = 0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_PRESENT_, KD_NO_EMITTER_);
 
 #define KD_EMIT_CODE
 #define KD_EMIT_END_CODE
@@ -40,12 +44,14 @@ const int KD_VOLUMES = 0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITT
 
 /* These say whether anything is to be seen at crossings, and whether the luminance of some of it is kept apart. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
-const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
+const uint KD_ALL_TRAITS = 0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_GLOWS = (KD_ALL_TRAITS & KD_TRAIT_PRESENT) != 0u;
 const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
-const uint KD_ALONG_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
+const uint KD_ALONG_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_);
+const uint KD_MET_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
+const bool KD_MARCHES = (KD_ALONG_TRAITS & KD_TRAIT_PRESENT) != 0u, KD_MEETS = (KD_MET_TRAITS & KD_TRAIT_PRESENT) != 0u;
 /* This says whether anything shines where rays end. */
-const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_);
+const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
 /* All emitters of a place are in it together: none hides another's light. */
@@ -54,7 +60,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
     float seen = beam.through;
     KD_TELL_PLACE(s, beam.through)
 #define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s);
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 #define KD_GLOW_(number, name)                                                                                 \
     if (KD_HAS(name)) {                                                                                        \
         kd_glow glow = kd_##name##_glow(s);                                                                    \
@@ -63,7 +69,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
         beam.through *= 1.0 - glow.alpha;                                                                      \
         KD_TELL_GLOW(number, seen, glow)                                                                       \
     }
-    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_GLOW_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
 #ifdef KD_MARCH
@@ -81,7 +87,7 @@ kd_medium kd_medium_at(kd_midst p)
         sum.depth += one.depth;                                                                                \
         sum.grain = min(sum.grain, one.grain);                                                                 \
     }
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_ALONG_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_ALONG_, KD_NO_EMITTER_)
     return sum;
 }
 
@@ -96,6 +102,21 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 }
 #endif
 
+#ifdef KD_MARCH
+/* Nothing comes through what is met. */
+void kd_beam_met(inout kd_beam beam, kd_met met)
+{
+#define KD_MET_(number, name)                                                                                  \
+    if (KD_HAS(name)) {                                                                                        \
+        vec3 light = kd_##name##_light(met);                                                                   \
+        KD_TELL_MET_(number, name, met, light, beam.through)                                                         \
+        beam.light += beam.through * light;                                                                    \
+    }
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_MET_)
+    beam.through = 0.0;
+}
+#endif
+
 void kd_beam_end(inout kd_beam beam, kd_end end)
 {
     KD_TELL_END(end)
@@ -105,7 +126,7 @@ void kd_beam_end(inout kd_beam beam, kd_end end)
         beam.light += beam.through * light;                                                                    \
         KD_TELL_LIGHT(KD_TELL_OF_END, number, light)                                                           \
     }
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
 /* Points of light are spread over pixels, whatever becomes of a pixel's own rays. */
@@ -117,7 +138,7 @@ void kd_beam_points(inout kd_beam beam, uint pixel)
         beam.light += beam.through * light;                                                                    \
         KD_TELL_LIGHT(KD_TELL_OF_POINTS, number, light)                                                        \
     }
-    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_)
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
 /* Nothing in the sky has this colour: a ray that was given up is not painted as if it had finished. */

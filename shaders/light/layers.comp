@@ -21,11 +21,12 @@ layout(set = 0, binding = 3) KD_LAYER_ACCESS buffer Layer { uint layer[]; };
 #define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)
 
 #define NOT_LIGHT_(number, name, needs)
-#define NOT_(number, name, needs, value)
+#define NOT_(number, name, needs, value, met)
+#define NOT_END_(number, name, needs, value)
 #define IS_LIGHT_(number, name, needs) || LAYER == number
-#define IS_(number, name, needs, value) || LAYER == number
-const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_);
-const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_);
+#define IS_(number, name, needs, value, met) || LAYER == number
+const bool OF_LIGHT = false KD_LAYERS(IS_LIGHT_, NOT_, NOT_END_);
+const bool OF_CROSSING = false KD_LAYERS(NOT_LIGHT_, IS_, NOT_END_);
 
 /* That of what shines there, along the ray: -ln of the part of the light from behind that it lets through. */
 float kd_layer_depth(kd_sample s)
@@ -61,6 +62,7 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
 #define KD_MARCH_GIVEN_UP(beam) lost = true
 #include "light/march.glsl"
+#include "light/meet.glsl"
 #endif
 
 /* This is the luminance of a ray: of all that it sees, or of one order, as it arrives. */
@@ -71,7 +73,7 @@ float light(uvec2 place, uint at, uint pixel)
     bool given_up = false;
 #ifdef KD_MARCH
     lost = false;
-    kd_march_follow(beam, place, at); /* no orders: plans refuse them */
+    kd_follow(beam, place, at); /* no orders: plans refuse them */
     given_up = lost;
 #else
     for (uint n = 0; KD_GLOWS && n < (ORDER == KD_NO_ORDER ? ORDERS : ORDER + 1u); n++) {
@@ -97,17 +99,36 @@ float light(uvec2 place, uint at, uint pixel)
 /* The number of a crossing, which must lie on the disk. */
 float value_of(kd_sample s, float delay)
 {
-#define VALUE_(number, name, needs, value)                                                                     \
+#define VALUE_(number, name, needs, value, met)                                                                  \
     if (LAYER == number)                                                                                       \
         return value;
-    KD_LAYERS(NOT_LIGHT_, VALUE_, NOT_)
+    KD_LAYERS(NOT_LIGHT_, VALUE_, NOT_END_)
     return KD_NOTHING;
 }
+
+#ifdef KD_MARCH
+/* That of a body which hides what lies behind. */
+float value_of_met(kd_met met)
+{
+#define MET_(number, name, needs, value, met)                                                                  \
+    if (LAYER == number)                                                                                       \
+        return met;
+    KD_LAYERS(NOT_LIGHT_, MET_, NOT_END_)
+    return KD_NOTHING;
+}
+#endif
 
 float of_crossing(uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
-    for (uint n = 0; n < ORDERS; n++) {
+    uint before = ORDERS;
+#ifdef KD_MARCH
+    kd_met met = kd_met_nothing();
+    if (KD_MEETS)
+        met = kd_meet(place);
+    before = min(ORDERS, met.crossed);
+#endif
+    for (uint n = 0; n < before; n++) {
         float w = lens[at + n * slice.stride];
         if (w <= 0.0)
             break;
@@ -116,14 +137,21 @@ float of_crossing(uvec2 place, uint at)
         if ((on || kd_plunge_falls(s)) && (ORDER == KD_NO_ORDER || n == ORDER))
             return value_of(s, quantity(KD_LENS_DELAY, at + n * slice.stride));
     }
+#ifdef KD_MARCH
+    if (met.body != KD_NOBODY && (ORDER == KD_NO_ORDER || met.crossed == ORDER))
+        return value_of_met(met);
+#endif
     return KD_NOTHING;
 }
 
+#define END_VALUE_(number, name, needs, value)                                                                 \
+    if (LAYER == number)                                                                                       \
+        return value;
 float of_end(uint at)
 {
     float fate = quantity(KD_LENS_FATE, at);
     kd_end end = kd_end(quantity(KD_LENS_SKY_U, at), quantity(KD_LENS_SKY_PHI, at), quantity(KD_LENS_SKY_FOOTPRINT, at), 1.0);
-    KD_LAYERS(NOT_LIGHT_, NOT_, VALUE_)
+    KD_LAYERS(NOT_LIGHT_, NOT_, END_VALUE_)
     return KD_NOTHING;
 }
 

@@ -70,7 +70,7 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
         to = from;
 }
 
-const bool KD_MARCH_TURNS = (KD_ALONG_TRAITS & KD_TRAIT_AZIMUTH) != 0u;
+const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
 /* The azimuth by which the hole drags the ray, in the coordinates of ray/radial_step.glsl: chi up to the beginning of a step, without what those leave
  * out; and which they are: way, and what was left out before. */
@@ -214,8 +214,9 @@ bool kd_march_meets(kd_geodesic m, kd_ray ray)
 }
 
 /* This is where a ray is: the step at hand goes from p to q. side: of the plane that p is on, crossed: how often the ray has crossed it before; stretch: how
- * long the next one may be, in Mino time; steps: how many there were. goes: there is a step at hand. lost: no end was found. */
-struct kd_march_way { kd_geodesic m; kd_path p, q; kd_stride s; kd_march_drag drag; float rate2, side, h, stretch; uint crossed, steps; bool goes, lost; };
+ * long the next one may be, in Mino time; steps: how many there were. goes: there is a step at hand. lost: no end was found.
+ * left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
+struct kd_march_way { kd_geodesic m; kd_path p, q; kd_stride s; kd_march_drag drag; float rate2, side, h, stretch, left; uint crossed, steps; bool goes, lost; };
 
 /* These are the least and the largest value that a step's quintic can have: those of its coefficients by Bernstein's polynomials (Farouki & Rajan 1987). */
 vec2 kd_quintic_hull(kd_quintic q)
@@ -244,7 +245,8 @@ void kd_march_leave(inout kd_march_way y)
     bool gone = y.q.v.w < 0.0 && y.q.y.w < emission.frame.along_least && (y.q.y.w <= 0.0 || kd_path_pull(y.m, y.q.y).w <= 0.0);
     y.side = crosses ? -y.side : y.side;
     y.crossed += crosses ? 1u : 0u;
-    y.goes = y.goes && !falls && !gone;
+    y.left -= y.h;
+    y.goes = y.goes && !falls && !gone && y.left > 0.0;
     y.p = y.q;
 }
 
@@ -281,9 +283,9 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
     float turn_w = y.p.v.w * y.q.v.w < 0.0 ? kd_quintic_root(kd_quintic_derived(s.w), 0.0, 0.0, 1.0) : none;
     float turn_u = y.p.v.z * y.q.v.z < 0.0 ? kd_quintic_root(kd_quintic_derived(s.u), 0.0, 0.0, 1.0) : none;
     float plane = kd_march_crosses(y) ? kd_quintic_root(s.u, 0.0, 0.0, 1.0) : none;
-    float t = 0.0;
-    while (t < 1.0 && beam.through > 0.0) {
-        float end = 1.0;
+    float t = 0.0, last = min(y.left / y.h, 1.0);
+    while (t < last && beam.through > 0.0) {
+        float end = last;
         end = turn_w > t ? min(end, turn_w) : end;
         end = turn_u > t ? min(end, turn_u) : end;
         end = plane > t ? min(end, plane) : end;
@@ -310,7 +312,7 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
     }
 }
 
-kd_march_way kd_march_begin(kd_ray ray)
+kd_march_way kd_march_begin(kd_ray ray, float left)
 {
     kd_march_way y;
     y.m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
@@ -320,6 +322,7 @@ kd_march_way kd_march_begin(kd_ray ray)
     y.h = KD_PI / (float(STEPS) * sqrt(y.rate2));
     y.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     y.stretch = 0.0;
+    y.left = left;
     y.crossed = 0u;
     y.steps = 0u;
     y.drag = kd_march_drag_of(y.m, ray);
@@ -328,11 +331,11 @@ kd_march_way kd_march_begin(kd_ray ray)
     return y;
 }
 
-/* Follows one ray, but for what lies at its end. */
-void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
+/* Follows one ray up to a Mino time, before which it crosses the plane so often, but for what lies there or at its end. */
+void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
-    kd_march_way y = kd_march_begin(ray);
+    kd_march_way y = kd_march_begin(ray, time);
     while (y.goes && beam.through > 0.0) {
         kd_march_advance(y, ray);
         if (y.goes) {
@@ -343,7 +346,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at)
     if (y.lost)
         KD_MARCH_GIVEN_UP(beam);
     KD_TELL_MARCHED(y.steps)
-    for (uint n = y.crossed; KD_GLOWS && n < ORDERS && beam.through > 0.0; n++) { /* beyond the volumes */
+    for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0; n++) { /* beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;

@@ -20,6 +20,23 @@ float kd_layer_temperature(kd_sample s)
     return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s)) : t; /* its flux goes as the fourth power */
 }
 
+#ifdef KD_MARCH
+/* The same of a surface that is met, whichever emitter's it is. */
+float kd_layer_met_g(kd_met met)
+{
+#define KD_MET_G_(number, name) if (KD_HAS(name)) return 1.0 / kd_##name##_shift(met);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_MET_G_)
+    return 0.0;
+}
+
+float kd_layer_met_temperature(kd_met met)
+{
+#define KD_MET_KELVIN_(number, name) if (KD_HAS(name)) return kd_##name##_kelvin(met);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_MET_KELVIN_)
+    return 0.0;
+}
+#endif
+
 /* Brings an azimuth to (-pi, pi]. */
 float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
 

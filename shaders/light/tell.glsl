@@ -9,6 +9,8 @@
  *   KD_TELL_OF_END, KD_TELL_OF_POINTS   an emitter there: its number, light
  *   KD_TELL_ALONG     a stretch through volumes: w and u at both ends, light that it adds, what comes through before and behind it
  *   KD_TELL_OF_VOLUME a volume, of the whole ray: its number, light as it arrives, optical depth
+ *   KD_TELL_MET       a surface that hides all behind it: number of its emitter, light, which of them, crossings before it, cosine of the angle of
+ *                     emission, what comes through in front; and KD_TELL_MET_AT behind it: w, u, azimuth, g
  *   KD_TELL_LOST      the ray was given up
  *   KD_TELL_FRONT, KD_TELL_WHOLE        the sum before the end and with it: light, what comes through, and the steps and places of the march */
 #ifndef KD_TELL_GLSL
@@ -58,6 +60,9 @@ void kd_tell_place(kd_sample s, float through)
                 vec4(beam.light - before.light, before.through), vec2(beam.through, 0.0));
 #define KD_TELL_END(end) kd_tell(KD_TELL_ENDS, vec4(end.u, end.phi, end.footprint, 0.0), vec4(0.0), vec2(0.0));
 #define KD_TELL_LIGHT(of, number, light) kd_tell(of, vec4(number, light), vec4(0.0), vec2(0.0));
+#define KD_TELL_MET_(number, name, met, light, through)                                                        \
+    kd_tell(KD_TELL_MET, vec4(number, light), vec4(kd_##name##_which(met), met.crossed, met.cosine, through), vec2(0.0));    \
+    kd_tell(KD_TELL_MET_AT, vec4(met.w, met.u, met.phi, 1.0 / kd_##name##_shift(met)), vec4(0.0), vec2(0.0));
 #define KD_TELL_GIVEN_UP kd_tell(KD_TELL_LOST, vec4(0.0), vec4(0.0), vec2(0.0));
 #define KD_TELL_SUM(of, beam) kd_tell_at(of == KD_TELL_FRONT ? 0u : 1u, of, vec4(beam.light, beam.through), vec4(kd_told_steps, kd_told_places, 0.0, 0.0), vec2(0.0));
 
@@ -65,7 +70,7 @@ void kd_tell_place(kd_sample s, float through)
 float kd_told_steps = 0.0, kd_told_places = 0.0;
 #define KD_TELL_NONE_(number, name)
 #define KD_TELL_VOLUME_(number, name) vec4 kd_place_##name = vec4(0.0), kd_tried_##name = vec4(0.0), kd_told_##name = vec4(0.0);
-#define KD_TELL_VOLUMES_(OF) KD_EMITTERS(KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, OF)
+#define KD_TELL_VOLUMES_(OF) KD_EMITTERS(KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, KD_TELL_NONE_, OF, KD_TELL_NONE_)
 KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
 #define KD_TELL_MEDIUM(name, one) kd_place_##name = vec4(one.light, one.depth);
 #define KD_TELL_TRY_(number, name) kd_tried_##name = vec4(0.0);
@@ -98,6 +103,7 @@ KD_TELL_VOLUMES_(KD_TELL_VOLUME_)
 #define KD_TELL_ON(comes, way)
 #define KD_TELL_TAKE(before, tried, rest)
 #define KD_TELL_MARCHED(steps)
+#define KD_TELL_MET_(number, name, met, light, through)
 #define KD_TELL_PLACE(s, through)
 #define KD_TELL_GLOW(number, seen, glow)
 #define KD_TELL_BEFORE(beam)

@@ -54,12 +54,13 @@ vec3 background(uvec2 place, uint at, uint pixel)
 bool lost = false; /* the ray at hand */
 #define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true)
 #include "light/march.glsl"
+#include "light/meet.glsl"
 
 /* Follows one ray, light of its end included. */
 kd_beam follow(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
-    kd_march_follow(beam, place, at);
+    kd_follow(beam, place, at);
     KD_TELL_SUM(KD_TELL_FRONT, beam)
     if (ENDS)
         beam.light += beam.through * background(place, at, pixel);

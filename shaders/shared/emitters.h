@@ -7,6 +7,9 @@
  *   ALONG         kd_name_along(point): what there is at a place of the ray, which shines and takes light away all along it (a kd_medium of
  *                 light/compose.glsl). Scenes that have one are lit by the march (light/march.glsl), which takes as many places as the emitter's grain,
  *                 its depth and the ray's bending ask for; its C file says between which radii and latitudes it is
+ *   MET           kd_name_light(met), kd_name_shift(met), kd_name_kelvin(met): light, 1/g and temperature of opaque surfaces that the ray meets off the
+ *                 plane (light/meet.glsl), of which the first hides all behind it. Scenes that
+ *                 have one are lit by the kernel of the march as well
  *   AT_END        kd_name_end(end): what a ray sees that has come through; kd_name_points(pixel): of those with points of light, what a pixel has of them
  *
  * An emitter called name has its GLSL in emit/name.glsl, which says
@@ -24,7 +27,7 @@
 #ifndef KD_EMITTERS_H
 #define KD_EMITTERS_H
 
-#define KD_EMITTERS(AT_CROSSING, PART, OVER, AT_END, ALONG)                                                    \
+#define KD_EMITTERS(AT_CROSSING, PART, OVER, AT_END, ALONG, MET)                                               \
     AT_CROSSING(0, disk)                                                                                       \
     AT_CROSSING(1, particles)                                                                                  \
     PART(2, plunge)                                                                                            \
@@ -34,20 +37,21 @@
     AT_CROSSING(6, gas)                                                                                        \
     ALONG(7, volume)                                                                                           \
     ALONG(8, jets)                                                                                             \
-    ALONG(9, thick)
+    ALONG(9, thick)                                                                                            \
+    MET(10, bodies)
 
 /* All that has numbers. */
-#define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B)
+#define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)
 /* All tables, by the KD_T(table, rows) that is defined where this stands; they lie one behind the other in this order. */
 #define KD_TABLES_OF_(number, name) KD_TABLES_##name(KD_T)
-#define KD_EMIT_TABLES KD_TABLES_colour(KD_T) KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
+#define KD_EMIT_TABLES KD_TABLES_colour(KD_T) KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
 /* All buffers, by the KD_B(number, type, member) that is defined there: bindings of the kernels of light from KD_OWN_BINDING on. */
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
-#define KD_EMIT_BUFFERS KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
+#define KD_EMIT_BUFFERS KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
 /* All passes of their own, by the KD_P(name, ID, word, guess) that is defined there (render/plan/pass.h). */
 #define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
-#define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
+#define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
 /* Bits that each word has: the scene has the emitter; its luminance is kept apart as well, so that its flux and centroid are measured by
  * themselves. There is room for that of one. */

@@ -203,6 +203,8 @@
 #define KD_TELL_WHOLE 7.0
 #define KD_TELL_ALONG 8.0
 #define KD_TELL_OF_VOLUME 9.0
+#define KD_TELL_MET 10.0
+#define KD_TELL_MET_AT 11.0
 #define KD_TELL_SUMS 2u /* records in front of the others: KD_TELL_FRONT and KD_TELL_WHOLE */
 
 #endif

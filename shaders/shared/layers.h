@@ -2,8 +2,8 @@
  * image.layers (src/scene/fields.h), where "rgb" is 0. What it is called, its unit and its colours: src/render/plan/layer_kinds.c, by the name.
  *
  *   LIGHT(number, name, needs)             of all rays of a pixel, their mean (light/layers.comp)
- *   CROSSING(number, name, needs, value)   of one place on the pixel's middle ray, where that crosses the disk: GLSL of the sample s and
- *                                          its delay
+ *   CROSSING(number, name, needs, value, met)  of one place on the pixel's middle ray, where that crosses the disk: GLSL of the sample s and
+ *                                          its delay; or, of kd_met met, where it meets a body before that
  *   RAY(number, name, needs, value)        of the end of that ray: GLSL of its fate and of kd_end end
  *
  * needs: quantities of the lens map beside W. A value that is no number is none; infinity is one. */
@@ -12,18 +12,18 @@
 
 #define KD_LAYERS(LIGHT, CROSSING, RAY)                                                                        \
     LIGHT(1, intensity, 0)                                                                                     \
-    CROSSING(2, g, 0, kd_layer_g(s))                                                                           \
-    CROSSING(3, temperature, 0, kd_layer_temperature(s))                                                       \
-    CROSSING(4, r, 0, 1.0 / s.w)                                                                               \
-    CROSSING(5, phi, KD_LENS_PHI, kd_layer_turned(s.phi + emission.frame.azimuth))                             \
-    CROSSING(6, delay, KD_LENS_DELAY, delay)                                                                   \
-    CROSSING(7, emission_angle, 0, kd_layer_angle(kd_layer_g(s) * sqrt(max(s.q, 0.0)) * s.w))                  \
-    CROSSING(8, order, 0, float(s.order))                                                                      \
+    CROSSING(2, g, 0, kd_layer_g(s), kd_layer_met_g(met))                                                                           \
+    CROSSING(3, temperature, 0, kd_layer_temperature(s), kd_layer_met_temperature(met))                                                       \
+    CROSSING(4, r, 0, 1.0 / s.w, 1.0 / met.w)                                                                               \
+    CROSSING(5, phi, KD_LENS_PHI, kd_layer_turned(s.phi + emission.frame.azimuth), kd_layer_turned(met.phi + emission.frame.azimuth))                           \
+    CROSSING(6, delay, KD_LENS_DELAY, delay, KD_NOTHING)                                                                   \
+    CROSSING(7, emission_angle, 0, kd_layer_angle(kd_layer_g(s) * sqrt(max(s.q, 0.0)) * s.w), kd_layer_angle(met.cosine))                  \
+    CROSSING(8, order, 0, float(s.order), float(met.crossed))                                                                      \
     RAY(9, sky_theta, KD_LENS_SKY, fate == KD_FATE_ESCAPED ? kd_layer_angle(end.u) : KD_NOTHING)               \
     RAY(10, sky_phi, KD_LENS_SKY, fate == KD_FATE_ESCAPED ? kd_layer_turned(end.phi + emission.frame.azimuth) : KD_NOTHING) \
     RAY(11, fate, KD_LENS_SKY, fate)                                                                           \
-    CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint))                       \
+    CROSSING(12, footprint, KD_LENS_PHI | KD_LENS_FOOTPRINT, kd_layer_size(s.footprint), KD_NOTHING)                       \
     RAY(13, sky_footprint, KD_LENS_SKY | KD_LENS_SKY_FOOTPRINT, fate == KD_FATE_ESCAPED ? kd_layer_size(end.footprint) : KD_NOTHING) \
-    CROSSING(14, optical_depth, 0, kd_layer_depth(s))
+    CROSSING(14, optical_depth, 0, kd_layer_depth(s), uintBitsToFloat(KD_INFINITE_BITS))
 
 #endif

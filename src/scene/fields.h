@@ -138,6 +138,23 @@
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* at most; the kernels have room for as many */
 
+#define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
+    REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", "radius of the sphere, in its own frame; 0: there is no such body") \
+    REAL(bodies, r, MODEL, FRONT, 15.0, 1.0, 1e7, "M", "Boyer-Lindquist radius of its centre, at least a hundredth outside the horizon's") \
+    REAL(bodies, inclination_deg, MODEL, REST, 90.0, 0.0, 180.0, "degrees",                                          \
+         "polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane")                       \
+    REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0") \
+    ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN,                                                         \
+         "state of motion, which shifts its light; static, zamo, keplerian and retrograde take it round with time, the last two in the disk's plane alone" KD_OBSERVER_HELP, \
+         KD_OBSERVER_WORDS)                                                                                          \
+    REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", "velocity outwards, past one of zero angular momentum (motion: velocity)") \
+    REAL(bodies, velocity_theta, MODEL, REST, 0.0, -1.0, 1.0, "c", "velocity away from the north pole, likewise (motion: velocity)") \
+    REAL(bodies, velocity_phi, MODEL, REST, 0.0, -1.0, 1.0, "c", "velocity along the disk's rotation, likewise (motion: velocity)") \
+    REAL(bodies, temperature_k, MODEL, FRONT, 6000.0, 300.0, 1e9, "K", "it shines as a black body of this temperature, shifted by g") \
+    REAL(bodies, brightness, MODEL, REST, 1.0, 0.0, 1e9, "1", "light of its surface over that of the black body, on the scale of the disk's temperatures; 0: dark") \
+    REAL(bodies, limb_darkening, MODEL, REST, 0.6, 0.0, 1.0, "1", "light of its rim is less by so much than that of its middle, linearly in the cosine of the angle; 0: none")
+#define KD_SCENE_BODIES 8 /* at most */
+
 #define KD_VOLUME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     ENUM(volume, model, MODEL, FRONT, KD_VOLUME_NONE,                                                                \
          "matter all along the rays: none, or uniform, a shell that is the same everywhere and does not move: what light and opacity along bent rays come to", \
@@ -261,6 +278,7 @@
     SECTION(disk, KD_DISK_FIELDS, GAS, "the accretion disk in the equatorial plane, turning towards +phi")           \
     SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models")                              \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, "hot spots: Gaussians in the equatorial plane that go round with the gas") \
+    LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: spheres that shine, before the hole, behind it and in the disk") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter all along the rays")                                              \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis")                                          \
     SECTION(sky, KD_SKY_FIELDS, LOOK, "what lies at infinity")                                                       \
@@ -329,6 +347,10 @@
     SWITCH("disk.gas.amplitude")                                                                                     \
     SPAN("disk.gas.seed", 0, 1000)                                                                                   \
     SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot")                                             \
+    SWITCH("bodies.radius") SPAN("bodies.radius", 0.1, 20) BUTTON("bodies.radius", 2, "Body")                        \
+    SPAN("bodies.r", 3, 200) SPAN("bodies.phase_deg", -180, 180) SPAN("bodies.temperature_k", 1000, 1e5)            \
+    WITH("bodies.velocity_r", "motion", KD_OBSERVER_VELOCITY) WITH("bodies.velocity_theta", "motion", KD_OBSERVER_VELOCITY) \
+    WITH("bodies.velocity_phi", "motion", KD_OBSERVER_VELOCITY)                                                      \
     SWITCH("volume.model") SPAN("volume.outer", 3, 200)                                                               \
     WITH("volume.inner", "model", KD_VOLUME_UNIFORM) SPAN("volume.inner", 1, 100) FIRST("volume.inner", 6)            \
     WITH("volume.outer", "model", KD_VOLUME_UNIFORM)                                                                 \

@@ -107,6 +107,30 @@ size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_
     return n;
 }
 
+size_t kd_scene_bodies(const struct kd_scene *scene, const struct kd_body *on[KD_SCENE_BODIES])
+{
+    size_t n = 0;
+    for (size_t i = 0; i < scene->bodies.count; i++)
+        if (scene->bodies.at[i].radius > 0)
+            on[n++] = &scene->bodies.at[i];
+    return n;
+}
+
+struct kd_vantage kd_body_vantage(const struct kd_scene *scene, const struct kd_body *body)
+{
+    const double i = body->inclination_deg;
+    return (struct kd_vantage) { scene->spacetime.spin, body->r, kd_cos_deg(i), kd_sin_deg(i) };
+}
+
+struct kd_observer_motion kd_body_motion(const struct kd_body *body)
+{
+    struct kd_observer_motion motion = kd_observer_motion_of((enum kd_observer)body->motion);
+    const double velocity[] = { body->velocity_r, body->velocity_theta, body->velocity_phi };
+    for (int i = 0; i < 3 && body->motion == KD_OBSERVER_VELOCITY; i++)
+        motion.velocity[i] = velocity[i];
+    return motion;
+}
+
 /* It is the hole that rings, and m counts about its own axis: spin a < 0 turns the disk against the hole, and rings as |a| does. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {

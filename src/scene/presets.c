@@ -102,6 +102,22 @@ const struct kd_preset kd_presets[] = {
       false,
       "{\"disk\":{\"height\":0.1},\"image\":{\"critical_factor\":1},"
       "\"motion\":{\"time_rate\":6}}" },
+    { "star-behind", "A star that comes round from behind a hole, which makes a ring of its light, before other stars; in a live session it goes on",
+      true,
+      "{\"spacetime\":{\"spin\":0.5},"
+      "\"camera\":{\"inclination_deg\":90,\"field_m\":50},"
+      "\"disk\":{\"model\":\"none\"},"
+      "\"bodies\":[{\"radius\":1.2,\"r\":25,\"phase_deg\":178,\"temperature_k\":5000}],"
+      "\"sky\":{\"model\":\"catalogue\",\"orientation\":\"sgra\",\"brightness\":0.02},"
+      "\"style\":{\"exposure\":-0.5,\"bloom\":0.3},"
+      "\"motion\":{\"time_rate\":4}}" },
+    { "companions", "Two stars that go round in a disk of gas, one with it and one against it; their images are bent as the disk's is", false,
+      "{\"spacetime\":{\"spin\":0.9},"
+      "\"camera\":{\"inclination_deg\":78,\"field_m\":52},"
+      "\"bodies\":[{\"radius\":2,\"r\":17,\"phase_deg\":150,\"temperature_k\":4500},"
+      "{\"radius\":1,\"r\":9,\"phase_deg\":-50,\"temperature_k\":9000,\"motion\":\"retrograde\"}],"
+      "\"sky\":{\"model\":\"catalogue\",\"milky_way\":0},"
+      "\"motion\":{\"time_rate\":6}}" },
     { "falling", "What somebody sees who falls in freely from far away, at 6 M; camera.r goes on through the horizon", false,
       "{\"camera\":{\"r\":6,\"observer\":\"infall\",\"fov_deg\":120},"
       "\"sky\":{\"model\":\"catalogue\",\"brightness\":0.02}}" },

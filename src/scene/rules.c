@@ -6,6 +6,8 @@
 #include "scene/number.h"
 #include "scene/value.h"
 
+#include <stdio.h>
+
 struct shown {
     char text[KD_NUMBER_SIZE];
 };
@@ -294,6 +296,55 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
+#define BODIES_CLEAR 1.01 /* of the horizon's radius */
+
+/* A field of a body, and why it is not allowed. */
+static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed, struct kd_error *error)
+{
+    char path[KD_PATH_SIZE], pointer[KD_PATH_SIZE];
+    const struct kd_field *field = kd_field_find("bodies", name);
+    kd_field_path(field, index, path);
+    kd_field_pointer(field, index, pointer);
+    return kd_error_field(error, pointer, "%s is %s, allowed is %s", path, is, allowed);
+}
+
+static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd_error *error)
+{
+    const struct kd_body *b = &scene->bodies.at[index];
+    const struct kd_vantage at = kd_body_vantage(scene, b);
+    const double least = BODIES_CLEAR * kd_kerr_horizon(scene->spacetime.spin), v[] = { b->velocity_r, b->velocity_theta, b->velocity_phi };
+    const bool circular = b->motion == KD_OBSERVER_KEPLERIAN || b->motion == KD_OBSERVER_RETROGRADE;
+    const struct kd_observer_row *row = &kd_observers[b->motion];
+    char allowed[160];
+    if (b->r < least) {
+        snprintf(allowed, sizeof allowed, "at least %s M, a hundredth outside the horizon", show_bound(least).text);
+        return body_field("r", index, show(b->r).text, allowed, error);
+    }
+    if (circular && b->inclination_deg != 90) {
+        snprintf(allowed, sizeof allowed, "90 with motion \"%s\", which is an orbit in the disk's plane", row->word);
+        return body_field("inclination_deg", index, show(b->inclination_deg).text, allowed, error);
+    }
+    if (!kd_observer_exists((enum kd_observer)b->motion, &at)) {
+        snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s", show_bound(row->outside(at.spin, at.u)).text, row->edge, row->word, row->why);
+        return body_field("r", index, show(b->r).text, allowed, error);
+    }
+    if (b->motion == KD_OBSERVER_VELOCITY && !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= 0.999 * 0.999))
+        return body_field("velocity_r", index, show(b->velocity_r).text, "a velocity of at most 0.999, with velocity_theta and velocity_phi", error);
+    for (int i = 0; i < 3; i++)
+        if (b->motion != KD_OBSERVER_VELOCITY && v[i] != 0)
+            return body_field((const char *[]) { "velocity_r", "velocity_theta", "velocity_phi" }[i], index, show(v[i]).text, "0 unless motion is \"velocity\"", error);
+    return KD_OK;
+}
+
+static enum kd_status bodies(const struct kd_scene *scene, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < scene->bodies.count && !status; i++)
+        if (scene->bodies.at[i].radius > 0)
+            status = body(scene, i, error);
+    return status;
+}
+
 static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->style.ringdown == 0 || fabs(scene->spacetime.spin) <= KD_QNM_SPIN_MAX)
@@ -364,6 +415,8 @@ const struct kd_rule kd_rules[] = {
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
       "at most 2^60 times in between.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
+    { "`bodies.N.r` is at least a hundredth outside the horizon, and where `bodies.N.motion` exists; keplerian and retrograde orbits have `bodies.N.inclination_deg` 90; "
+      "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's radius is 0.", bodies },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },
     { "`style.colour_bar` needs `style.palette` \"heat\" and `style.tone_map` \"srgb\".", colour_bar },

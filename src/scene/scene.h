@@ -135,8 +135,13 @@ double kd_scene_sky_brightness(const struct kd_scene *scene);
  * beside what shines more: then that ratio is what is wanted. */
 double kd_scene_exposure_most(const struct kd_scene *scene);
 
-/* Finds the spots that are on, in order. */
+/* Finds the spots that are on, and the bodies that have a size, in order. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
+size_t kd_scene_bodies(const struct kd_scene *scene, const struct kd_body *on[KD_SCENE_BODIES]);
+
+/* Say where a body is, and how it moves. */
+struct kd_vantage kd_body_vantage(const struct kd_scene *scene, const struct kd_body *body);
+struct kd_observer_motion kd_body_motion(const struct kd_body *body);
 
 /* Computes how a struck hole rings at the scene's time: *wave = A(t) = e^(Im(omega) t) cos(Re(omega) t) of the mode l = m = 2, n =
  * 0, t from style.ringdown_time on. False: it was not struck, or not yet. Up to 1 ms. */

@@ -42,6 +42,8 @@ static const struct shot {
     { "gargantua-gas", "gargantua-gas", "{" SIZE "}" },
     { "living-disk", "living-disk", "{\"time\":1000," SIZE "}" },
     { "jet", "jet", "{\"image\":{\"width\":160,\"height\":90}}" },
+    { "star-behind", "star-behind", "{\"image\":{\"width\":160,\"height\":90}}" },
+    { "companions", "companions", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
     { "spots", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_light\":true},"

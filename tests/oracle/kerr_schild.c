@@ -367,3 +367,70 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
     }
     return w.sum;
 }
+
+struct target { double at[3], f, l[3]; };
+
+/* Azimuths are mirrored, as of the path. */
+static struct target target_of(double a, double r, double u, double phi)
+{
+    const double psi = -phi + atan2(a, r) - twist(a, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a), x = s * cos(psi), y = s * sin(psi), q = r * r + a * a;
+    return (struct target) { { x, y, r * u }, 2 * r * r * r / (r * r * r * r + a * a * r * r * u * u), { (r * x + a * y) / q, (r * y - a * x) / q, u } };
+}
+
+/* Which way it goes there: below 0 towards it. */
+static double recedes(const struct system *s, const struct target *c, const double *y)
+{
+    state d;
+    derivative(s, y, d);
+    return (y[0] - c->at[0]) * d[0] + (y[1] - c->at[1]) * d[1] + (y[2] - c->at[2]) * d[2];
+}
+
+/* On the wave front p_mu dx^mu = 0; ds^2 = -dt^2 + dx^2 + f (dt + l.dx)^2. */
+static struct ks_near near_of(const struct system *s, const struct target *c, const double *y)
+{
+    double t = 0, x2 = 0, along = 0;
+    for (int i = 0; i < 3; i++) {
+        double d = y[i] - c->at[i];
+        t += y[3 + i] * d / s->energy;
+        x2 += d * d;
+        along += c->l[i] * d;
+    }
+    return (struct ks_near) { sqrt(fmax(x2 - t * t + c->f * (t + along) * (t + along), 0)), y[6] - slow(s->a, radius(s->a, y)) };
+}
+
+int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out)
+{
+    const struct system s = { photon.a, photon.energy };
+    const struct target c = target_of(photon.a, r, u, phi);
+    const double horizon = 1 + sqrt((1 - photon.a) * (1 + photon.a));
+    int n = 0;
+    state y, next;
+    start(&photon, y);
+    double h = 0.05 * radius(photon.a, y);
+    for (int step = 0; step < 20000 && n < most; step++) {
+        double at = radius(photon.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(photon.energy) / at;
+        bool outwards = y[0] * y[3] + y[1] * y[4] + y[2] * y[5] > 0;
+        if (at < horizon * (1 + 1e-9) || (at > 2 * r && at > 20 && outwards))
+            break;
+        h = fmin(h, 0.25 * at / v);
+        double error = extrapolate(&s, y, h, next);
+        if (!(error < 1e-12) && h > 1e-9) {
+            h *= 0.5;
+            continue;
+        }
+        if (recedes(&s, &c, y) < 0 && recedes(&s, &c, next) >= 0) {
+            double low = 0, high = h;
+            state hit;
+            for (int i = 0; i < 40; i++) {
+                extrapolate(&s, y, 0.5 * (low + high), hit);
+                *(recedes(&s, &c, hit) < 0 ? &low : &high) = 0.5 * (low + high);
+            }
+            double x = hit[0] - c.at[0], yy = hit[1] - c.at[1], z = hit[2] - c.at[2];
+            if (x * x + yy * yy + z * z < within * within)
+                out[n++] = near_of(&s, &c, hit);
+        }
+        memcpy(y, next, sizeof next);
+        h *= error < 1e-14 ? 2 : 1;
+    }
+    return n;
+}

@@ -47,6 +47,12 @@ typedef void ks_medium(void *user, const struct ks_photon *photon, double r, dou
 struct ks_light { double light, depth, length; }; /* length: of the affine parameter */
 struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium, void *user);
 
+/* Where the path back in time is nearest to a place (r, cos(theta), azimuth: source minus observer), each time that it comes within so much of it, by these
+ * Cartesian coordinates. b: how far it passes, M: the interval, by the metric at the place, from the event there that lies on the same wave front, which all
+ * observers measure. delay: as that of a crossing. */
+struct ks_near { double b, delay; };
+int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out);
+
 /* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a place that may lie within the
  * horizon; light that comes from outside left it there through the outer horizon, where all is regular. Azimuths are Boyer-Lindquist, of
  * the source less the place's own in these coordinates, which is the same at infinity. A ray from the horizon in the past

@@ -109,7 +109,7 @@ static void numbers_follow_the_scene(void **state)
         memset(fresh, 0, sizeof *fresh);
         kd_emit_update(fresh, scene, 100);
         kd_emit_traits(scene, traits);
-        KD_EMITTERS(SAME, SAME, SAME, SAME, SAME)
+        KD_EMITTERS(SAME, SAME, SAME, SAME, SAME, SAME)
         assert_memory_equal(&one->data.emission.disk, &fresh->data.emission.disk, sizeof one->data.emission.disk);
         assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
         assert_memory_equal(one->data.tables.colour, fresh->data.tables.colour, sizeof one->data.tables.colour);
@@ -148,7 +148,7 @@ static int follow_each_field(const char *document)
             kd_emit_update(fresh, &scene, 100);
             uint32_t traits[KD_EMITTER_COUNT];
             kd_emit_traits(&scene, traits);
-            KD_EMITTERS(SAME, SAME, SAME, SAME, SAME)
+            KD_EMITTERS(SAME, SAME, SAME, SAME, SAME, SAME)
             if (traits[KD_EMITTER_particles])
                 assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
             if (traits[KD_EMITTER_gas])
@@ -209,7 +209,7 @@ static void gas_replaces_the_disk(void **state)
 static void traits_are_listed(void **state)
 {
     (void)state;
-    static const uint32_t listed[KD_EMITTER_COUNT] = { KD_EMITTERS(WORD, WORD, WORD, WORD, WORD) };
+    static const uint32_t listed[KD_EMITTER_COUNT] = { KD_EMITTERS(WORD, WORD, WORD, WORD, WORD, WORD) };
     static const char *const documents[] = { "{}", BASE, GAS, "{\"disk\": {\"doppler\": false, \"gas\": {\"amplitude\": 1, \"octaves\": 8}}}" };
     for (size_t k = 0; k < sizeof documents / sizeof *documents; k++) {
         struct kd_scene scene;

@@ -265,7 +265,7 @@ static void presets_are_valid(void **state)
     static const char *const names[] = { "smooth",        "schwarzschild", "gargantua", "m87",     "m87-eht", "sgra",
                                          "luminet1979",   "edge-on",   "face-on", "photon-rings", "living-disk",
                                          "hot-spot",      "milky-way", "gas",       "gas-stars", "thick-disk",
-                                         "falling",       "infall",    "jet",       "gargantua-gas" };
+                                         "star-behind",   "companions",    "falling",       "infall",    "jet",       "gargantua-gas" };
     char hashes[sizeof names / sizeof *names][65];
     assert_int_equal(kd_scene_preset_count(), sizeof names / sizeof *names);
     for (size_t i = 0; i < kd_scene_preset_count(); i++) {
@@ -287,7 +287,7 @@ static void presets_are_valid(void **state)
 static void presets_show_what_they_say(void **state)
 {
     (void)state;
-    static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk" };
+    static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk", "companions" };
     struct kd_scene scene, base;
     for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* but for those of gas none has any */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);

@@ -37,7 +37,7 @@ _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMI
 #define JOINED(trait) | KD_TRAIT_##trait
 #define DISJOINT(number, name)                                                                                  \
     _Static_assert(KD_TRAIT_PRESENT KD_TRAITS_##name(ADDED) == (KD_TRAIT_PRESENT KD_TRAITS_##name(JOINED)), "bits of the traits of " #name);
-KD_EMITTERS(DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT)
+KD_EMITTERS(DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT)
 #undef ADDED
 #undef JOINED
 #undef DISJOINT

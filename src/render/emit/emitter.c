@@ -7,18 +7,19 @@
 #include <string.h>
 
 #define DECLARE(number, name) extern const struct kd_emitter kd_emit_##name;
-KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
+KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
 #define ENTRY(number, name) [number] = &kd_emit_##name,
-const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY) };
+const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY, ENTRY) };
 
 /* Where the list has them. */
-enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16 };
+enum kind { AT_CROSSING = 1, PART = 2, OVER = 4, AT_END = 8, ALONG = 16, MET = 32 };
 #define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
 #define IS_PART(number, name) [number] = PART,
 #define IS_OVER(number, name) [number] = OVER,
 #define IS_AT_END(number, name) [number] = AT_END,
 #define IS_ALONG(number, name) [number] = ALONG,
-static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END, IS_ALONG) };
+#define IS_MET(number, name) [number] = MET,
+static const enum kind kinds[KD_EMITTER_COUNT] = { KD_EMITTERS(IS_AT_CROSSING, IS_PART, IS_OVER, IS_AT_END, IS_ALONG, IS_MET) };
 
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter)
 {
@@ -63,6 +64,11 @@ bool kd_emit_at_crossings(const struct kd_scene *scene)
 bool kd_emit_along(const struct kd_scene *scene)
 {
     return any(scene, ALONG);
+}
+
+bool kd_emit_met(const struct kd_scene *scene)
+{
+    return any(scene, MET);
 }
 
 bool kd_emit_at_ends(const struct kd_scene *scene)

@@ -26,7 +26,7 @@ struct kd_sentence {
 /* Names a part of struct kd_scene. */
 struct kd_scene_part { size_t at, size; };
 #define KD_SCENE_PART(section) { offsetof(struct kd_scene, section), sizeof(((struct kd_scene *)0)->section) }
-#define KD_EMITTER_PARTS 6
+#define KD_EMITTER_PARTS 7
 
 #define KD_EMIT_TOLD 256
 
@@ -63,9 +63,9 @@ struct kd_emitter {
 };
 
 #define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,
-enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
+enum kd_emitter_number { KD_EMITTERS(KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_, KD_EMIT_NUMBER_) };
 #define KD_EMIT_ONE_(number, name) +1
-enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
+enum { KD_EMITTER_COUNT = 0 KD_EMITTERS(KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_, KD_EMIT_ONE_) };
 extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
 /* Whether a scene has an emitter: it is present, and none that is takes its place. */
@@ -77,6 +77,7 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene); /* whether there are volumes */
+bool kd_emit_met(const struct kd_scene *scene);   /* whether there are surfaces that rays meet off the plane */
 bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_apart(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);

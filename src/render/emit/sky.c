@@ -134,7 +134,8 @@ const struct kd_emitter kd_emit_sky = {
     .device_bytes = device_bytes,
     .making_bytes = making_bytes,
     .fill = fill,
-    .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(volume), KD_SCENE_PART(jets) },
+    .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots), KD_SCENE_PART(volume), KD_SCENE_PART(jets),
+                 KD_SCENE_PART(bodies) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
 };

@@ -6,7 +6,8 @@
 #define NOWHERE(number, name) [number] = "",
 #define END(number, name) [number] = "end",
 #define ALONG(number, name) [number] = "along",
-static const char *const places[KD_EMITTER_COUNT] = { KD_EMITTERS(AT, NOWHERE, NOWHERE, END, ALONG) };
+#define MET(number, name) [number] = "met",
+static const char *const places[KD_EMITTER_COUNT] = { KD_EMITTERS(AT, NOWHERE, NOWHERE, END, ALONG, MET) };
 
 static enum kd_status one(const struct kd_scene *scene, int number, bool first, struct kd_buffer *out)
 {

@@ -212,6 +212,29 @@ static void put_along(struct kd_json *json, const struct kd_explained *x)
     kd_json_end(json);
 }
 
+/* The surface that ends what is seen along the ray, if there is one. */
+static void put_met(struct kd_json *json, const struct kd_explained *x)
+{
+    const struct kd_told_met *m = &x->told->met;
+    if (!m->met)
+        return;
+    kd_json_object(json, "met");
+    kd_json_string(json, "name", kd_emitters[m->emitter]->name);
+    kd_json_number(json, "index", m->which);
+    kd_json_number(json, "order", m->order);
+    kd_json_number(json, "r", 1 / (double)m->w);
+    kd_json_number(json, "theta", acos(fmax(-1, fmin(1, (double)m->u))));
+    kd_json_number(json, "phi", m->phi);
+    kd_json_number(json, "azimuth", kd_explained_azimuth(x, m->phi));
+    kd_json_number(json, "g", m->g);
+    kd_json_number(json, "emission_angle", acos(fmax(0, fmin(1, (double)m->cosine))));
+    put_rgb(json, "light", m->light, 1);
+    put_rgb(json, "seen", m->light, m->through);
+    kd_json_number(json, "luminance_seen", (double)m->through * luminance(m->light));
+    kd_json_number(json, "through", m->through);
+    kd_json_end(json);
+}
+
 static void put_end(struct kd_json *json, const struct kd_explained *x)
 {
     static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
@@ -283,6 +306,7 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     put_radial(&json, x);
     put_crossings(&json, x);
     put_along(&json, x);
+    put_met(&json, x);
     put_end(&json, x);
     put_path(&json, x);
     put_accuracy(&json, picture, x);

@@ -140,7 +140,9 @@ static void say_why(struct kd_explained *x)
         SAY("Followed back it ends at the horizon.");
     if (x->told->through <= 0 && !x->told->given_up) {
         const struct kd_told_place *hides = hiding(x->told);
-        if (hides)
+        if (x->told->met.met)
+            SAY(" Nothing of that is seen: it ends on a surface at r = %.6g M.", 1 / (double)x->told->met.w);
+        else if (hides)
             SAY(" Nothing of that is seen: what it crosses at r = %.6g M hides all behind.", 1 / (double)hides->w);
         else
             SAY(" Nothing of that is seen: the matter that it goes through hides all behind.");

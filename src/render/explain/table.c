@@ -67,6 +67,12 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
         KD_TRY(kd_buffer_printf(out, "%-8s %-10s %35s   %11.4e %11.4e %11.4e   depth %.5g\n", "along", kd_emitters[v->emitter]->name, "", (double)v->light[0],
                                 (double)v->light[1], (double)v->light[2], (double)v->depth));
     }
+    if (t->met.met) {
+        const struct kd_told_met *m = &t->met;
+        const struct kd_told_glow glow = { .emitter = m->emitter, .light = { m->light[0], m->light[1], m->light[2] }, .opacity = 1, .through = m->through };
+        snprintf(where, sizeof where, "after %u", m->order);
+        KD_TRY(put_glow(&glow, where, out));
+    }
     for (size_t i = 0; i < t->n_ends; i++)
         KD_TRY(put_glow(&t->ends[i], t->ends[i].points ? "points" : "end", out));
     if (t->lost)

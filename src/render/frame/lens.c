@@ -45,13 +45,18 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_cri
     return kd_kernels_get(&j->r->kernels, j->r->vk, KD_KERNEL_LENS_MAP, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* Says whether that is made by the march. */
+static bool is_layer_of(const struct kd_plan *p, int makes, enum kd_layer_of of) { return makes >= 0 && kd_layer_kinds[p->layers[makes].kind].of == of; }
+
+/* Says whether that is made by the march; numbers of a crossing are where a body may hide it. */
 static bool marches(const struct kd_plan *p, int makes)
 {
-    return p->march.steps && makes != KD_MAKES_RAYS && (makes < 0 || kd_layer_kinds[p->layers[makes].kind].of == KD_OF_LIGHT);
+    return p->march.steps && makes != KD_MAKES_RAYS && (makes < 0 || is_layer_of(p, makes, KD_OF_LIGHT) || (p->meets && is_layer_of(p, makes, KD_OF_CROSSING)));
 }
 
-uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes) { return marches(plan, makes) ? rays : 1; }
+uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
+{
+    return marches(plan, makes) && !is_layer_of(plan, makes, KD_OF_CROSSING) ? rays : 1; /* those are of one ray */
+}
 
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes, const struct kd_vk_pipeline **out)
 {

@@ -62,6 +62,17 @@ static void take_stretch(struct kd_told *told, struct kd_told_stretch stretch)
         told->lost++;
 }
 
+static void take_met(struct kd_told_met *met, const struct record *r)
+{
+    if (r->of == (float)KD_TELL_MET)
+        *met = (struct kd_told_met) {
+            .met = true, .emitter = (uint32_t)r->a[0], .which = (uint32_t)r->b[0], .order = (uint32_t)r->b[1], .cosine = r->b[2],
+            .light = { r->a[1], r->a[2], r->a[3] }, .through = r->b[3],
+        };
+    else
+        met->w = r->a[0], met->u = r->a[1], met->phi = r->a[2], met->g = r->a[3];
+}
+
 static void take(struct kd_told *told, const struct record *r)
 {
     struct kd_told_place *last = told->n_places ? &told->places[told->n_places - 1] : NULL;
@@ -79,6 +90,8 @@ static void take(struct kd_told *told, const struct record *r)
         add_glow(told->ends, &told->n_ends, 2 * KD_PLAN_EMITTERS, r, 0, told->through);
     else if (r->of == (float)KD_TELL_OF_VOLUME && told->n_volumes < KD_PLAN_EMITTERS)
         told->volumes[told->n_volumes++] = (struct kd_told_volume) { (uint32_t)r->a[0], { r->a[1], r->a[2], r->a[3] }, r->b[0] };
+    else if (r->of == (float)KD_TELL_MET || r->of == (float)KD_TELL_MET_AT)
+        take_met(&told->met, r);
     else if (r->of == (float)KD_TELL_LOST)
         told->given_up = true;
     else if (r->of == (float)KD_TELL_FRONT)

@@ -46,6 +46,15 @@ struct kd_told_volume {
     float depth;
 };
 
+/* A surface that hides all behind it. */
+struct kd_told_met {
+    bool met;
+    uint32_t emitter, which; /* kd_emitters; the place in its list */
+    uint32_t order;     /* crossings of the plane before it */
+    float w, u, phi, g, cosine; /* 1/r, cos(theta), azimuth: source minus observer; of the angle of emission */
+    float light[3], through; /* without what lies in front; what that lets pass */
+};
+
 struct kd_told {
     uint32_t x, y;      /* the pixel, and */
     uint32_t ray_x, ray_y; /* its ray, counted from the upper left one */
@@ -54,6 +63,7 @@ struct kd_told {
     struct kd_told_stretch stretches[KD_TOLD_STRETCHES];
     struct kd_told_volume volumes[KD_PLAN_EMITTERS];
     uint32_t steps, samples; /* of the march: of its integrator, and places that it looked at */
+    struct kd_told_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: records that were not kept because there was no room */
     bool given_up;      /* the engine gave the ray up, and the picture shows magenta */
     bool ended;         /* something may shine where it ends: */

@@ -11,7 +11,7 @@ static const char *const fates[] = { "sky", "hole", "?" };
 
 #define PI 3.14159265358979323846
 #define LIGHT_(number, called, what) [number] = { .name = #called, .of = KD_OF_LIGHT, .needs = what, SHOWN_##called },
-#define CROSSING_(number, called, what, value) [number] = { .name = #called, .of = KD_OF_CROSSING, .needs = KD_LENS_W | (what), SHOWN_##called },
+#define CROSSING_(number, called, what, value, met) [number] = { .name = #called, .of = KD_OF_CROSSING, .needs = KD_LENS_W | (what), SHOWN_##called },
 #define RAY_(number, called, what, value) [number] = { .name = #called, .of = KD_OF_RAY, .needs = what, SHOWN_##called },
 
 /* Unit, and how a PNG shows it. */
@@ -66,15 +66,15 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
     if (layer.order >= scene->accuracy.orders)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed are image orders below accuracy.orders, %d", name,
                               scene->accuracy.orders);
-    if (kd_emit_along(scene) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT && layer.order >= 0)
-        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes is intensity: their light is between the crossings",
+    if ((kd_emit_along(scene) || kd_emit_met(scene)) && kd_layer_kinds[layer.kind].of == KD_OF_LIGHT && layer.order >= 0)
+        return kd_error_field(error, "/image/layers", "image.layers holds %s, allowed where there are volumes or bodies is intensity: their light is between the crossings",
                               name);
     if (scene->disk.height > 0 && scene->disk.model != KD_DISK_NONE && kd_layer_kinds[layer.kind].of == KD_OF_CROSSING)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, which is of the place where a thin disk is crossed, with disk.height %.9g: allowed is 0", name,
                               scene->disk.height);
     if (kd_emit_along(scene) && layer.kind == KD_LAYER_optical_depth)
         return kd_error_field(error, "/image/layers", "image.layers holds %s, which is that of one crossing, allowed where there are no volumes", name);
-    if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE)
+    if (layer.kind == KD_LAYER_temperature && scene->disk.model == KD_DISK_NONE && !kd_emit_met(scene))
         return kd_error_field(error, "/image/layers", "image.layers holds %s with disk.model \"none\", where nothing has a temperature", name);
     return KD_OK;
 }

@@ -1,6 +1,10 @@
 #include "render/plan/march.h"
 
+#include "render/emit/emitter.h"
+
 #include <math.h>
+
+#define BODIES 0.5 /* what it takes to look for them, over a ray of a smooth volume */
 
 enum { LEAST = 2, BALANCED = 4, MOST = 64 };
 
@@ -27,8 +31,11 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
 /* By lavapipe: an octave of noise in three dimensions takes a quarter of what all else of a place does. */
 static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t fine)
 {
+    const double bodies = kd_emit_met(scene) ? BODIES * steps / 16 : 0;
+    if (!kd_emit_along(scene))
+        return bodies;
     const bool stirred = scene->disk.height > 0 && scene->gas.amplitude > 0;
-    return (0.25 * steps / 16 + 0.75 * fine / BALANCED) * (stirred ? 1 + 0.25 * scene->gas.octaves : 1);
+    return bodies + (0.25 * steps / 16 + 0.75 * fine / BALANCED) * (stirred ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
 /* One pixel in 144, of which what is followed for the error takes a thirtieth of what the picture does; of small pictures more, of large ones less. */
@@ -53,7 +60,7 @@ struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_settin
     const double error = error_of(&scene->accuracy);
     const uint32_t steps = steps_of(error, rays), fine = fine_of(error);
     return (struct kd_march) {
-        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .sample = sample_of(scene->image.width, scene->image.height),
+        .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .sample = kd_emit_along(scene) ? sample_of(scene->image.width, scene->image.height) : (struct kd_march_sample) { 0 },
     };
 }
 

@@ -23,7 +23,7 @@ struct kd_march {
 #define KD_MARCH_FINER 2     /* so many times as many steps and stretches have those that the others are compared with */
 #define KD_MARCH_DARK 1e-3   /* of the brightest ray: what is darker is compared with so much */
 
-/* For a scene that has volumes, whose rays are followed by this. */
+/* For a scene that has volumes or bodies, whose rays are followed by this. */
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays);
 
 /* The same, KD_MARCH_FINER times as closely. */

@@ -19,7 +19,7 @@ _Static_assert(KD_PLAN_EMITTERS >= KD_EMITTER_COUNT, "all of them");
 /* These approximations are no emitter's. */
 #define WHEN(name, condition) static bool name(const struct kd_plan *plan, const struct kd_scene *scene) { return (void)plan, (void)scene, condition; }
 WHEN(crossings, kd_emit_at_crossings(scene))
-WHEN(volumes, plan->march.steps)
+WHEN(volumes, kd_emit_along(scene))
 WHEN(few_rays, plan->orders > 1 && !plan->ring && !plan->critical && plan->side < 4)
 WHEN(adapted, plan->adaptive)
 WHEN(not_adapted, kd_scene_adapts(scene) && !plan->adaptive)
@@ -260,18 +260,18 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
                               "camera.projection is \"ring\", \"equirectangular\" or \"fulldome\", allowed are \"plane\" and \"pinhole\" where light is "
                               "measured: areas of the others are not to scale");
     enum kd_status status;
-    if (plan.ring && kd_emit_along(scene))
-        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", whose rays are listed, where light is followed through volumes: "
+    if (plan.ring && (kd_emit_along(scene) || kd_emit_met(scene)))
+        return kd_error_field(error, "/camera/projection", "camera.projection is \"ring\", whose rays are listed, where light is followed through volumes and to bodies: "
                               "allowed are the others");
     KD_TRY(kd_layers_check(scene, error));
     KD_TRY(kd_plan_beam_fits(&plan, capacity, error));
     KD_TRY(choose(&plan, scene, capacity, error));
-    if (kd_emit_along(scene)) {
-        if (scene->accuracy.tolerance < KD_MARCH_HOLDS)
-            KD_TRY(kd_error_field(error, "/accuracy/tolerance", "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
-                                  scene->accuracy.tolerance, KD_MARCH_HOLDS));
+    if (kd_emit_along(scene) && scene->accuracy.tolerance < KD_MARCH_HOLDS)
+        KD_TRY(kd_error_field(error, "/accuracy/tolerance", "accuracy.tolerance is %.3g: light through volumes is added up in 32 bits and holds %.3g and above",
+                              scene->accuracy.tolerance, KD_MARCH_HOLDS));
+    plan.meets = kd_emit_met(scene);
+    if (kd_emit_along(scene) || plan.meets)
         plan.march = kd_march_of(scene, &plan.setting);
-    }
     plan.planes = kd_lens_planes(plan.quantities, plan.orders);
     kd_plan_adapt(&plan, scene, capacity);
     plan.measured = capacity->measured;

@@ -66,7 +66,8 @@ struct kd_plan {
     bool points;                    /* some emitter has points of light */
     bool apart;                     /* the luminance of some is kept beside the radiance */
     bool ends;                      /* some shine where rays end, and the lens map says where */
-    struct kd_march march;          /* of volumes; all 0: the scene has none, and light is made of the lens map alone */
+    struct kd_march march;          /* of volumes and bodies; all 0: the scene has none, and light is made of the lens map alone */
+    bool meets;                     /* there are bodies */
     struct kd_beam_grid beam;       /* of a telescope, that light is convolved with */
     struct kd_bloom bloom;          /* what a lens spreads */
     bool light;                     /* flux and centroid are measured */

@@ -35,5 +35,6 @@
 
 struct kd_spot;
 #define KD_SPOTS 1 /* scene.h declares what only the other scene has */
+#define KD_SCENE_BODIES 1
 
 #endif

@@ -1,0 +1,188 @@
+/* This finds the first body that a ray meets (emit/bodies.glsl), and composes its light with what lies before it: crossings of the lens map, and volumes
+ * that are gone through by the march.
+ *
+ * The ray is followed by the steps of ray/escape.glsl. With n the direction from the hole, azimuths by Boyer and Lindquist, and w = 1/r, a place is
+ * X = n/w; from a point c it lies along Z = n - w c, and X' is along e = n' w - n w', which stays finite at infinity and next to constant where space is
+ * flat. So the ray is nearest to c where Z.e changes its sign, once a step at most.
+ *
+ * lavapipe skips work only by leaving a loop: the inner loops take steps, and go down the tree of balls, until something is near; the outer one looks
+ * closer. Needs light/march.glsl. */
+#ifndef KD_MEET_GLSL
+#define KD_MEET_GLSL
+
+#define KD_MEET_SLACK 0.02 /* of r, and 0.1 of the ball's radius: a ray that passes a ball by less is looked at closer */
+#define KD_MEET_FAR 1e30
+
+/* An end of a step: (n, w), and what it grows by in a step. */
+struct kd_met_end { vec4 p, d; };
+
+kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float chi)
+{
+    kd_phasor t = kd_cos_sin(chi);
+    float rate = kd_drag(m, kd_state(p.y.w, p.v.w), ray.e, cam.spin, cam.root, 0.0);
+    vec2 n = vec2(p.y.x * t.c - p.y.y * t.s, p.y.x * t.s + p.y.y * t.c), v = vec2(p.v.x * t.c - p.v.y * t.s, p.v.x * t.s + p.v.y * t.c);
+    return kd_met_end(vec4(n, p.y.zw), h * vec4(v + rate * vec2(-n.y, n.x), p.v.zw));
+}
+
+/* A place within the step: the cubic that has both ends and how they grow. */
+kd_met_end kd_met_between(kd_met_end a, kd_met_end b, float t)
+{
+    vec4 dy = b.p - a.p, c2 = 3.0 * dy - 2.0 * a.d - b.d, c3 = a.d + b.d - 2.0 * dy;
+    return kd_met_end(a.p + t * (a.d + t * (c2 + t * c3)), a.d + t * (2.0 * c2 + 3.0 * t * c3));
+}
+
+/* Says whether a step comes into a ball. */
+bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
+{
+    vec3 z0 = a.p.xyz - a.p.w * ball.xyz, z1 = b.p.xyz - b.p.w * ball.xyz;
+    float in0 = a.p.w * ball.w, in1 = max(b.p.w, 0.0) * ball.w;
+    float g0 = dot(z0, a.d.xyz * a.p.w - a.p.xyz * a.d.w), g1 = dot(z1, b.d.xyz * b.p.w - b.p.xyz * b.d.w);
+    vec4 p = kd_met_between(a, b, clamp(g0 / min(g0 - g1, -1e-30), 0.0, 1.0)).p;
+    vec3 z = p.xyz - p.w * ball.xyz;
+    float reach = 1.1 * ball.w * max(p.w, 0.0) + KD_MEET_SLACK;
+    return (g0 < 0.0 && g1 >= 0.0 && dot(z, z) < reach * reach) || dot(z0, z0) < in0 * in0 || dot(z1, z1) < in1 * in1;
+}
+
+/* A place of a ray by the frame of a body: t' w and b w, and Mino time, in steps, over t'. */
+struct kd_met_sight { float ahead, off2, rate; };
+
+kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float turn)
+{
+    vec4 p = vec4(e.p.xyz, e.p.w), d = e.d;
+    vec3 y = vec3(dot(a, p), dot(b, p), dot(c, p)), f = p.w * vec3(dot(a, d), dot(b, d), dot(c, d)) - d.w * y;
+    /* Light flies along n + turn e_phi in coordinates that turn: of the length that makes n one. */
+    float f2 = max(dot(f, f), 1e-36), long_ = (-turn * f.z + sqrt(max(turn * turn * f.z * f.z + (1.0 - turn * turn) * f2, 0.0))) / f2;
+    vec3 n = -long_ * f;
+    n.z -= turn;
+    float t = dot(n, y) / max(1.0 + turn * n.z, 1e-3);
+    y.z -= turn * t;
+    float slow = max(1.0 - dot(v.xyz, n), 1e-6);
+    return kd_met_sight(v.w * (t - dot(v.xyz, y)), max(dot(y, y) - t * t, 0.0), long_ * p.w * p.w / (v.w * slow));
+}
+
+/* Where in the step the ray comes to the surface; beyond 1: it does not. */
+float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
+{
+    vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u), own = kd_body_row(body, 4u);
+    float size = own.y;
+    kd_met_sight s0 = kd_met_sight_of(a, r0, r1, r2, v, own.x), s1 = kd_met_sight_of(b, r0, r1, r2, v, own.x);
+    float in0 = size * a.p.w, in1 = size * max(b.p.w, 0.0);
+    bool within = s0.ahead * s0.ahead + s0.off2 < in0 * in0, ends_within = s1.ahead * s1.ahead + s1.off2 < in1 * in1;
+    bool passes = s0.ahead > 0.0 && (s1.ahead <= 0.0 || b.p.w <= 0.0);
+    /* Where it is nearest, by the body's frame: t' = 0. */
+    float t = passes ? clamp(s0.ahead / max(s0.ahead - s1.ahead, 1e-30), 0.0, 1.0) : 1.0, enters = 2.0, off = 1.0;
+    for (int k = 0; k < 3; k++) {
+        kd_met_end e = kd_met_between(a, b, t);
+        kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);
+        float w = max(e.p.w, 1e-12), next = t + s.ahead / w * s.rate;
+        off = s.off2 / (w * w * size * size);
+        if (k < 2)
+            t = passes ? clamp(next, 0.0, 1.0) : t;
+        else
+            enters = next - size * sqrt(max(1.0 - off, 0.0)) * s.rate;
+    }
+    bool meets = (passes || ends_within) && off < 1.0 && enters <= 1.0;
+    /* Once more from there, where the ray is elsewhere and flies elsewhere. */
+    t = clamp(enters, 0.0, 1.0);
+    kd_met_end e = kd_met_between(a, b, t);
+    kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);
+    float w = max(e.p.w, 1e-12), off1 = s.off2 / (w * w * size * size);
+    t = clamp(t + (s.ahead / w - size * sqrt(max(1.0 - off1, 0.0))) * s.rate, 0.0, 1.0);
+    cosine = within ? 1.0 : sqrt(max(1.0 - off, 0.0));
+    return within ? 0.0 : meets ? t : 2.0;
+}
+
+kd_met kd_met_nothing() { return kd_met(KD_MEET_FAR, KD_NOBODY, ORDERS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0); }
+
+/* Behind a node of the tree, or below one that is far, comes this one; 0: none. */
+uint kd_met_next(uint node)
+{
+    uint next = (node + 1u) >> uint(findLSB(node + 1u));
+    return next == 1u ? 0u : next;
+}
+
+kd_met kd_meet(uvec2 place)
+{
+    kd_ray ray = kd_camera_ray(place.x, place.y);
+    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.u, cam.s);
+    kd_path p = kd_path_start(ray, cam.u, cam.s), q = p;
+    float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = 0.0, begun = 0.0, near_horizon = 0.97 * cam.horizon;
+    float side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
+    kd_march_drag drag = kd_march_drag_of(m, ray);
+    kd_met met = kd_met_nothing();
+    kd_met_end a, b;
+    vec4 all = vec4(emission.bodies.x, emission.bodies.y, emission.bodies.z, emission.bodies.reach);
+    float out_ = emission.bodies.least, out2 = out_ * out_;
+    bool goes = (ray.w >= out_ || ray.e * ray.e + out2 * (m.a2 + out_ * (2.0 * m.k - out_ * m.d)) > 0.0) &&
+                !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon)), first = true;
+    uint crossed = 0u, node = 0u, taken = 0u;
+    b = kd_met_end_of(m, ray, p, 1.0, INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(p.y.w, cam.spin, cam.root) : drag.chi);
+    for (;;) {
+        while (goes && node == 0u) { /* steps, until one comes to where bodies are */
+            bool passed = q.y.z * side < 0.0;
+            side = passed ? -side : side;
+            crossed += passed ? 1u : 0u;
+            begun += h;
+            p = q;
+            float was = h;
+            h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
+            if (p.v.w > 0.0 && p.y.w < near_horizon) /* azimuths have no end there: not across it in one go */
+                h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
+            q = kd_path_step(m, p, h);
+            if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
+                q.v.w = kd_leaving(m, q.y.w, ray.e);
+            kd_stride s = kd_stride_of(m, ray, p, q, h, drag);
+            float chi = INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(q.y.w, cam.spin, cam.root) : drag.chi;
+            a = kd_met_end(b.p, (first ? h : h / was) * b.d);
+            b = kd_met_end_of(m, ray, q, h, chi);
+            first = false;
+            taken++;
+            bool outside = p.y.w < cam.horizon && q.y.w < cam.horizon && kd_is_finite(q.y.w);
+            bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
+            bool gone = q.v.w < 0.0 && q.y.w < out_ && (q.y.w <= 0.0 || kd_path_pull(m, q.y).w <= 0.0);
+            goes = !falls && !gone && kd_is_finite(q.y.w) && taken < 16u * STEPS;
+            node = outside && kd_met_near(a, b, all) ? 1u : 0u;
+        }
+        if (node == 0u)
+            break;
+        uint leaf = 0u;
+        while (node != 0u && leaf == 0u) {
+            bool near = kd_met_near(a, b, kd_bodies_node(node)), one = node >= emission.bodies.leaves;
+            leaf = near && one ? node : 0u;
+            node = near && !one ? 2u * node : kd_met_next(node);
+        }
+        if (leaf != 0u) {
+            uint body = leaf - emission.bodies.leaves;
+            float cosine, t = kd_met_time(a, b, body, cosine), time = begun + t * h;
+            if (t <= 1.0 && time < met.time) {
+                kd_met_end e = kd_met_between(a, b, t);
+                float per = 1.0 / h;
+                met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12), e.p.z, -kd_atan2(e.p.y, e.p.x),
+                             per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
+            }
+        }
+        if (node == 0u && met.body != KD_NOBODY) /* later steps lie behind */
+            break;
+    }
+    return met;
+}
+
+/* Follows one ray, but for what lies at its end. */
+void kd_follow(inout kd_beam beam, uvec2 place, uint at)
+{
+    kd_met met = kd_met_nothing();
+    if (KD_MEETS)
+        met = kd_meet(place);
+    if (KD_MARCHES)
+        kd_march_follow(beam, place, at, met.time, met.crossed);
+    for (uint n = 0u; !KD_MARCHES && KD_GLOWS && n < min(ORDERS, met.crossed) && beam.through > 0.0; n++) {
+        float w = lens[at + n * slice.stride];
+        if (w == 0.0)
+            break;
+        KD_MARCH_MEET(beam, w, n, place, at);
+    }
+    if (KD_MEETS && met.body != KD_NOBODY)
+        kd_beam_met(beam, met);
+}
+
+#endif

@@ -1,0 +1,198 @@
+/* These are bodies as an emitter: shaders/emit/bodies.glsl. */
+#include "render/emit/bodies.h"
+
+#include "physics/angle.h"
+#include "physics/kerr.h"
+#include "physics/observer.h"
+#include "render/emit/emitter.h"
+#include "render/emit/particles.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Past the observer of zero angular momentum it has this velocity; and its azimuth grows by so much. */
+static double motion_of(const struct kd_body *body, const struct kd_vantage *at, double velocity[3])
+{
+    const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO), motion = kd_body_motion(body);
+    const struct kd_tetrad frame = kd_observer_tetrad(&zamo, at), own = kd_observer_tetrad(&motion, at);
+    double x[4];
+    kd_tetrad_components(&frame, &own.t, x);
+    for (int i = 0; i < 3; i++)
+        velocity[i] = x[i + 1] / x[0];
+    switch ((enum kd_observer)body->motion) {
+    case KD_OBSERVER_KEPLERIAN: return kd_kerr_omega(at->spin, at->r);
+    case KD_OBSERVER_RETROGRADE: return -kd_kerr_omega(-at->spin, at->r);
+    case KD_OBSERVER_ZAMO: return kd_kerr_dragging(at->spin, at->r, at->u);
+    default: return 0;
+    }
+}
+
+static double omega_of(const struct kd_scene *scene, const struct kd_body *body)
+{
+    const struct kd_vantage at = kd_body_vantage(scene, body);
+    double velocity[3];
+    return motion_of(body, &at, velocity);
+}
+
+size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body out[KD_SCENE_BODIES])
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    const size_t n = kd_scene_bodies(scene, on);
+    const double time = scene->top.time - kd_particle_delay(scene);
+    for (size_t i = 0; i < n; i++) {
+        const struct kd_vantage at = kd_body_vantage(scene, on[i]);
+        struct kd_seen_body *b = &out[i];
+        *b = (struct kd_seen_body) {
+            .which = (uint32_t)(on[i] - scene->bodies.at),
+            .r = at.r, .u = at.u, .s = at.s, .radius = on[i]->radius,
+            .temperature_k = on[i]->temperature_k, .brightness = on[i]->brightness, .limb_darkening = on[i]->limb_darkening,
+        };
+        b->phi = on[i]->phase_deg * (M_PI / 180) + remainder(motion_of(on[i], &at, b->velocity) * time, 2 * M_PI);
+    }
+    return n;
+}
+
+static bool present(const struct kd_scene *scene)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    return kd_scene_bodies(scene, on);
+}
+
+static uint32_t traits(const struct kd_scene *scene) { return KD_TRAIT_AZIMUTH | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0); }
+
+static unsigned varies(const struct kd_scene *scene)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    unsigned by = KD_MOVES_WITH_AZIMUTH;
+    for (size_t i = kd_scene_bodies(scene, on); i; i--)
+        by |= omega_of(scene, on[i - 1]) != 0 ? KD_MOVES_WITH_TIME : 0;
+    return by;
+}
+
+static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    size_t n = kd_scene_bodies(scene, on), used = (size_t)snprintf(out, KD_EMIT_TOLD, "%s at ", n > 1 ? "Bodies" : "A body");
+    for (size_t i = 0; i < n && used < KD_EMIT_TOLD; i++)
+        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r, i + 1 == n ? "." : "");
+}
+
+static uint64_t device_bytes(const struct kd_scene *scene)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    return sizeof(float) * kd_bodies_words(kd_scene_bodies(scene, on));
+}
+
+/* The buffer's words, and the numbers that go with them. */
+static enum kd_status pack(const struct kd_scene *scene, struct kd_bodies_block *out, float *words, struct kd_error *error)
+{
+    struct kd_seen_body bodies[KD_SCENE_BODIES];
+    const size_t n = kd_bodies_of(scene, bodies);
+    return kd_bodies_pack(bodies, n, scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180), kd_disk_peak_temperature(scene) * scene->disk.hardening, out,
+                          words, error);
+}
+
+static void fill(struct kd_emission *out, const struct kd_scene *scene)
+{
+    float words[(8 + KD_BODY_WORDS) * KD_SCENE_BODIES];
+    struct kd_error error;
+    if (pack(scene, &out->bodies, words, &error))
+        out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 };
+}
+
+struct own {
+    struct kd_vk_buffer *device, *staging;
+    float *there; /* what was sent last; NULL: nothing */
+    size_t words;
+};
+
+static void forget(void *own)
+{
+    struct own *o = own;
+    free(o->there);
+    o->there = NULL;
+}
+
+static enum kd_status send(const struct kd_own_work *work, const float *words, size_t n, struct kd_error *error)
+{
+    struct own *o = work->own;
+    const uint64_t bytes = n * sizeof *words;
+    enum kd_status status;
+    if (o->there && o->words == n && !memcmp(o->there, words, bytes))
+        return KD_OK;
+    forget(o);
+    KD_TRY(kd_own_at_least(work, &o->device, bytes, KD_VK_DEVICE, "bodies", error));
+    KD_TRY(kd_own_at_least(work, &o->staging, bytes, KD_VK_UPLOAD, "bodies on the host", error));
+    memcpy(kd_vk_buffer_map(o->staging), words, bytes);
+    KD_TRY(kd_vk_copy(work->vk, "upload", o->device, 0, o->staging, 0, bytes, error));
+    KD_TRY(kd_vk_submit(work->vk, NULL, error));
+    o->words = n;
+    if ((o->there = malloc(bytes)))
+        memcpy(o->there, words, bytes);
+done:
+    return status;
+}
+
+static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    float words[(8 + KD_BODY_WORDS) * KD_SCENE_BODIES];
+    struct kd_bodies_block block;
+    enum kd_status status = pack(scene, &block, words, error);
+    return status ? status : send(work, words, kd_bodies_words(kd_scene_bodies(scene, on)), error);
+}
+
+static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_bodies] = ((const struct own *)own)->device; }
+
+static void finish(void *own, struct kd_vk *vk)
+{
+    struct own *o = own;
+    forget(o);
+    kd_vk_buffer_destroy(vk, o->device);
+    kd_vk_buffer_destroy(vk, o->staging);
+    *o = (struct own) { 0 };
+}
+
+const struct kd_own kd_own_bodies = { .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish };
+
+/* It has a velocity, and its place is that of the scene's time alone. */
+static bool stands(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    (void)rays;
+    for (size_t i = kd_scene_bodies(scene, on); i; i--)
+        if (on[i - 1]->motion == KD_OBSERVER_INFALL || on[i - 1]->motion == KD_OBSERVER_VELOCITY)
+            return true;
+    return false;
+}
+
+#define WHEN(name, condition)                                                                                  \
+    static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
+WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
+
+static const struct kd_sentence sentences[] = {
+    { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows, no light of the disk on them", NULL },
+    { "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
+    { "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay", NULL },
+    { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no more", stands },
+    { "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
+    { "bodies: one that is smaller than a pixel may lie between its rays", NULL },
+};
+
+const struct kd_emitter kd_emit_bodies = {
+    .name = "bodies",
+    .title = "bodies",
+    .tell = tell,
+    .present = present,
+    .traits = traits,
+    .varies = varies,
+    .own = &kd_own_bodies,
+    .device_bytes = device_bytes,
+    .fill = fill,
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies), KD_SCENE_PART(top) },
+    .sentences = sentences,
+    .n_sentences = sizeof sentences / sizeof *sentences,
+    .reads = &kd_emit_disk,
+};
