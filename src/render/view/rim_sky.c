@@ -152,7 +152,7 @@ static int serves_across(const struct follower *f, int n, uint32_t k)
 
 static bool enough_across(const struct follower *f, int *out)
 {
-    for (int n = ACROSS_LEAST; n < ACROSS; n *= 2) {
+    for (int n = ACROSS_LEAST; n < ACROSS; n += n / 2) {
         int least = 1;
         for (uint32_t k = 0; k < ROUND && least > 0; k += ROUND / 4) {
             const int serves = serves_across(f, n, k);

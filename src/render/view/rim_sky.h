@@ -1,8 +1,8 @@
 /* This follows the rays of the rim (rim.h) in double precision: so near to the critical curve 32 bits lose 1e-4 to 1e-2 radians of where a ray goes.
  *
  * The two angles of physics/null_bend.h, and the tangent, are smooth functions of the curve's point and of the logarithm of the distance. They are found at some
- * hundred to some thousand rays and interpolated to the others, round the curve by trigonometric polynomials, across it by those of Chebyshev's extrema: as many as it takes, twice
- * and twice again, to meet rays between them within KD_RIM_EXACT, up to all columns and 96 intervals: from |a| = 0.99 on, next to the equator, that is not enough, and 5e-6 rad are left at 0.998, 4e-5 at 0.99999. Pure; any thread. */
+ * hundred to some thousand rays and interpolated to the others, round the curve by trigonometric polynomials, across it by those of Chebyshev's extrema: as many as it takes, ever
+ * more, to meet rays between them within KD_RIM_EXACT, up to all columns and some 90 intervals: from |a| = 0.99 on, next to the equator, that is not enough, and 5e-6 rad are left at 0.998, 4e-5 at 0.99999. Pure; any thread. */
 #ifndef KD_RENDER_VIEW_RIM_SKY_H
 #define KD_RENDER_VIEW_RIM_SKY_H
 
