@@ -190,7 +190,7 @@ export const fields = {
   'spots.temperature_k': ['Temperatura', 'Colore: quello di un corpo nero di questa temperatura, spostato da g'],
   bodies: ['Corpo'],
   'bodies.radius': ['Raggio', 'Raggio della sfera nel proprio riferimento; 0: il corpo non c’è'],
-  'bodies.r': ['Distanza', 'Raggio di Boyer-Lindquist del centro, almeno un centesimo fuori dell’orizzonte'],
+  'bodies.r': ['Distanza', 'Raggio di Boyer-Lindquist del centro, almeno un ventesimo fuori dell’orizzonte'],
   'bodies.inclination_deg': ['Angolo polare', 'Del centro: 0 sopra il polo della rotazione del disco, 90 nel suo piano'],
   'bodies.phase_deg': ['Fase', 'Azimut del centro al tempo 0; 0 è quello dell’osservatore con camera.azimuth_deg 0'],
   'bodies.motion': ['Moto', 'Sposta la sua luce; fermo, ZAMO, kepleriano e retrogrado lo portano in giro col tempo, gli ultimi due solo nel piano del disco'],
@@ -553,6 +553,8 @@ export const sentences = {
     'macchie: luce veloce: mostrate dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
   'bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows, no light of the disk on them':
     'corpi: sfere opache nel proprio riferimento; lo spazio è piatto, e la luce dritta, alla scala di ognuno: niente maree, gravità propria, ombre, né luce del disco su di loro',
+  'bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its centre, where a body has another shape':
+    'corpi: uno il cui raggio è più di un decimo della distanza dal buco è disegnato nello spazio piatto del suo centro, dove un corpo ha un’altra forma',
   'bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening':
     'corpi: splendono come corpi neri di una sola temperatura, con una legge lineare scelta di oscuramento al bordo',
   "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay":

@@ -140,7 +140,7 @@
 
 #define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS)                                                  \
     REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", "radius of the sphere, in its own frame; 0: there is no such body") \
-    REAL(bodies, r, MODEL, FRONT, 15.0, 1.0, 1e7, "M", "Boyer-Lindquist radius of its centre, at least a hundredth outside the horizon's") \
+    REAL(bodies, r, MODEL, FRONT, 15.0, 1.0, 1e7, "M", "Boyer-Lindquist radius of its centre, at least a twentieth outside the horizon's") \
     REAL(bodies, inclination_deg, MODEL, REST, 90.0, 0.0, 180.0, "degrees",                                          \
          "polar angle of the centre: 0 over the pole of the disk's rotation, 90 in its plane")                       \
     REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", "azimuth of the centre at time 0; 0 is that of the observer's camera.azimuth_deg 0") \

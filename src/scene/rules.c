@@ -296,7 +296,7 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
-#define BODIES_CLEAR 1.01 /* of the horizon's radius */
+#define BODIES_CLEAR 1.05 /* of the horizon's radius */
 
 /* A field of a body, and why it is not allowed. */
 static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed, struct kd_error *error)
@@ -317,7 +317,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
     const struct kd_observer_row *row = &kd_observers[b->motion];
     char allowed[160];
     if (b->r < least) {
-        snprintf(allowed, sizeof allowed, "at least %s M, a hundredth outside the horizon", show_bound(least).text);
+        snprintf(allowed, sizeof allowed, "at least %s M, a twentieth outside the horizon", show_bound(least).text);
         return body_field("r", index, show(b->r).text, allowed, error);
     }
     if (circular && b->inclination_deg != 90) {
@@ -415,7 +415,7 @@ const struct kd_rule kd_rules[] = {
     { "`jets.outer` is larger than the inner edge, which is at least a twentieth outside the horizon, unless `jets.brightness` is 0; by a `jets.falloff` below 0 light grows "
       "at most 2^60 times in between.", jets },
     { "`spots.N.r` is not inside the ISCO of the spin, unless the spot's brightness is 0.", spots },
-    { "`bodies.N.r` is at least a hundredth outside the horizon, and where `bodies.N.motion` exists; keplerian and retrograde orbits have `bodies.N.inclination_deg` 90; "
+    { "`bodies.N.r` is at least a twentieth outside the horizon, and where `bodies.N.motion` exists; keplerian and retrograde orbits have `bodies.N.inclination_deg` 90; "
       "`bodies.N.velocity_*` are a speed of at most 0.999, and 0 unless the motion is \"velocity\"; unless the body's radius is 0.", bodies },
     { "`style.ringdown` is 0 where the spin is beyond 0.9999 or -0.9999.", ringdown },
     { "`style.beam_uas` is at most a thousand times the width of the picture in the plane and pinhole projections, and 0 in the others.", beam },

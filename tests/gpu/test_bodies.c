@@ -333,8 +333,8 @@ static void test_adversarial(void **state)
         "{\"camera\":{\"r\":20},\"bodies\":[{\"radius\":1e6,\"r\":1e7}]}",
         "{\"bodies\":[{\"radius\":1e6,\"r\":3,\"motion\":\"static\"}]}", /* round everything */
         "{\"bodies\":[{\"radius\":1e6,\"r\":15},{\"radius\":1e-30,\"r\":15},{\"radius\":2,\"r\":15,\"brightness\":0}]}",
-        "{\"bodies\":[{\"radius\":1,\"r\":1.75,\"motion\":\"zamo\",\"brightness\":1e9,\"temperature_k\":1e9}]}", /* over the horizon */
-        "{\"spacetime\":{\"spin\":0.999999999999},\"bodies\":[{\"radius\":0.5,\"r\":1.02,\"motion\":\"zamo\"},{\"radius\":0.5,\"r\":1.5,\"motion\":\"infall\"}]}",
+        "{\"bodies\":[{\"radius\":1,\"r\":1.81,\"motion\":\"zamo\",\"brightness\":1e9,\"temperature_k\":1e9}]}", /* over the horizon */
+        "{\"spacetime\":{\"spin\":0.999999999999},\"bodies\":[{\"radius\":0.5,\"r\":1.06,\"motion\":\"zamo\"},{\"radius\":0.5,\"r\":1.5,\"motion\":\"infall\"}]}",
         "{\"spacetime\":{\"spin\":-0.999},\"camera\":{\"inclination_deg\":0},\"bodies\":[{\"radius\":1,\"r\":6,\"inclination_deg\":0,\"motion\":\"static\"},"
         "{\"radius\":1,\"r\":6,\"inclination_deg\":180,\"motion\":\"velocity\",\"velocity_phi\":0.999}]}",
         "{\"bodies\":[{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":0.999},{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_r\":-0.999},"

@@ -168,12 +168,23 @@ static bool stands(const struct kd_scene *scene, const struct kd_setting *rays)
     return false;
 }
 
+static bool large(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    (void)rays;
+    for (size_t i = kd_scene_bodies(scene, on); i; i--)
+        if (on[i - 1]->radius > 0.1 * on[i - 1]->r)
+            return true;
+    return false;
+}
+
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
     { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows, no light of the disk on them", NULL },
+    { "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its centre, where a body has another shape", large },
     { "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
     { "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay", NULL },
     { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no more", stands },

@@ -22,7 +22,7 @@ struct kd_seen_body {
 /* Counts the floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
 /* Writes them, and the numbers of *out. spin: of the hole; azimuth: the observer's; peak_k: temperature that the disk's brightness 1 is of. n at most
- * KD_SEEN_BODIES. Some 10 us of 16 bodies. Bodies that cannot be, or have no size, are left out: they have none of the numbers above, or are within 1.01 of the horizon's radius. */
+ * KD_SEEN_BODIES. Some 10 us of 16 bodies. Bodies that cannot be, or have no size, are left out: they have none of the numbers above, or are within 1.05 of the horizon's radius. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, double spin, double azimuth, double peak_k, struct kd_bodies_block *out, float *words,
                               struct kd_error *error);
 

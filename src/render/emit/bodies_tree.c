@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CLEAR 1.01   /* of the horizon's radius */
+#define CLEAR 1.05   /* of the horizon's radius */
 #define SINE 1e-4    /* on the axis azimuths stand for nothing */
 
 /* A body with its ball. */
