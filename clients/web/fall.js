@@ -7,6 +7,7 @@ import { physics } from './server.js';
 const begin_r = 20; // M, where the camera is not near
 const wide_deg = 100;
 const fold_s = 3; // seconds of watching in which the time that is left to the end becomes 1/e of itself, nearly:
+const fastest = 1e6; // M a second: there is no faster one
 const uneven = 0.1; // its pace is that of a moment ago, by so much at most
 
 const numbers = ['infall_from', 'infall_energy', 'infall_momentum'];
@@ -78,7 +79,7 @@ export function buildFall(scene) {
 
   // So fast that what is left falls by the same part every second; not told anew with each picture.
   function keepPace() {
-    const now = Number((left / fold_s).toPrecision(3));
+    const now = Math.min(fastest, Number((left / fold_s).toPrecision(3)));
     if (Math.abs(Math.log(now / rate)) < uneven) return;
     rate = now;
     scene.change({ [pace]: rate });
@@ -170,6 +171,7 @@ export function buildFall(scene) {
     halt: () => way && !scene.held && scene.hold(true),
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
+      if (scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3) return; // from before it was put there
       ({ r, proper_time_to_end: left } = clock);
       given = scene.begun('camera.r'); // the server moves it, too
       show(clock);

@@ -4,7 +4,7 @@
 
 #include "image/png.h"
 
-#define KD_PNG_WHOLE ((size_t)64 << 20) /* bytes of filtered rows: what is larger goes through zlib row by row, which needs no memory */
+#define KD_PNG_WHOLE ((size_t)16 << 20) /* bytes of filtered rows, of which there are two copies: what is larger goes through zlib row by row, without any */
 
 size_t kd_png_filtered_bytes(const struct kd_png_params *params);
 

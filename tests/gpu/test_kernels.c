@@ -85,6 +85,29 @@ static void a_frame_notes_what_it_needs(void **state)
     }
 }
 
+/* A frame that finds its lens map makes no kernel that would trace it. */
+static void a_kept_lens_map_is_not_traced(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    kd_scene_defaults(&scene);
+    scene.image.width = 66;
+    scene.image.height = 38;
+    for (int i = 0; i < 2; i++) {
+        kd_kernels_finish(&renderer->kernels, renderer->vk);
+        struct kd_frame frame = rendered(&scene);
+        size_t tracing = 0, all = 0;
+        for (size_t k = 0; k < KD_KERNELS_KEPT; k++) {
+            const struct kd_kernel_entry *e = &renderer->kernels.entries[k];
+            all += e->pipeline != NULL;
+            tracing += e->pipeline && !strncmp(e->source->name, "lens_", 5);
+        }
+        assert_true(all > 2 && frame.lens_reused == (i == 1));
+        assert_true(i ? tracing == 0 : tracing > 0);
+        kd_frame_finish(&frame);
+    }
+}
+
 int main(void)
 {
     int skip = open_renderer();
@@ -94,6 +117,7 @@ int main(void)
         cmocka_unit_test(noted_kernels_are_made_once),
         cmocka_unit_test(what_cannot_be_made_is_told_later),
         cmocka_unit_test(a_frame_notes_what_it_needs),
+        cmocka_unit_test(a_kept_lens_map_is_not_traced),
     };
     return close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
 }

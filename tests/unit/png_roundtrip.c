@@ -72,7 +72,7 @@ static void pixels_survive(void **state)
 static void large_pictures_survive(void **state)
 {
     (void)state;
-    enum { WIDTH = 4096, HEIGHT = 2800 };
+    enum { WIDTH = 2048, HEIGHT = 1400 };
     const size_t size = 6 * (size_t)WIDTH * HEIGHT;
     uint16_t *pixels = calloc(1, size);
     struct kd_buffer file = { 0 };

@@ -201,13 +201,15 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Finds which part of what rays take on this rung stays at any size: on the line through what they took at another size a moment ago, and take now. */
+/* Finds which part of what rays take on this rung stays at any size: on the line through what they took at another size a moment ago, and take now. A line
+ * that falls tells that the machine has other things to do now than then, and nothing else. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
     if (other->rays > 0 && other->pixels != here->pixels && cost->rays_ms > 0) {
-        const double per_ray = fmax(0, (pace->other_ms - cost->rays_ms) / (other->rays - here->rays));
-        pace->stays = fmax(0, 1 - per_ray * here->rays / cost->rays_ms);
+        const double per_ray = (pace->other_ms - cost->rays_ms) / (other->rays - here->rays);
+        if (per_ray > 0)
+            pace->stays = fmax(0, 1 - per_ray * here->rays / cost->rays_ms);
     }
     pace->other.rays = 0;
 }
