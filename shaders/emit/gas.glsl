@@ -31,7 +31,7 @@
     F(depth)               /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 #define KD_TABLES_gas(T)                                                                                       \
-    T(gas, KD_GAS_ROWS) /* a ring: azimuth less the observer's, radians, and Omega; of its octaves: where the lattice has drifted to, part of a cell and whole cells */
+    T(gas, KD_GAS_ROWS) /* a ring: azimuth less the observer's, radians, Omega, and what a place in its plane is multiplied by for that in the next one's; of its octaves: where the lattice has drifted to, part of a cell and whole cells */
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
 #define KD_TRAIT_GAS_SHIFT 8u /* the bits from here on: octaves; 0: no turbulence */
 #define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)

@@ -9,7 +9,8 @@
 #ifndef KD_BLOCK_thick
 #define KD_THICK_REACH 4.5     /* H */
 #define KD_THICK_NOISE 5.237147522273636 /* 1 over the standard deviation of gradient noise by gradients of a cube */
-#define KD_THICK_FAINT 0.35    /* octaves fainter than this part of the first are sampled as the others ask for: of six, the last two */
+#define KD_THICK_FAINT 0.15    /* octaves fainter than this part of the first are sampled as the others ask for */
+#define KD_THICK_UNSEEN 0.05   /* those whose part is less than this one of the first, by what gas there is, are left out */
 #define KD_THICK_LAYERS 3.0    /* cells in height for each in the plane: streaks are as much narrower than they are long */
 #define KD_BLOCK_thick(F, U, A)                                                                                 \
     F(height) F(flare)     /* H/R at 10 M, and the power of R/10 that it grows as */                           \
@@ -35,13 +36,12 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 
-/* There is a gradient for each point of a lattice, times 512. */
+/* There is a gradient for each point of a lattice, times 2^31. */
 vec3 kd_thick_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
     h = (h ^ (h >> 12)) * 0x297a2d39u;
-    h ^= h >> 15;
-    return vec3(float(int(h) >> 22), float(int(h << 10) >> 22), float(int(h << 20) >> 22)) + 0.5;
+    return vec3(float(int(h)), float(int(h << 10)), float(int(h << 20)));
 }
 
 /* Of one plane of the lattice: noise by the gradients, and by those turned by a quarter about the third axis. */
@@ -63,34 +63,37 @@ vec2 kd_thick_noise(vec3 p, vec4 at)
     uvec2 i = uvec2(ivec2(corner.xy + at.zw));
     uint x0 = i.x * 0x8da6b343u, x1 = x0 + 0x8da6b343u, y0 = i.y * 0xd8163841u, y1 = y0 + 0xd8163841u, z0 = uint(int(corner.z)) * 0xcb1ab31fu;
     vec2 low = kd_thick_plane(x0, x1, y0, y1, z0, d, t.xy), high = kd_thick_plane(x0, x1, y0, y1, z0 + 0xcb1ab31fu, vec3(d.xy, d.z - 1.0), t.xy);
-    return mix(low, high, t.z) * (KD_THICK_NOISE / 512.0); /* E[n^2] over gradients of the cube and places of the cell */
+    return mix(low, high, t.z) * (KD_THICK_NOISE / 2147483648.0); /* E[n^2] over gradients of the cube and places of the cell */
 }
 
 /* The same as kd_gas_excess, with a height; and how many cells of the finest octave that counts for the grain there are to one of the first. */
 struct kd_thick_stir { float excess, finest; };
 
-kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z)
+kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
 {
-    kd_sample s;
-    s.phi = p.phi;
-    s.ago = 0.0;
     float u = max((log2(axis) - emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;
     float x2 = x * x, share = x2 * x2 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
     float w1 = sqrt(max(1.0 - share, 0.0)), w2 = sqrt(share);
     uint k = min(uint(j), KD_GAS_RINGS - 2u);
-    kd_gas_ring one = kd_gas_ring_of(k, x * KD_GAS_RING, s), two = kd_gas_ring_of(k + 1u, (x - 1.0) * KD_GAS_RING, s);
+    vec4 ring = kd_table_row(gas, k * (KD_GAS_OCTAVES + 1u));
+    kd_phasor psi = kd_cos_sin(p.phi - ring.x + emission.gas.shear * (x * KD_GAS_RING));
+    vec2 in_one = emission.gas.cells * exp(x * KD_GAS_RING) * vec2(psi.c, psi.s);
+    kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), 0.0);
+    kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y), (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
     float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
     float shear = emission.gas.shear, per = emission.gas.cells / axis;
-    float rr = p.spread.x, rf = p.spread.y + shear * rr, ff = p.spread.z + shear * (2.0 * p.spread.y + shear * rr);
-    kd_gas_steps steps = kd_gas_steps(per * per * (rr + ff), per * per * per * per * max(rr * ff - rf * rf, 0.0));
+    /* In cells (dr, dphi + shear dr, layers dz) an ellipse has the trace of its matrix for the sum of squares, and that of its minors for the product. */
+    vec3 plane = p.spread.plane, rise = KD_THICK_LAYERS * p.spread.rise;
+    float rr = plane.x, rf = plane.y + shear * rr, ff = plane.z + shear * (2.0 * plane.y + shear * rr), rz = rise.x, fz = rise.y + shear * rise.x, zz = KD_THICK_LAYERS * rise.z;
+    kd_gas_steps steps = kd_gas_steps(per * per * (rr + ff + zz), per * per * per * per * max(rr * ff - rf * rf + (rr + ff) * zz - rz * rz - fz * fz, 0.0));
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
-        if (!(left > 0.02))
+        if (!(part * counts > KD_THICK_UNSEEN * emission.gas.loudness))
             break;
         vec2 a = kd_thick_noise(vec3(one.p, up), kd_gas_lattice(one, octave)), b = kd_thick_noise(vec3(two.p, up), kd_gas_lattice(two, octave));
         sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
-        finest *= octave > 0u && loud > KD_THICK_FAINT * emission.gas.loudness ? KD_GAS_FINER : 1.0;
+        finest *= octave > 0u && part > KD_THICK_FAINT * emission.gas.loudness ? KD_GAS_FINER : 1.0;
         loud *= emission.gas.persistence;
         steps = kd_gas_steps(steps.sum * emission.gas.finer, steps.product * emission.gas.finer * emission.gas.finer);
         one.p = next * (one.p + emission.gas.warp * a);
@@ -117,7 +120,7 @@ kd_medium kd_thick_along(kd_midst p)
     float seen = max(orbit.ut * (p.energy - orbit.omega * p.momentum), 1e-6);
     float shown = doppler && redshift ? seen : (redshift ? orbit.ut : 1.0) * max(doppler ? p.energy - orbit.omega * p.momentum : FINITE ? p.energy : 1.0, 1e-6);
     float t = kd_disk_heat(1.0 / axis) * inversesqrt(axis * sqrt(axis)), flux = t * t * t * t;
-    kd_thick_stir stir = KD_THICK_TAKEN > 0u ? kd_thick_excess(p, axis, z) : kd_thick_stir(0.0, 0.0);
+    kd_thick_stir stir = KD_THICK_TAKEN > 0u ? kd_thick_excess(p, axis, z, exp(-0.25 * x * x)) : kd_thick_stir(0.0, 0.0);
     float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
 
     /* The thin disk's opacity for light at this angle, as an optical depth along the normal. */

@@ -10,12 +10,14 @@ struct kd_sample { float w, phi, ago, slope, energy, momentum, q, footprint, sha
 struct kd_end { float u, phi, footprint, energy; };
 /* One emitter adds this at a place: light, its opacity already in it; opacity; luminance that is kept apart as well. */
 struct kd_glow { vec3 light; float alpha, apart; };
+/* This is the ellipse across a ray that it stands for, at the crossing of the plane that is nearest on it: M_rr, M_rf, M_ff in the plane, as KD_LENS_SHAPE has
+ * it (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
+struct kd_spread { vec3 plane, rise; };
 /* This is a place in a volume that the ray goes through. w = 1/r, u = cos(theta), and what they grow by in Mino time as the ray is traced, against the
  * light: the arriving photon has p_r = dw/kd_delta(w), p_theta = du/sin(theta) and the E, L and Q of `energy`, `momentum`, `q`, by the energy that
  * the observer measures. speed: M of length in (r, r n) a unit of Mino time, n being the direction from the hole, as if space were flat: what a
- * grain is counted in. phi: azimuth, source minus observer; spread: M_rr, M_rf, M_ff, M^2, across the ray, of the ellipse that it stands for at the
- * crossing of the plane that is nearest on it, as KD_LENS_SHAPE has it in the plane (shared/lens.h): both 0 but for KD_TRAIT_AZIMUTH. */
-struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; vec3 spread; };
+ * grain is counted in. phi: azimuth, source minus observer; spread: what the ray stands for: both 0 but for KD_TRAIT_AZIMUTH. */
+struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; kd_spread spread; };
 /* That is what is there. light: what is added to the light, and depth: optical depth, of a unit of the affine parameter by the observer's energy:
  * along a ray, d lambda = (r^2 + a^2 u^2) d tau, matter of velocity U sees the way -k.U d lambda, so that of its emissivity j and opacity alpha, by
  * its own length, depth = alpha (-k.U), and bolometric light = j (-k.U)^-3, 1/(-k.U) being g. grain: M along the ray over which it changes by about

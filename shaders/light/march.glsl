@@ -24,6 +24,7 @@
 #define KD_MARCH_DEPTH 1.0    /* and in optical depth */
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
 #define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
+#define KD_MARCH_LOOPS 65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to be found out */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
 
 /* A polynomial of the time within a step, from 0 to 1. */
@@ -128,9 +129,18 @@ kd_march_drag kd_march_drag_of(kd_geodesic m, kd_ray ray)
     return drag;
 }
 
+/* An ellipse M_rr, M_rf, M_ff is less long by this part in the direction d. */
+vec3 kd_march_shorter(vec3 m, vec2 d, float less)
+{
+    vec2 md = vec2(m.x * d.x + m.y * d.y, m.y * d.x + m.z * d.y);
+    float dd = dot(d, md) * less * less;
+    return m - less * vec3(2.0 * d.x * md.x, d.x * md.y + d.y * md.x, 2.0 * d.y * md.y) + dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
+}
+
 /* What a ray stands for at its crossing n of the plane, across the ray: the ellipse there, whose axis along the ray is shorter by the cosine to the
- * normal. outwards: 1 if it is traced that way, -1 if inwards. Nothing is known of what a ray does not cross. */
-vec3 kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
+ * normal, stands across the ray, so that it is again less long in the plane by that cosine, and by the sine along the normal. outwards: 1 if the ray is
+ * traced that way, -1 if inwards. Nothing is known of what a ray does not cross. */
+kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
 {
     uint k = at + min(n, ORDERS - 1u) * slice.stride;
     float w = lens[k], size = quantity(KD_LENS_FOOTPRINT, k);
@@ -140,15 +150,15 @@ vec3 kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
     vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
     /* The ray's direction as if space were flat: r'^2 = R(w)/w^4, the turn about the axis L, and sqrt(Q) along the normal, over r. */
     float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0), round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
-    float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2);
+    float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2), rise = sqrt(1.0 - c2);
     vec2 d = vec2(outwards * sqrt(out2), round_) * inversesqrt(plane2);
-    vec2 md = vec2(flat_.x * d.x + flat_.y * d.y, flat_.y * d.x + flat_.z * d.y);
-    float dd = dot(d, md) * less * less;
-    vec3 across = flat_ - less * vec3(2.0 * d.x * md.x, d.x * md.y + d.y * md.x, 2.0 * d.y * md.y) + dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
-    return w > 0.0 && size < KD_FOOTPRINT_EDGE ? across : vec3(0.0);
+    vec3 across = kd_march_shorter(flat_, d, less);
+    vec2 md = vec2(across.x * d.x + across.y * d.y, across.y * d.x + across.z * d.y);
+    float dd = dot(d, md), known = w > 0.0 && size < KD_FOOTPRINT_EDGE ? 1.0 : 0.0;
+    return kd_spread(known * kd_march_shorter(across, d, less), known * rise * vec3(md - less * dd * d, rise * dd));
 }
 
-kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float t)
+kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, float t)
 {
     float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h, du = kd_quintic_slope(s.u, t) / s.h;
     float r = 1.0 / w, fall = dw * r, turn = max(m.q + m.momentum * m.momentum + m.energy2 * u * u, 0.0);
@@ -169,11 +179,11 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 }
 
 /* Goes through a part of a step that lies in the volumes. */
-void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, vec3 spread, float from, float to, inout float stretch)
+void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, float from, float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE);
     float wish = stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
-    while (from < to && beam.through > KD_MARCH_OPAQUE) {
+    for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE; n++) {
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;
         float next = from + length_;
         length_ = next - from; /* as rounded */
@@ -203,6 +213,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, v
         }
     }
     stretch = wish * s.h;
+    lost = lost || (from < to && beam.through > KD_MARCH_OPAQUE);
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
@@ -258,7 +269,7 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     y.q = kd_path_step(y.m, y.p, y.h);
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
-    y.lost = y.steps++ >= 12u * STEPS; /* it circles for ever */
+    y.lost = y.lost || y.steps++ >= 12u * STEPS; /* it circles for ever */
     y.goes = !y.lost && kd_is_finite(y.q.y.w); /* else it has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
@@ -294,14 +305,14 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);
         kd_quintic_clip(s.u, up * emission.frame.along_u, -up, from, to);
         kd_quintic_clip(s.u, up * (emission.frame.along_hollow > 0.0 ? emission.frame.along_hollow : -1.0), up, from, to);
-        vec3 spread = vec3(0.0);
+        kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         if (KD_MARCH_TURNS && ORDERS > 0) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves = passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
             spread = kd_march_spread(y.m, ray, leaves ? passed - 1u : passed, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
         }
         KD_TELL_BEFORE(beam)
-        kd_march_part(beam, y.m, ray, s, spread, from, to, y.stretch);
+        kd_march_part(beam, y.m, ray, s, spread, from, to, y.stretch, y.lost);
         KD_TELL_STRETCH(s, from, to, beam)
         if (end == plane && KD_GLOWS && y.crossed < ORDERS && beam.through > 0.0) {
             float w = lens[at + y.crossed * slice.stride];
@@ -336,14 +347,14 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
     kd_march_way y = kd_march_begin(ray, time);
-    while (y.goes && beam.through > 0.0) {
+    for (uint n = 0u; n < KD_MARCH_LOOPS && y.goes && beam.through > 0.0; n++) {
         kd_march_advance(y, ray);
         if (y.goes) {
             kd_march_through(beam, y, ray, place, at);
             kd_march_leave(y);
         }
     }
-    if (y.lost)
+    if (y.lost || (y.goes && beam.through > 0.0))
         KD_MARCH_GIVEN_UP(beam);
     KD_TELL_MARCHED(y.steps)
     for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0; n++) { /* beyond the volumes */

@@ -208,7 +208,21 @@ static void test_thin_limit(void **state)
     }
 }
 
-/* Seen along the plane there are no bands: next to no pixel differs from a march of 16 times as many stretches. */
+enum { COLUMNS = 128, ROWS = 32 };
+
+/* The mean light of a row, over the columns whose rays both frames have followed to their ends. */
+static double row_of(const struct kd_frame *frame, const struct kd_frame *other, int y, int *left_out)
+{
+    double sum = 0;
+    for (int i = y * COLUMNS; i < (y + 1) * COLUMNS; i++) {
+        const bool both = isfinite(intensity(frame)[i]) && isfinite(intensity(other)[i]);
+        sum += both ? intensity(frame)[i] : 0;
+        *left_out += !both;
+    }
+    return sum / COLUMNS;
+}
+
+/* Seen along the plane there are no bands: the vertical profile is that of a march of 16 times as many stretches, row by row, by the row's own light. */
 static void test_no_bands(void **state)
 {
     (void)state;
@@ -216,19 +230,23 @@ static void test_no_bands(void **state)
         struct kd_scene scene = scene_of(0.7, 90, INFINITY, "{\"disk\":{\"model\":\"novikov-thorne\",\"emission_opacity\":10,\"height\":0.1}}");
         scene.volume.model = KD_VOLUME_NONE;
         scene.gas.amplitude = stirred ? 0.8 : 0;
-        scene.image.width = 8;
-        scene.image.height = 64;
-        scene.camera.field_m = 4;
-        scene.camera.centre_alpha = 9;
+        scene.image.width = COLUMNS;
+        scene.image.height = ROWS;
+        scene.camera.field_m = 36;
         struct kd_frame plain = by_plan(&scene, 1), fine = by_plan(&scene, 16);
-        double most = largest(intensity(&fine), 8 * 64), worst = 0, square = 0;
-        for (int i = 0; i < 8 * 64; i++) {
-            double by = fabs(intensity(&plain)[i] - intensity(&fine)[i]) / most;
-            worst = fmax(worst, by);
-            square += by * by / (8 * 64);
+        double is[ROWS], want[ROWS], most = 0, worst = 0;
+        int left_out = 0, compared = 0;
+        for (int y = 0; y < ROWS; y++) {
+            is[y] = row_of(&plain, &fine, y, &left_out);
+            want[y] = row_of(&fine, &plain, y, &left_out);
+            most = fmax(most, want[y]);
         }
-        printf("%s: rms %.2g, worst %.2g of the brightest\n", stirred ? "stirred" : "smooth", sqrt(square), worst);
-        assert_true(most > 0 && worst < (stirred ? 0.05 : 0.005) && sqrt(square) < 0.005);
+        for (int y = 0; y < ROWS; y++) {
+            worst = want[y] > 1e-3 * most ? fmax(worst, fabs(is[y] / want[y] - 1)) : worst;
+            compared += want[y] > 1e-3 * most;
+        }
+        printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth", compared, worst, left_out / 2);
+        assert_true(compared == ROWS && worst < 0.005 && left_out / 2 < ROWS * COLUMNS / 5); /* lavapipe ends so long a march */
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }

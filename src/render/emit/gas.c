@@ -88,6 +88,17 @@ static void place(double at, float *part, float *whole)
     *part = (float)(at - floor(at));
 }
 
+/* From the plane of each ring to that of the next one the same place is turned and shrunk: by this complex factor. */
+static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
+{
+    for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {
+        float *row = out->gas[j * (KD_GAS_OCTAVES + 1)];
+        const double turn = (double)row[0] - out->gas[(j + 1) * (KD_GAS_OCTAVES + 1)][0] - scene->gas.shear * KD_GAS_RING;
+        row[2] = (float)(exp(-KD_GAS_RING) * cos(turn));
+        row[3] = (float)(exp(-KD_GAS_RING) * sin(turn));
+    }
+}
+
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     double r_in = inner_radius(scene), time = scene->top.time - kd_particle_delay(scene);
@@ -104,6 +115,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
             place(65536 * random_of(seed, ++n) + way * sin(angle), &row[1 + k][1], &row[1 + k][3]);
         }
     }
+    next_rings(out, scene);
 }
 
 #define WHEN(name, condition)                                                                                  \
