@@ -80,7 +80,7 @@ def main():
              "volume_error": errors[name][0], "volume_error_worst": errors[name][1]}
         figures[name] = f
         rows.append([name, f"{march:.0f}" if march else "–", f"{f['rays_per_s_core'] / 1e3:.0f}" if march else "–",
-                     f"{f['rays_per_s_core'] / BLACKLIGHT[1]:.0f}" if march else "–", *(measure.error(x) for x in errors[name]),
+                     f"{f['rays_per_s_core'] / BLACKLIGHT[1]:.0f}" if march and errors[name][0] is not None else "–", *(measure.error(x) for x in errors[name]),
                      f"{f['cold_ms']:.0f}", f"{f['reused_ms']:.0f}"])
     text = measure.head_markdown("What volumes cost", h)
     text += (f"Rays at {RAYS[0]} × {RAYS[1]} by one thread on one core; frames at {FRAME[0]} × {FRAME[1]} by two; ms, least of {o.rounds * o.repeat}. "
