@@ -276,6 +276,7 @@ struct kd_critical_lattice kd_critical_lattice(uint32_t rays)
     for (uint32_t g = 2; g < rays; g++)
         if (common(g, rays) == 1 && apart(rays, g) > apart(rays, l.generator))
             l.generator = g;
-    l.shift = (l.generator % 2 ? l.generator - 1 : l.generator - 1 + rays) / 2 % rays; /* ray K - 1 - k is opposite to ray k */
+    if (rays) /* ray K - 1 - k is opposite to ray k */
+        l.shift = (l.generator % 2 ? l.generator - 1 : l.generator - 1 + rays) / 2 % rays;
     return l;
 }
