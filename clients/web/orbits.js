@@ -6,7 +6,7 @@ import { byId, el, still, svg } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t, tell, word } from './i18n.js';
 import { plot } from './plot.js';
-import { physics, postJson } from './server.js';
+import { drawn, physics, postJson } from './server.js';
 
 const own = 'shape';
 const specs = [
@@ -237,6 +237,7 @@ export async function openOrbits() {
     const answer = await follow({
       ...(shaped ? { spin: Number(v.spin) } : {}),
       samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
+      digits: 7, // a path is drawn over some thousand pixels
       method: v.method,
       ...(falls ? {} : { duration: { periods: Number(v.periods) } }),
       orbit: shaped ? { p: Number(v.p), e: Number(v.e), inclination_deg: Number(v.inclination_deg) } : { case: v.orbit },
@@ -283,7 +284,7 @@ export async function openOrbits() {
     const high = Math.min(Math.max(3 * (turn.r_max ?? 20), 12), 1e8),
       flat = Math.abs(constants.carter) < 1e-9;
     const { horizon } = (await physics('kerr', { spin })).values;
-    const v = await physics('potential', { spin, l: constants.angular_momentum, r: `${horizon}:${high}:400` });
+    const v = await physics('potential', { spin, l: constants.angular_momentum, r: `${horizon}:${high}:400`, ...(high < 1e3 ? drawn : {}) });
     // Far out all of it is next to 1, and what is above 1 is a wall next to the hole.
     const least = v.values.v_min_matter ?? constants.energy,
       off = 1 - least < 1e-3 ? 1 : 0,

@@ -2,7 +2,7 @@
 // what is done with them here is to look through the camera at them.
 import { byId, el, latest, svg } from './dom.js';
 import { number, t, tell } from './i18n.js';
-import { physics } from './server.js';
+import { drawn, physics } from './server.js';
 import * as link from './link.js';
 
 const radians = Math.PI / 180;
@@ -75,6 +75,7 @@ async function shadow(scene, look) {
   const { values: v } = await physics('shadow', {
     ...hole(scene),
     angle_deg: '0:358:180',
+    ...drawn,
   });
   const points = far
     ? v.alpha.map((alpha, i) => look.plane(alpha, v.beta[i]))
@@ -106,7 +107,7 @@ const refusals = {
 async function circle(scene, look, r, order = 0) {
   const far = at_infinity(scene);
   const ask = async angle_deg => {
-    const { parameters, values: v } = await physics('ring-image', { ...hole(scene), r, order, angle_deg });
+    const { parameters, values: v } = await physics('ring-image', { ...hole(scene), r, order, angle_deg, ...drawn });
     const seen = i => (far ? look.plane(v.alpha[i], v.beta[i]) : look.direction(v.inwards[i], v.right[i], v.up[i]));
     return parameters.angle_deg.map((angle, i) => ({ angle, at: seen(i) }));
   };
@@ -171,8 +172,8 @@ async function flamm(scene, look) {
     outer = Math.max(scene.get('disk.outer'), 12);
   const range = `${horizon}:${outer}:129`;
   const [surface, dragging] = await Promise.all([
-    physics('flamm', { spin, r: range }),
-    physics('frame-dragging', { spin, r: range }),
+    physics('flamm', { spin, r: range, ...drawn }),
+    physics('frame-dragging', { spin, r: range, ...drawn }),
   ]);
   const { radius, z } = surface.values,
     depth = z.at(-1),

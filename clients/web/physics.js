@@ -5,7 +5,7 @@ import { byId, el } from './dom.js';
 import { buildForm } from './form.js';
 import { number, t } from './i18n.js';
 import { plot } from './plot.js';
-import { getJson, physics, physicsUrl } from './server.js';
+import { drawn, getJson, physics, physicsUrl } from './server.js';
 import { ringing, soundRow } from './sound.js';
 
 const degrees = radians => (radians == null ? null : (radians * 180) / Math.PI);
@@ -54,7 +54,7 @@ const charts = [
       '<msup><mrow><mo>(</mo><mfrac><mrow><mi>d</mi><mi>r</mi></mrow><mrow><mi>d</mi><mi>τ</mi></mrow></mfrac><mo>)</mo></mrow><mn>2</mn></msup><mo>=</mo><msup><mi>E</mi><mn>2</mn></msup><mo>−</mo><msubsup><mi>V</mi><mi>eff</mi><mn>2</mn></msubsup><mtext>&nbsp; (a = 0)</mtext>',
     also: async p => {
       const { values } = await physics('kerr', { spin: p.spin });
-      return { isco: values.isco, ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r })).values };
+      return { isco: values.isco, ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r, ...drawn })).values };
     },
     show: (v, p, at_isco) => ({
       note:
@@ -304,7 +304,7 @@ function card(chart, known) {
   const draw = persistent(fault, 'physics', async () => {
     const { octaves, ...asked } = { ...chart.query, ...form.values() }; // the first is for ears alone
     Object.assign(asked, await chart.adjust?.(asked));
-    const [answer, also] = await Promise.all([physics(chart.name, asked), chart.also?.(asked)]);
+    const [answer, also] = await Promise.all([physics(chart.name, { ...asked, ...drawn }), chart.also?.(asked)]);
     const shown = chart.show(answer.values, answer.parameters, also);
     const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
     figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });

@@ -2,9 +2,14 @@
 // values, reading by keyboard, and the numbers as a table beside each.
 import { el, svg } from './dom.js';
 import { number, t } from './i18n.js';
-import uPlot from './vendor/uplot/uPlot.esm.js';
 
 document.head.append(el('link', { rel: 'stylesheet', href: new URL('vendor/uplot/uPlot.min.css', import.meta.url) }));
+// Of uPlot's builds the one that is half as long is a script, not a module: it leaves its name in the window.
+const uPlot = await new Promise((done, fail) =>
+  document.head.append(
+    el('script', { src: new URL('vendor/uplot/uPlot.iife.min.js', import.meta.url), onload: () => done(window.uPlot), onerror: () => fail(new Error('uPlot')) }),
+  ),
+);
 
 const font = 'system-ui, sans-serif';
 const strokes = [

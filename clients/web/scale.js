@@ -4,7 +4,7 @@ import { entitle } from './describe.js';
 import { byId, el, svg } from './dom.js';
 import { buildForm } from './form.js';
 import { duration, number, t, unit } from './i18n.js';
-import { physics } from './server.js';
+import { drawn, physics } from './server.js';
 
 const specs = [
   {
@@ -84,7 +84,7 @@ export async function openScale() {
     for (const name of ['mass_msun', 'distance_pc']) form.input(name).disabled = !any;
     const [{ values, units, sources }, edge] = await Promise.all([
       physics('scale', { hole, ...rest, ...(any ? { mass_msun, distance_pc } : {}) }),
-      physics('shadow', { ...rest, angle_deg: '0:358:180' }),
+      physics('shadow', { ...rest, angle_deg: '0:358:180', ...drawn }),
     ]);
     draw(values, edge.values);
     name(hole, values, edge.values);

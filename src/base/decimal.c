@@ -3,6 +3,8 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Giulietti's g(k): the 128 leading bits of 10^k, rounded up where they are not all of it. */
@@ -196,4 +198,22 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
                                            : write_plain(out + used, digits, n, exponent);
     out[used] = 0;
     return used;
+}
+
+double kd_decimal_round(double value, int digits)
+{
+    /* Powers of ten up to 10^22 and whole numbers up to 10^15 are exact as doubles, so that one division or product rounds once. */
+    static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+    const int most = sizeof exact / sizeof *exact - 1;
+    if (!isfinite(value) || value == 0 || digits > 15)
+        return value;
+    int power = digits - 1 - (int)floor(log10(fabs(value)));
+    if (power >= 0 && power <= most)
+        return nearbyint(value * exact[power]) / exact[power];
+    if (power < 0 && -power <= most)
+        return nearbyint(value / exact[-power]) * exact[-power];
+    char text[KD_DECIMAL_SIZE];
+    snprintf(text, sizeof text, "%.*e", digits - 1, value);
+    return strtod(text, NULL);
 }

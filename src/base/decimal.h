@@ -12,4 +12,9 @@ enum { KD_DECIMAL_SIZE = 32 };
 /* value must be finite. A JSON number: 0.25, -12, 1.5e-7, 1e300. Writes a NUL too; returns the length without it. */
 size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value);
 
+/* The double nearest to value's decimal of so many significant digits, which prints in no more of them. Halfway between two decimals either may be
+ * taken. Infinities, NAN and 16 digits or more: value. */
+enum { KD_DECIMAL_DIGITS = 17 }; /* all that a double has */
+double kd_decimal_round(double value, int digits);
+
 #endif

@@ -35,6 +35,7 @@ static const struct {
     { "periods", "N", "how long: radial periods (10), turns where r is constant" },
     { "time", "T", "or coordinate time, in M" },
     { "samples", "N", "of the path, both ends counted (1000); 0 for none" },
+    { "digits", "N", "significant digits of the series as text (17: all)" },
     { "method", "NAME", "yoshida6 (the default), rkn6 or closed" },
     { "steps", "N", "per radial period, instead of a tolerance" },
     { "tolerance", "X", "relative error after a period that chooses the step (1e-12)" },

@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_PARAMETER = 256, NAME_SIZE = 40, HELP_SIZE = 400 };
+enum { KEY_PARAMETER = 256, KEY_DIGITS = KEY_PARAMETER + KD_QUANTITY_PARAMETERS, NAME_SIZE = 40, HELP_SIZE = 400 };
 
 struct arguments {
     const struct kd_quantity *quantity;
-    const char *output, *format;
+    const char *output, *format, *digits;
     const char *given[KD_QUANTITY_PARAMETERS]; /* NULL: not given */
 };
 
@@ -25,6 +25,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
     switch (key) {
     case 'o': arguments->output = text; return 0;
+    case KEY_DIGITS: arguments->digits = text; return 0;
     case 'f':
         if (strcmp(text, "json") && strcmp(text, "csv") && strcmp(text, "wav"))
             argp_error(state, "--format %s: json, csv or wav", text);
@@ -37,7 +38,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 /* The options of one quantity, and the texts that they point into. */
 struct options {
-    struct argp_option table[KD_QUANTITY_PARAMETERS + 3];
+    struct argp_option table[KD_QUANTITY_PARAMETERS + 4];
     char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], helps[KD_QUANTITY_PARAMETERS][HELP_SIZE];
 };
 
@@ -58,6 +59,7 @@ static void make_options(const struct kd_quantity *quantity, struct options *opt
         "output", 'o', "FILE", 0, "where to write; .csv and .wav choose that format (default: - for standard output)", 2
     };
     options->table[n++] = (struct argp_option) { "format", 'f', "FORMAT", 0, "json, csv or wav, whatever the name of the output", 2 };
+    options->table[n++] = (struct argp_option) { "digits", KEY_DIGITS, "N", 0, "significant digits of the numbers in lists, in CSV of all (default: 17, all)", 2 };
     options->table[n] = (struct argp_option) { 0 };
 }
 
@@ -72,6 +74,8 @@ static enum kd_status answer_text(const struct arguments *arguments, struct kd_b
     for (size_t i = 0; i < arguments->quantity->n_parameters; i++)
         if (arguments->given[i])
             KD_TRY(kd_quantity_request_set(&request, arguments->quantity->parameters[i].name, arguments->given[i], error));
+    if (arguments->digits)
+        KD_TRY(kd_quantity_request_set(&request, "digits", arguments->digits, error));
     if (!strcmp(format, "wav"))
         KD_TRY(kd_quantity_sound_check(&request, error));
     KD_TRY(kd_quantity_evaluate(&request, &answer, error));

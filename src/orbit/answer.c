@@ -25,6 +25,7 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
 struct text {
     struct kd_buffer *out;
     enum kd_status status;
+    int digits; /* of numbers; 0: all */
 };
 
 static void put(struct text *t, const char *s)
@@ -37,7 +38,7 @@ static void number(struct text *t, double value, const char *otherwise)
 {
     char text[KD_DECIMAL_SIZE];
     if (isfinite(value))
-        kd_decimal_print(text, value);
+        kd_decimal_print(text, t->digits ? kd_decimal_round(value, t->digits) : value);
     put(t, isfinite(value) ? text : otherwise);
 }
 
@@ -289,7 +290,7 @@ static void npy_head(struct text *t, const char *const *names, int n, uint64_t f
 
 enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out)
 {
-    struct text t = { out, KD_OK };
+    struct text t = { .out = out };
     switch (format) {
     case KD_ORBIT_JSON:
         put(&t, "{");
@@ -313,10 +314,10 @@ enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orb
     return t.status;
 }
 
-enum kd_status kd_orbit_answer_samples(enum kd_orbit_format format, const struct kd_orbit_sample *samples, size_t n, size_t first,
-                                       struct kd_buffer *out)
+enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format, const struct kd_orbit_sample *samples,
+                                       size_t n, size_t first, struct kd_buffer *out)
 {
-    struct text t = { out, KD_OK };
+    struct text t = { .out = out, .digits = (int)params->digits };
     double values[COLUMNS];
     if (format == KD_ORBIT_NDJSON)
         put(&t, "{\"rows\":[");
@@ -341,7 +342,7 @@ enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct k
 
 enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out)
 {
-    struct text t = { out, KD_OK };
+    struct text t = { .out = out };
     if (format == KD_ORBIT_JSON) {
         put(&t, run->samples ? "]},\"result\":{" : ",\"result\":{");
         result(&t, run);
@@ -391,7 +392,7 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
         put(t, i ? ",\n" : "\n");
         t->status = t->status ? t->status : kd_orbit_answer_begin(&runs[i], KD_ORBIT_JSON, t->out);
         if (samples && !t->status)
-            t->status = kd_orbit_answer_samples(KD_ORBIT_JSON, samples + i * runs[i].samples, runs[i].samples, 0, t->out);
+            t->status = kd_orbit_answer_samples(runs[i].params, KD_ORBIT_JSON, samples + i * runs[i].samples, runs[i].samples, 0, t->out);
         if (!t->status)
             t->status = kd_orbit_answer_end(&runs[i], KD_ORBIT_JSON, t->out);
         t->out->size -= !t->status; /* its newline */
@@ -402,7 +403,7 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out)
 {
-    struct text t = { out, KD_OK };
+    struct text t = { .out = out };
     double values[SUMMARY];
     if (format == KD_ORBIT_JSON) {
         many_json(&t, runs, n, samples);
@@ -416,7 +417,7 @@ enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, c
         csv_names(&t, names, count);
     for (size_t i = 0; i < n && !t.status; i++) {
         if (samples) {
-            t.status = kd_orbit_answer_samples(format, samples + i * runs[i].samples, runs[i].samples, 0, out);
+            t.status = kd_orbit_answer_samples(runs[i].params, format, samples + i * runs[i].samples, runs[i].samples, 0, out);
             continue;
         }
         summary_of(&runs[i], values);

@@ -19,8 +19,8 @@ enum kd_orbit_format { KD_ORBIT_JSON, KD_ORBIT_NDJSON, KD_ORBIT_CSV, KD_ORBIT_NP
 /* The parts of the answer for one orbit, in their order. */
 enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out);
 /* first: how many were written before. */
-enum kd_status kd_orbit_answer_samples(enum kd_orbit_format format, const struct kd_orbit_sample *samples, size_t n, size_t first,
-                                       struct kd_buffer *out);
+enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format, const struct kd_orbit_sample *samples,
+                                       size_t n, size_t first, struct kd_buffer *out);
 enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct kd_buffer *out); /* NDJSON only */
 enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out);
 

@@ -41,7 +41,7 @@ static enum kd_status more_of_one(struct kd_orbit_feed *feed, struct kd_buffer *
     }
     size_t first = run->sampled, n = kd_orbit_run_advance(run, STEPS, feed->samples, KD_ORBIT_FEED_SAMPLES);
     if (n)
-        status = kd_orbit_answer_samples(feed->format, feed->samples, n, first, out);
+        status = kd_orbit_answer_samples(run->params, feed->format, feed->samples, n, first, out);
     if (!status && feed->format == KD_ORBIT_NDJSON && run->done - feed->told >= STEPS_A_LINE) {
         feed->told = run->done;
         status = kd_orbit_answer_progress(run, out);

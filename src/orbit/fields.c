@@ -1,5 +1,6 @@
 #include "orbit/fields.h"
 
+#include "base/decimal.h"
 #include "orbit/cases.h"
 #include "scene/number.h"
 
@@ -18,6 +19,7 @@ const struct kd_orbit_field kd_orbit_settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)
     { "", "spin", REAL, AT(spin), -1, 1, 0, ANY, 0, KD_OPEN },
     { "", "samples", WHOLE, AT(samples), 0, KD_ORBIT_SAMPLES_MAX, 0, ANY, 0, .bound = KD_BOUND_NOT_ONE },
+    { "", "digits", WHOLE, AT(digits), 1, KD_DECIMAL_DIGITS, 0, ANY, 0 },
     { "", "steps", WHOLE, AT(steps), 0, 100000000, 0, ANY, 0 },
     { "", "tolerance", REAL, AT(tolerance), 1e-14, 1e-3, 0, ANY, 0 },
     { "", "method", WORD, AT(way), 0, 0, WAY_WORDS, ANY, 0 },

@@ -1,5 +1,6 @@
 #include "orbit/request.h"
 
+#include "base/decimal.h"
 #include "base/slip.h"
 #include "orbit/cases.h"
 #include "orbit/fields.h"
@@ -24,7 +25,7 @@ static const char *const form_texts[KD_ORBIT_FORMS] = {
 void kd_orbit_request_init(struct kd_orbit_request *request)
 {
     *request = (struct kd_orbit_request) {
-        .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN, .samples = 1000 }
+        .params = { .spin = NAN, .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN, .samples = 1000, .digits = KD_DECIMAL_DIGITS }
     };
 }
 

@@ -55,6 +55,7 @@ struct kd_orbit_params {
     double mass_msun;     /* for times in seconds; NAN: none */
     uint32_t steps;       /* per radial period */
     uint32_t samples;     /* 0: no series */
+    uint32_t digits;      /* significant, of the series' numbers as text */
     enum kd_orbit_way way;
     bool series; /* of many orbits */
 };

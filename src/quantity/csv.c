@@ -1,6 +1,8 @@
 /* This writes an answer as comma-separated values. */
 #include "quantity/text.h"
 
+#include "base/decimal.h"
+
 static void write_point(struct kd_writer *w, const struct kd_quantity_answer *answer, size_t point)
 {
     const struct kd_quantity_request *request = &answer->request;
@@ -10,11 +12,11 @@ static void write_point(struct kd_writer *w, const struct kd_quantity_answer *an
         at[i] = rest % request->axes[i].count;
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         kd_write(w, i ? "," : "");
-        kd_quantity_write_value(w, &quantity->parameters[i], kd_axis_at(&request->axes[i], at[i]), "");
+        kd_quantity_write_value(w, &quantity->parameters[i], kd_decimal_round(kd_axis_at(&request->axes[i], at[i]), request->digits), "");
     }
     for (size_t k = 0; k < quantity->n_outputs; k++) {
         kd_write(w, ",");
-        kd_quantity_write_number(w, answer->values[point * quantity->n_outputs + k], "");
+        kd_quantity_write_number(w, kd_decimal_round(answer->values[point * quantity->n_outputs + k], request->digits), "");
     }
     kd_write(w, "\n");
 }

@@ -1,7 +1,9 @@
 /* This writes an answer as JSON, and the list of quantities. */
 #include "quantity/text.h"
 
-static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const struct kd_axis *axis)
+#include "base/decimal.h"
+
+static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const struct kd_axis *axis, int digits)
 {
     if (axis->count == 1) {
         kd_quantity_write_value(w, p, axis->first, "\"");
@@ -9,7 +11,7 @@ static void write_axis(struct kd_writer *w, const struct kd_parameter *p, const 
     }
     for (size_t i = 0; i < axis->count; i++) {
         kd_write(w, i ? "," : "[");
-        kd_quantity_write_number(w, kd_axis_at(axis, i), "null");
+        kd_quantity_write_number(w, kd_decimal_round(kd_axis_at(axis, i), digits), "null");
     }
     kd_write(w, "]");
 }
@@ -53,7 +55,8 @@ static void write_values(struct kd_writer *w, const struct kd_quantity_answer *a
         for (size_t i = 0; i < (list ? answer->points : 1); i++) {
             if (list && !w->status)
                 w->status = kd_buffer_append(w->out, i ? "," : "[", 1);
-            kd_quantity_write_number(w, answer->values[i * quantity->n_outputs + k], "null");
+            double value = answer->values[i * quantity->n_outputs + k];
+            kd_quantity_write_number(w, list ? kd_decimal_round(value, answer->request.digits) : value, "null");
         }
         kd_write(w, list ? "]" : "");
     }
@@ -79,7 +82,7 @@ enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct 
     kd_write(w, "{\"quantity\":\"%s\",\"parameters\":{", quantity->name);
     for (size_t i = 0; i < quantity->n_parameters; i++) {
         kd_write(w, "%s\"%s\":", i ? "," : "", quantity->parameters[i].name);
-        write_axis(w, &quantity->parameters[i], &answer->request.axes[i]);
+        write_axis(w, &quantity->parameters[i], &answer->request.axes[i], answer->request.digits);
     }
     kd_write(w, "}");
     write_shape(w, &answer->request);

@@ -88,10 +88,11 @@ double kd_axis_at(const struct kd_axis *axis, size_t i);
 struct kd_quantity_request {
     const struct kd_quantity *quantity;
     struct kd_axis axes[KD_QUANTITY_PARAMETERS]; /* in the order of the parameters */
+    int digits; /* significant, of the numbers in lists and of all in CSV; KD_DECIMAL_DIGITS: all */
 };
 
 void kd_quantity_request_init(struct kd_quantity_request *request, const struct kd_quantity *quantity);
-/* KD_EINVAL with "/name" for a name that is no parameter and a value that it does not allow. */
+/* "digits" sets the digits. KD_EINVAL with "/name" for a name that is no parameter and a value that it does not allow. */
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error);
 size_t kd_quantity_points(const struct kd_quantity_request *request); /* saturates at KD_QUANTITY_POINTS + 1 */

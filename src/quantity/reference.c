@@ -17,7 +17,8 @@ static const char introduction[] =
     "A value may be a range, `first:last:count`, with both ends; every point of several ranges is computed, the last parameter of\n"
     "the table varying fastest, up to 100000 points. In JSON a parameter that is a range is an array, and so is every value that it\n"
     "changes; values of several ranges are flat, with their `ranges` and `shape` beside them. `null`, and an empty field in CSV, is\n"
-    "a number that does not exist. G = c = M = 1 where no other unit is named. What lies outside the domain of a quantity is an\n"
+    "a number that does not exist. `digits=6` (`--digits 6`) writes no more significant digits than that of the numbers in lists, in\n"
+    "CSV of all: a third of the bytes, for who draws a curve. G = c = M = 1 where no other unit is named. What lies outside the domain of a quantity is an\n"
     "error (422) that names the parameter and the reason.\n";
 
 static void write_escaped(struct kd_writer *w, const char *text)

@@ -1,6 +1,7 @@
 /* This reads what is asked for: a parameter's value or range from text. */
 #include "quantity/quantity.h"
 
+#include "base/decimal.h"
 #include "base/slip.h"
 #include "scene/number.h"
 #include "scene/text.h"
@@ -131,6 +132,19 @@ static enum kd_status unknown(const struct kd_quantity *quantity, const char *po
     return kd_error_field(error, pointer, "%s has no parameter \"%s\"; known are %s", quantity->name, given, known);
 }
 
+static enum kd_status set_digits(struct kd_quantity_request *request, const char *text, struct kd_error *error)
+{
+    char given[64];
+    double value = 0;
+    const char *rest = number(text, &value);
+    if (!rest || *rest || value != floor(value) || value < 1 || value > KD_DECIMAL_DIGITS) {
+        kd_text_clip(given, sizeof given, text);
+        return kd_error_field(error, "/digits", "digits is \"%s\", allowed are whole numbers from 1 to %d", given, KD_DECIMAL_DIGITS);
+    }
+    request->digits = (int)value;
+    return KD_OK;
+}
+
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error)
 {
@@ -147,12 +161,12 @@ enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, cons
         request->axes[i] = axis;
         return KD_OK;
     }
-    return unknown(quantity, pointer, name, error);
+    return strcmp(name, "digits") ? unknown(quantity, pointer, name, error) : set_digits(request, text, error);
 }
 
 void kd_quantity_request_init(struct kd_quantity_request *request, const struct kd_quantity *quantity)
 {
-    *request = (struct kd_quantity_request) { .quantity = quantity };
+    *request = (struct kd_quantity_request) { .quantity = quantity, .digits = KD_DECIMAL_DIGITS };
     for (size_t i = 0; i < quantity->n_parameters; i++)
         kd_quantity_request_set(request, quantity->parameters[i].name, quantity->parameters[i].initial, NULL);
 }

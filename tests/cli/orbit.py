@@ -37,7 +37,7 @@ class Orbit(Case):
 
     def test_bad_values(self):
         for option, value, pointer in [
-                ("--spin", "1", "/spin"), ("--spin", "2", "/spin"), ("--spin", "nan", "/spin"), ("--samples", "1", "/samples"),
+                ("--spin", "1", "/spin"), ("--spin", "2", "/spin"), ("--spin", "nan", "/spin"), ("--samples", "1", "/samples"), ("--digits", "18", "/digits"), ("--digits", "0", "/digits"),
                 ("--method", "euler", "/method"), ("--tolerance", "0", "/tolerance"), ("--r-max", "far", "/r_max")]:
             self.bad(2, f"(at {pointer})", "orbit", "--p", "8", "--e", "0.5", option, value)
         for e, words in [("1", "e is 1, allowed are 0 up to, not including, 1"), ("-1", "not including"), ("half", "a number is wanted")]:
@@ -73,6 +73,9 @@ class Orbit(Case):
         self.assertEqual(lines[1]["columns"], NAMES)
         self.assertEqual([row for line in lines for row in line.get("rows", [])], rows)
         self.assertEqual(lines[-1]["result"], whole["result"])
+        few = json.loads(self.good("orbit", *options, "--digits", "5"))
+        self.assertEqual({k: v for k, v in few.items() if k != "series"}, {k: v for k, v in whole.items() if k != "series"})
+        self.assertEqual(few["series"]["rows"], [[float(f"{x:.4e}") for x in row] for row in rows])
 
     def test_by_state_and_by_constants(self):
         state = json.loads(self.good("orbit", "--r", "10", "--v-phi", "0.4", "--v-theta", "0.1", "--spin", "0.5", "--samples", "0"))

@@ -45,7 +45,7 @@ class Physics(daemon.Case):
                 for output in quantity['outputs']:
                     self.assertEqual(document['units'][output['name']], output['unit'])
                 self.assertEqual([p['name'] for p in paths[path]['get']['parameters']],
-                                 [*document['parameters'], 'format'])
+                                 [*document['parameters'], 'digits', 'format'])
                 head = self.daemon.request('HEAD', path)
                 self.assertEqual((head.status, head.body), (200, b''))
 

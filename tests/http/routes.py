@@ -12,7 +12,7 @@ import daemon
 
 GETS = {
     '/': 'text/html; charset=utf-8', '/web/app.js': 'text/javascript; charset=utf-8',
-    '/web/vendor/uplot/uPlot.esm.js': 'text/javascript; charset=utf-8', '/web/vendor/uplot/LICENSE': 'text/plain; charset=utf-8',
+    '/web/vendor/uplot/uPlot.iife.min.js': 'text/javascript; charset=utf-8', '/web/vendor/uplot/LICENSE': 'text/plain; charset=utf-8',
     '/web/style.css': 'text/css; charset=utf-8', '/web/icon.svg': 'image/svg+xml', '/healthz': 'application/json', '/readyz': 'application/json',
     '/metrics': 'text/plain; version=0.0.4; charset=utf-8', '/openapi.json': 'application/json', '/v1/device': 'application/json', '/v1/presets': 'application/json',
     '/v1/presets/gargantua': 'application/json', '/v1/schema': 'application/schema+json',
@@ -77,7 +77,7 @@ class Routes(daemon.Case):
             again = self.daemon.get(target, If_None_Match=plain.header('ETag'))
             self.assertEqual((again.status, again.body, again.header('ETag')), (304, b'', plain.header('ETag')), target)
             self.assertEqual(self.daemon.get(target, Accept_Encoding='gzip', If_None_Match=packed.header('ETag')).status, 304)
-        for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/', '/web/vendor/uplot/app.js', '/web/uPlot.esm.js',
+        for name in ('/app.js', '/web/', '/web/meson.build', '/web/../app.js', '/web/it.js/', '/web/vendor/uplot/app.js', '/web/uPlot.iife.min.js',
                      '/web/vendor/uplot/../../app.js', '/web/vendor/uplot/'):
             self.assertProblem(self.daemon.get(name), 404, 'not-found')
 
@@ -105,7 +105,7 @@ class Routes(daemon.Case):
             self.assertEqual(text.status, 200, name)
             others = {'web/' + other for other in re.findall(r"(?:from |import\(|new URL\()'(?:\./)?([^']+)'", text.body.decode())}
             loaded.extend(other for other in others if '.' in other and other not in seen)
-        self.assertIn('web/vendor/uplot/uPlot.esm.js', seen)
+        self.assertIn('web/vendor/uplot/uPlot.iife.min.js', seen)
         self.assertIn('web/vendor/uplot/uPlot.min.css', seen)
 
     def test_presets_are_scenes(self):

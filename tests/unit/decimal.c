@@ -94,12 +94,34 @@ static void any_bits(void **state)
     }
 }
 
+/* What printf and strtod make of it, unless the two decimals are as near as a rounding. */
+static void rounded(void **state)
+{
+    (void)state;
+    uint64_t seed = 362436069362436069u;
+    for (int i = 0; i < 400000; i++) {
+        const double value = i % 2 ? ldexp((double)(int64_t)next(&seed), -(int)(next(&seed) % 240)) : 1e-3 * (double)(int64_t)(next(&seed) % 2000001) - 1000;
+        const int digits = 1 + (int)(next(&seed) % 17);
+        char text[64], shown[KD_DECIMAL_SIZE];
+        snprintf(text, sizeof text, "%.*e", digits - 1, value);
+        const double got = kd_decimal_round(value, digits), want = digits > 15 ? value : strtod(text, NULL);
+        kd_decimal_print(shown, got);
+        if (digits < 16 && digits_of(shown) > digits)
+            fail_msg("%.17g in %d digits is %s", value, digits, shown);
+        if (got != want && fabs(fabs(got - value) - fabs(want - value)) > 4e-16 * fabs(value))
+            fail_msg("%.17g in %d digits is %.17g, not %.17g", value, digits, got, want);
+    }
+    assert_true(isnan(kd_decimal_round(NAN, 3)) && isinf(kd_decimal_round(INFINITY, 3)) && kd_decimal_round(0, 3) == 0);
+    assert_true(kd_decimal_round(9.9996, 4) == 10 && kd_decimal_round(-0.00012345678, 3) == -0.000123 && kd_decimal_round(1.23456e-200, 2) == 1.2e-200);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_values),
         cmocka_unit_test(every_power_of_two),
         cmocka_unit_test(any_bits),
+        cmocka_unit_test(rounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

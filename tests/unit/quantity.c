@@ -150,7 +150,8 @@ static void bad_requests(void **state)
         { "spin", "0:0.5:2.5", "/spin", "2.5" }, { "spin", "0:0.5:100001", "/spin", "100000" }, { "spin", "0:1:5", "/spin", "0:1:5" },
         { "spin", "0:0.5:2:2", "/spin", "spin" }, { "spin", "isco", "/spin", "isco" }, { "r", "0.5", "/r", "\"isco\"" },
         { "r", "isco:10:2", "/r", "isco" }, { "mass", "1", "/mass", "known are spin, theta_deg, r" },
-        { "a/b~", "1", "/a~1b~0", "a/b~" },
+        { "a/b~", "1", "/a~1b~0", "a/b~" }, { "digits", "0", "/digits", "1 to 17" }, { "digits", "2.5", "/digits", "\"2.5\"" },
+        { "digits", "2:6:3", "/digits", "whole numbers" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct kd_quantity_request request, before;
@@ -246,6 +247,31 @@ static void csv_has_a_line_a_point(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
+/* Numbers in lists have so many digits, and are the nearest; one that stands alone has all of its own. */
+static void digits_of_lists(void **state)
+{
+    (void)state;
+    struct kd_quantity_answer all = ASK("frame-dragging", "spin", "0.7", "r", "2:10:7"), few = ASK("frame-dragging", "spin", "0.7", "r", "2:10:7", "digits", "4");
+    cJSON *whole = parsed(&all), *cut = parsed(&few);
+    const cJSON *omega = cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "values"), "omega"), *r = cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "parameters"), "r");
+    for (int i = 0; i < 7; i++) {
+        char want[32];
+        snprintf(want, sizeof want, "%.3e", value(&all, (size_t)i, "omega"));
+        assert_true(cJSON_GetArrayItem(omega, i)->valuedouble == strtod(want, NULL));
+    }
+    assert_true(cJSON_GetArrayItem(r, 1)->valuedouble == 3.333);
+    const char *alone = "horizon_omega";
+    assert_true(cJSON_GetObjectItem(cJSON_GetObjectItem(cut, "values"), alone)->valuedouble == cJSON_GetObjectItem(cJSON_GetObjectItem(whole, "values"), alone)->valuedouble);
+    struct kd_buffer text = { 0 };
+    assert_int_equal(kd_quantity_csv(&few, &text), KD_OK);
+    assert_non_null(strstr((const char *)text.data, "\n0.7,90,3.333,"));
+    kd_buffer_finish(&text);
+    cJSON_Delete(whole);
+    cJSON_Delete(cut);
+    kd_quantity_answer_finish(&all);
+    kd_quantity_answer_finish(&few);
+}
+
 static void words_are_kept(void **state)
 {
     (void)state;
@@ -289,7 +315,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_sound), cmocka_unit_test(defaults_answer), cmocka_unit_test(points_stand_alone),
         cmocka_unit_test(bad_requests), cmocka_unit_test(outside_the_domain), cmocka_unit_test(ranges_nest),
-        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(words_are_kept),
+        cmocka_unit_test(json_of_a_curve), cmocka_unit_test(csv_has_a_line_a_point), cmocka_unit_test(digits_of_lists), cmocka_unit_test(words_are_kept),
         cmocka_unit_test(the_list_parses), cmocka_unit_test(the_page_is_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,7 @@
 
 #define NUMBERS "[{\"type\":[\"number\",\"null\"]},{\"type\":\"array\",\"items\":{\"type\":[\"number\",\"null\"]}}]"
 
+#define DIGITS "{\"type\":\"integer\",\"minimum\":1,\"maximum\":17}" /* KD_DECIMAL_DIGITS */
 #define DECIMAL "-?((0|[1-9][0-9]*)(\\.[0-9]*)?|\\.[0-9]+)([eE][-+]?[0-9]+)?" /* scene/number.h: one that is typed */
 #define RANGE "^" DECIMAL ":" DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 
@@ -83,6 +84,9 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
         add_schema(json, p);
         kd_json_end(json);
     }
+    begin_parameter(json, "digits", "significant digits of the numbers in lists, in CSV of all; 17: all that there are", "");
+    kd_json_raw(json, "schema", DIGITS, strlen(DIGITS));
+    kd_json_end(json);
     begin_parameter(json, "format", "instead of Accept", "");
     kd_json_object(json, "schema");
     add_words(json, quantity->sound ? "json|csv|wav" : "json|csv");
