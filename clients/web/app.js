@@ -6,6 +6,7 @@ import { persistent } from './again.js';
 import { buildControls } from './controls.js';
 import { describe, entitle, followScene } from './describe.js';
 import { buildFull } from './full.js';
+import { buildHistory } from './history.js';
 import { lang, t, tell, translatePage } from './i18n.js';
 import * as link from './link.js';
 import { apart, buildLiving } from './living.js';
@@ -85,6 +86,16 @@ function buildLanguages() {
   }
 }
 
+// Which keys there are: ? asks for them.
+function buildKeys() {
+  const keys = byId('keys'),
+    show = () => keys.open || keys.showModal();
+  byId('show-keys').addEventListener('click', show);
+  document.addEventListener('keydown', event => {
+    if (event.key === '?' && !event.ctrlKey && !event.metaKey && !event.target.closest('textarea, input, select')) show();
+  });
+}
+
 // Device pixels of the window, no more than what small machines draw in a moment.
 function windowSize(stage) {
   const ratio = Math.min(devicePixelRatio || 1, 1600 / stage.clientWidth, 2);
@@ -152,6 +163,18 @@ async function watch(scene) {
     if (scene.get('sky.model') === 'catalogue') stars ??= import('./stars.js').then(({ buildStars }) => buildStars(stage, scene)).catch(() => (stars = null));
   }
 
+  // What a pixel shows, once somebody asks.
+  let pixel = null;
+  function askPixel(what) {
+    pixel ??= load(import('./pixel.js')).then(({ buildPixel }) => buildPixel(stage, scene, size));
+    pixel.then(what).catch(error => ((pixel = null), sayWrong(error.message)));
+  }
+  stage.addEventListener('tap', ({ detail }) => askPixel(({ look }) => look(detail, true)));
+  byId('ask').addEventListener('click', () => askPixel(({ toggle }) => (toggle(), stage.focus())));
+  stage.addEventListener('keydown', event => {
+    if (event.key.toLowerCase() === 'i' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target === stage) askPixel(({ toggle }) => toggle());
+  });
+
   async function refuse(error) {
     seen();
     const { complain } = await parts;
@@ -202,10 +225,14 @@ async function watch(scene) {
     }
   });
   buildFull(stage);
+  buildHistory(scene);
+  buildKeys();
   const { zoom } = handle(stage, scene);
   byId('nearer').addEventListener('click', () => zoom(1 / 1.25));
   byId('farther').addEventListener('click', () => zoom(1.25));
-  byId('reset').addEventListener('click', () => startAgain(scene).catch(error => sayWrong(error.message)));
+  const again = () => startAgain(scene).catch(error => sayWrong(error.message));
+  byId('reset').addEventListener('click', again);
+  stage.addEventListener('dblclick', event => event.target.closest('button, a, input') || (pixel?.then(({ close }) => close()), again()));
   let asked = '';
   new ResizeObserver(() => {
     const { width, height } = size(),

@@ -70,7 +70,7 @@ export async function buildPresets(scene) {
 
   select.addEventListener('change', async () => scene.replace(select.value ? await learn(select.value) : {}));
   scene.addEventListener('change', follow);
-  const linked = presets.find(({ name }) => name === (link.get('preset') ?? first_view));
-  if (linked) await learn(linked.name);
+  const names = [link.get('preset') ?? first_view, first_view].filter(name => presets.some(preset => preset.name === name));
+  await Promise.all([...new Set(names)].map(learn));
   follow();
 }

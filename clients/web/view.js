@@ -7,6 +7,7 @@ const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
+const tap_px = 4; // a tap may move by so much
 const near_r = 10; // M, within which a camera looks around unless somebody chose
 
 // Whether a drag turns the camera instead of the place from which it looks. What was chosen by hand is in the address.
@@ -48,7 +49,8 @@ function looker(scene) {
 export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
-  let begin = null;
+  let begin = null,
+    tapped = null; // where the one finger that is down came down, while it has not moved
 
   const get = name => scene.get('camera.' + name);
   const far = () => get('r') === 'infinity';
@@ -118,12 +120,14 @@ export function handle(stage, scene) {
     if (event.button || event.target.closest('button, a, input')) return;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     stage.setPointerCapture(event.pointerId);
+    tapped = pointers.size === 1 ? { x: event.clientX, y: event.clientY } : null;
     note();
   });
   stage.addEventListener('pointermove', event => {
     if (!pointers.has(event.pointerId)) return;
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     const [one, two] = [...pointers.values()];
+    if (tapped && Math.hypot(one.x - tapped.x, one.y - tapped.y) > tap_px) tapped = null;
     if (two && begin.gap) zoom(begin.gap / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 1), begin.reach);
     else drag(one.x - begin.x, one.y - begin.y);
   });
@@ -131,6 +135,13 @@ export function handle(stage, scene) {
     stage.addEventListener(end, event => {
       if (pointers.delete(event.pointerId)) note();
     });
+  // A finger or a button that goes down and up at one place.
+  stage.addEventListener('pointerup', event => {
+    if (!tapped || event.target.closest('button, a, input')) return;
+    const box = stage.getBoundingClientRect();
+    stage.dispatchEvent(new CustomEvent('tap', { detail: { x: tapped.x - box.left, y: tapped.y - box.top } }));
+    tapped = null;
+  });
 
   stage.addEventListener(
     'wheel',

@@ -1,0 +1,173 @@
+// "What is this light?": where the light of one pixel comes from, in words, with its ray bending past the hole beside it. A tap asks, a pointer at rest asks
+// again, arrow keys move the cross.
+import { byId, el, latest } from './dom.js';
+import { number, said, t, tell } from './i18n.js';
+import { buildInset } from './inset.js';
+import { ask } from './server.js';
+import { hasNames, nameOf, starsIn } from './stars.js';
+
+const rest_ms = 200; // that a pointer stays before it asks
+const change_ms = 400; // that the scene is as it is
+const star_px = 6;
+const faint = 0.005; // share of the light below which a source goes unmentioned
+
+const degrees = radians => (((radians * 180) / Math.PI) % 360 + 360) % 360;
+const angle = radians => number(degrees(radians), 3) + '°';
+const length = r => number(r, 4) + ' M';
+
+// All that sends light to the ray, the brightest first: { seen, kind, name, ...what is known of the place }.
+function sources({ crossings, met, along, end }) {
+  const all = [
+    ...crossings.flatMap(crossing => (crossing.emitters ?? []).map(({ name, luminance_seen: seen }) => ({ ...crossing, kind: 'crossing', name, seen }))),
+    ...(along?.volumes ?? []).map(({ name, luminance_seen: seen, optical_depth }) => ({ kind: 'along', name, seen, optical_depth })),
+    ...(met ? [{ ...met, kind: 'met', seen: met.luminance_seen }] : []),
+    ...(end.emitters ?? []).map(({ name, luminance_seen: seen, points }) => ({ ...end, kind: 'end', name, seen, points })),
+  ].filter(({ seen }) => seen > 0);
+  const whole = all.reduce((sum, { seen }) => sum + seen, 0);
+  return all.map(source => ({ ...source, share: source.seen / whole })).sort((a, b) => b.seen - a.seen);
+}
+
+// An observer at infinity has no moment at which light left, but differences of them.
+const ago = (delay, far) => (far ? [t('Delay', 'Ritardo'), length(delay)] : [t('It left', 'È partita'), t(`${length(delay)} ago`, `${length(delay)} fa`)]);
+
+const images = [t('direct image', 'immagine diretta'), t('lensed far side', 'lato lontano, deviato'), t('photon ring', 'anello di fotoni')];
+const orderOf = order => t(`image order ${order}: ${images[Math.min(order, 2)]}`, `ordine d’immagine ${order}: ${images[Math.min(order, 2)]}`);
+
+// A sentence for each of them, and facts.
+function wording(source, { title, far, star }) {
+  const { kind, points } = source;
+  if (kind === 'end') return { head: star ? nameOf(star) : points ? t('Starlight', 'Luce di stelle') : t('The sky', 'Il cielo'), facts: skyFacts(source, star) };
+  if (kind === 'along') return { head: title, facts: [[t('Optical depth', 'Profondità ottica'), number(source.optical_depth, 3)]] };
+  return {
+    head: t(`${title}, at r = ${length(source.r)}`, `${title}, a r = ${length(source.r)}`),
+    facts: [
+      [t('Image', 'Immagine'), orderOf(source.order)],
+      ['φ', angle(source.azimuth)],
+      ...(source.delay != null ? [ago(source.delay, far)] : []),
+      ...(source.g != null ? [[t('Redshift factor g', 'Fattore di redshift g'), `${number(source.g, 3)} (${source.g > 1 ? t('to the blue', 'verso il blu') : t('to the red', 'verso il rosso')})`]] : []),
+      ...(source.temperature != null ? [[t('Temperature there', 'Temperatura là'), number(source.temperature, 3) + ' K']] : []),
+      ...(source.emission_angle != null ? [[t('Angle to its normal', 'Angolo con la normale'), angle(source.emission_angle)]] : []),
+    ],
+  };
+}
+
+function skyFacts({ theta, azimuth, g }, star) {
+  return [
+    ...(star?.magnification != null ? [[t('Magnified', 'Ingrandita'), '× ' + number(star.magnification, 3)]] : []),
+    [t('From the direction', 'Dalla direzione'), `θ ${angle(theta)}, φ ${angle(azimuth)}`],
+    [t('Redshift factor g', 'Fattore di redshift g'), number(g, 3)],
+  ];
+}
+
+function none({ end }) {
+  if (end.fate === 'captured') return t('No light: followed back, this ray falls into the hole', 'Nessuna luce: seguito all’indietro, questo raggio cade nel buco');
+  if (end.fate === 'escaped') return t('Dark sky', 'Cielo buio');
+  return t('No light', 'Nessuna luce');
+}
+
+// size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), places in the stage, and close().
+export function buildPixel(stage, scene, size) {
+  const card = byId('pixel'),
+    cross = byId('cross'),
+    head = el('p', { class: 'name', role: 'status' }),
+    facts = el('dl'),
+    others = el('p', { class: 'help' }),
+    error = el('p', { class: 'help' }),
+    fault = el('p', { class: 'fault', role: 'status' }),
+    inset = buildInset(),
+    close_button = el('button', { type: 'button', class: 'close', 'aria-label': t('Close (Esc)', 'Chiudi (Esc)'), title: 'Esc', onclick: () => (close(), stage.focus()) }, '×');
+  card.replaceChildren(close_button, head, facts, others, inset.node, error, fault);
+  let at = null, // places in the stage; null: closed
+    pinned = false,
+    timer = 0;
+
+  // The name of a star, where the sky has them and one is there.
+  async function starAt() {
+    if (!hasNames(scene)) return null;
+    const { images } = await starsIn(scene, stage).catch(() => ({ images: [] }));
+    return at && images.find(image => Math.hypot(image.x - at.x, image.y - at.y) < star_px);
+  }
+
+  function show(answer, star) {
+    const far = scene.get('camera.r') === 'infinity',
+      all = sources(answer),
+      titled = name => { const { text } = said(scene.emitters.find(emitter => emitter.name === name)?.title ?? name); return text[0].toUpperCase() + text.slice(1); }, // prettier-ignore
+      [first, ...rest] = all,
+      { head: words, facts: rows } = first ? wording(first, { title: titled(first.name), far, star: first.points ? star : null }) : { head: none(answer), facts: answer.end.fate === 'escaped' ? skyFacts(answer.end) : [] };
+    head.textContent = words;
+    facts.replaceChildren(...rows.map(([name, value]) => el('div', {}, el('dt', {}, name), el('dd', {}, value))));
+    const also = rest.filter(({ share }) => share > faint);
+    others.textContent = also.length
+      ? t('Also ', 'Anche ') + also.map(({ name, order, share }) => `${titled(name)}${order == null ? '' : ` (${t('order', 'ordine')} ${order})`} ${number(100 * share, 2)} %`).join(', ')
+      : '';
+    const { picture } = answer.accuracy;
+    error.textContent = picture > 0 ? t(`Its radii are within ${number(picture, 2)} of closed form.`, `I suoi raggi distano ${number(picture, 2)} dalla forma chiusa.`) : '';
+    inset.show(answer, scene.get('spacetime.spin'));
+  }
+
+  const find = latest(async () => {
+    if (!at) return;
+    const { width, height } = size(),
+      x = Math.min((at.x * width) / stage.clientWidth, width - 0.01),
+      y = Math.min((at.y * height) / stage.clientHeight, height - 0.01);
+    try {
+      const body = JSON.stringify(scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1 })),
+        [answer, star] = await Promise.all([ask(`v1/pixel?at=${x.toFixed(2)},${y.toFixed(2)}`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body }).then(reply => reply.json()), starAt()]);
+      fault.textContent = '';
+      if (at) show(answer, star);
+    } catch (wrong) {
+      tell(fault, wrong.message);
+    }
+    card.dataset.asked = 'true';
+  });
+
+  function place() {
+    cross.style.left = `${at.x}px`;
+    cross.style.top = `${at.y}px`;
+    card.dataset.side = at.x < stage.clientWidth / 2 ? 'right' : 'left'; // it hides nothing that is looked at
+  }
+
+  function look(where, pin) {
+    if (!at) head.textContent = t('Following this light back …', 'Si segue questa luce all’indietro …');
+    at = where;
+    pinned = pin;
+    card.hidden = cross.hidden = false;
+    place();
+    clearTimeout(timer);
+    timer = setTimeout(find, pin ? 0 : rest_ms);
+  }
+
+  function close() {
+    at = null;
+    clearTimeout(timer);
+    card.hidden = cross.hidden = true;
+  }
+
+  stage.addEventListener('pointermove', event => {
+    if (!at || pinned || event.buttons || event.pointerType === 'touch' || event.target.closest('button, a, input')) return;
+    const box = stage.getBoundingClientRect();
+    look({ x: event.clientX - box.left, y: event.clientY - box.top }, false);
+  });
+  const steps = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
+  // Before the camera's own keys.
+  stage.addEventListener(
+    'keydown',
+    event => {
+      const step = at && event.target === stage && !event.ctrlKey && !event.metaKey && !event.altKey && steps[event.key];
+      if (!step) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      const by = event.shiftKey ? 20 : 2,
+        within = (value, most) => Math.min(Math.max(value, 0), most - 1);
+      look({ x: within(at.x + by * step[0], stage.clientWidth), y: within(at.y + by * step[1], stage.clientHeight) }, true);
+    },
+    { capture: true },
+  );
+  document.addEventListener('keydown', event => event.key === 'Escape' && at && !document.body.dataset.full && close());
+  scene.addEventListener('change', () => {
+    if (!at) return;
+    clearTimeout(timer);
+    timer = setTimeout(find, change_ms);
+  });
+  return { look, close, toggle: () => (at ? close() : look({ x: stage.clientWidth / 2, y: stage.clientHeight / 2 }, true)) };
+}

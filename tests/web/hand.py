@@ -1,0 +1,111 @@
+"""What is done by hand: asking what a light is, taking back, keys: hand.py KERRD FOLDER (browser.py)."""
+import math
+
+from browser import SMOOTH, Browser, main, value
+import daemon
+
+FACE_ON = SMOOTH + '&lang=en&spacetime.spin=0&camera.r=infinity&camera.field_m=40&camera.inclination_deg=0&sky.model=none'
+SIZE = {'width': 700, 'height': 460}
+
+
+class Hand(Browser):
+    def card(self, page, act):
+        """What the card says once an act has been answered."""
+        page.evaluate('() => delete document.getElementById("pixel").dataset.asked')
+        act()
+        page.wait_for_selector('#pixel[data-asked]', timeout=60000)
+        return page.inner_text('#pixel .name')
+
+    def fact(self, page, name):
+        return page.locator('#pixel dl div', has_text=name).locator('dd').inner_text()
+
+    def tap(self, page, right, down):
+        box = page.locator('#stage').bounding_box()
+        return self.card(page, lambda: page.mouse.click(box['x'] + box['width'] / 2 + right, box['y'] + box['height'] / 2 + down))
+
+    def test_from_the_disk(self):
+        """Face on and without spin light that bends by a quarter of a turn leaves from r = (1 + b^2)^(1/2) - 1, by Beloborodov's approximation (2002),
+        at g = (1 - 3/r)^(1/2)."""
+        page = self.open(FACE_ON, viewport=SIZE)
+        wide = page.locator('#stage').bounding_box()['width']
+        name = self.tap(page, 0.3 * wide, 0)
+        r, b = value(name.split()[-2]), 40 * 0.3
+        self.assertTrue(name.startswith('Thin disk, at r = '), name)
+        self.assertAlmostEqual(r / (math.sqrt(1 + b * b) - 1), 1, delta=0.015)
+        self.assertAlmostEqual(float(self.fact(page, 'Redshift factor').split()[0]), math.sqrt(1 - 3 / r), delta=0.002)
+        self.assertEqual(self.fact(page, 'Image'), 'image order 0: direct image')
+        self.assertIn('within', page.inner_text('#pixel'))
+        before = self.drawn(page, '#pixel canvas')
+        self.assertGreater(before['coloured'], 20, 'the ray is drawn')
+        page.focus('#pixel canvas')
+        page.keyboard.press('ArrowLeft')
+        self.assertNotEqual(self.drawn(page, '#pixel canvas')['hash'], before['hash'], 'and turns')
+        self.shot(page, 'pixel')
+        camera = self.field(page, 'camera.azimuth_deg')
+        page.focus('#stage')
+        further = self.card(page, lambda: page.keyboard.press('Shift+ArrowRight'))
+        self.assertAlmostEqual((value(further.split()[-2]) - r) * wide / 40 / 20, 1, delta=0.2)
+        self.assertEqual(self.field(page, 'camera.azimuth_deg'), camera, 'the keys move the cross alone')
+        page.keyboard.press('Escape')
+        self.assertFalse(page.is_visible('#pixel') or page.is_visible('#cross'))
+        page.keyboard.press('ArrowRight')
+        self.assertTrue(daemon.eventually(lambda: self.field(page, 'camera.azimuth_deg') != camera))
+
+    def test_of_nothing(self):
+        page = self.open(FACE_ON, viewport=SIZE)
+        page.focus('#stage')
+        self.assertEqual(self.card(page, lambda: page.keyboard.press('i')), 'No light: followed back, this ray falls into the hole')
+        box = page.locator('#stage').bounding_box()
+        page.keyboard.press('i')
+        self.assertFalse(page.is_visible('#pixel'))
+        page.mouse.move(box['x'] + 40, box['y'] + 60)
+        page.mouse.down()
+        page.mouse.move(box['x'] + 90, box['y'] + 60)
+        page.mouse.up()
+        self.assertFalse(page.is_visible('#pixel'), 'a drag is no tap')
+
+    def test_in_italian_on_a_telephone(self):
+        page = self.open(FACE_ON.replace('lang=en', 'lang=it'), viewport={'width': 390, 'height': 844}, has_touch=True, is_mobile=True)
+        box = page.locator('#stage').bounding_box()
+        name = self.card(page, lambda: page.touchscreen.tap(box['x'] + 0.8 * box['width'], box['y'] + box['height'] / 2))
+        self.assertTrue(name.startswith('Disco sottile, a r = '), name)
+        self.shot(page, 'pixel-telephone', full_page=True)
+        self.assertEqual(page.evaluate('document.documentElement.scrollWidth'), 390)
+
+    def test_undo_and_redo(self):
+        page = self.open('lang=en&camera.inclination_deg=70')
+        page.focus('#stage')
+        for _ in range(3):
+            page.keyboard.press('ArrowUp')
+        self.assertTrue(daemon.eventually(lambda: page.is_enabled('#undo')))
+        self.open_groups(page)
+        page.fill('[data-path="spacetime.spin"] input[type=number]', '0.5')
+        page.keyboard.press('Enter')
+        page.focus('#stage')
+        states = []
+        for keys in ('Control+z', 'Control+z', 'Control+z', 'Control+Shift+z', 'Control+y'):
+            page.keyboard.press(keys)
+            states.append((self.field(page, 'camera.inclination_deg'), self.field(page, 'spacetime.spin')))
+        self.assertEqual(states, [('64', '0.7'), ('70', '0.7'), ('70', '0.7'), ('64', '0.7'), ('64', '0.5')])
+        self.assertTrue(page.is_disabled('#redo'))
+        page.click('#undo')
+        page.fill('[data-path="spacetime.spin"] input[type=number]', '0.25')
+        page.keyboard.press('Control+z')
+        self.assertEqual(page.input_value('[data-path="camera.inclination_deg"] input[type=number]'), '64', 'a box of numbers takes back its own')
+
+    def test_keys_are_told_and_a_double_click_starts_again(self):
+        page = self.open('lang=it&camera.inclination_deg=70')
+        page.focus('#stage')
+        page.keyboard.press('?')
+        self.assertIn('gira attorno al buco', page.inner_text('#keys[open]'))
+        self.shot(page, 'keys')
+        page.keyboard.press('Escape')
+        self.assertFalse(page.is_visible('#keys'))
+        box = page.locator('#stage').bounding_box()
+        page.mouse.dblclick(box['x'] + 200, box['y'] + 200)
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
+        self.assertFalse(page.is_visible('#pixel'))
+
+
+if __name__ == '__main__':
+    main()
