@@ -96,10 +96,6 @@ async function shadow(scene, look) {
 
 // Why a circle has no image to draw.
 const refusals = {
-  '/r': t(
-    'light of this circle does not reach this camera from further in: drawn for cameras well outside it',
-    'la luce di questo cerchio non arriva a questa camera da più vicino al buco: si disegna per camere ben fuori da esso',
-  ),
   '/inclination_deg': t('a line, seen from the plane itself', 'una linea, vista dal piano stesso'),
 };
 
@@ -169,7 +165,9 @@ async function orders(scene, look) {
 async function flamm(scene, look) {
   const spin = scene.get('spacetime.spin'),
     { horizon } = await radii(scene),
-    outer = Math.max(scene.get('disk.outer'), 12);
+    within = !at_infinity(scene) && scene.get('camera.r') <= horizon;
+  if (within) throw new Error(t('there is none within the horizon, where r is no direction in space', 'non esiste dentro l’orizzonte, dove r non è una direzione nello spazio'));
+  const outer = Math.max(scene.get('disk.outer'), 12);
   const range = `${horizon}:${outer}:129`;
   const [surface, dragging] = await Promise.all([
     physics('flamm', { spin, r: range, ...drawn }),

@@ -21,12 +21,12 @@ static void place(const struct kd_ring_image *ring, double chi, double log_rho, 
 /* ln(r_n/r), or -INFINITY for a ray that is captured before its crossing n, INFINITY for one that escapes. */
 static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
-    struct kd_null_ray ray = { .spin = ring->spin, .radius = ring->observer_r, .cos_theta = ring->cos_theta,
+    struct kd_null_ray ray = { .spin = ring->spin, .radius = INFINITY, .cos_theta = ring->cos_theta,
                                .sin_theta = ring->sin_theta, .orders = ring->order + 1 };
     place(ring, chi, log_rho, &ray.alpha, &ray.beta);
     struct kd_null_path path = kd_null_trace_fast(&ray);
     if (path.crossings <= ring->order)
-        return path.status != KD_NULL_NO_RAY && path.fate == KD_NULL_CAPTURED ? -INFINITY : INFINITY;
+        return path.fate == KD_NULL_CAPTURED ? -INFINITY : INFINITY;
     *crossing = path.crossing[ring->order];
     return log(crossing->r / ring->radius);
 }
@@ -90,18 +90,18 @@ static bool add_node(struct kd_ring_image *ring, double *step)
     }
 }
 
-struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double observer_r, double r, int order)
+struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double r, int order)
 {
-    return (struct kd_ring_image) { .spin = spin, .observer_r = observer_r, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
+    return (struct kd_ring_image) { .spin = spin, .cos_theta = cos(inclination), .sin_theta = sin(inclination),
                               .flatten = cos(inclination), .radius = r, .order = order };
 }
 
 /* A guess: next to the critical curve, or where the ring would be without lensing. */
 static double around(const struct kd_ring_image *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
 
-bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double observer_r, double r, int order)
+bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double r, int order)
 {
-    *ring = kd_ring_image_plain(spin, inclination, observer_r, r, order);
+    *ring = kd_ring_image_plain(spin, inclination, r, order);
     struct kd_null_crossing crossing;
     double step = STEP;
     ring->log_rho[0] = around(ring);

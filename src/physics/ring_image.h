@@ -1,11 +1,9 @@
-/* This finds the lensed image of a ring: at which (alpha, beta) an observer sees the point of the equatorial plane at (r, phi); at a finite radius
- * they label the ray (null_geodesic.h), and tetrad.h turns them into a direction. Double precision; pure functions, any thread. G = c = M = 1;
- * conventions of physics/null_geodesic.h.
+/* This finds the lensed image of a ring for an observer at infinity: at which (alpha, beta) the point of the equatorial plane at (r, phi) is seen. From a
+ * finite radius: ring_view.h. Double precision; pure functions, any thread. G = c = M = 1; conventions of physics/null_geodesic.h.
  *
  * The closed form gives (r, phi) of a ray's n-th crossing; this inverts it by Newton's method, from a table of the whole image
  * of the ring made beforehand: along each direction of the image plane r_n grows with the distance from
- * the centre, from the horizon (nearer rays are captured first) to infinity (farther ones escape first, or turn back before
- * they are at the observer). Of the rays at a finite radius those are meant that arrive from further in. */
+ * the centre, from the horizon (nearer rays are captured first) to infinity (farther ones escape first). */
 #ifndef KD_PHYSICS_RING_IMAGE_H
 #define KD_PHYSICS_RING_IMAGE_H
 
@@ -14,18 +12,17 @@
 enum { KD_RING_NODES = 320 };
 
 struct kd_ring_image {
-    double spin, observer_r, cos_theta, sin_theta, radius, flatten;
+    double spin, cos_theta, sin_theta, radius, flatten;
     int order, nodes;
     double chi[KD_RING_NODES], log_rho[KD_RING_NODES], phi[KD_RING_NODES]; /* phi without jumps, one turn in all */
 };
 
-/* r and observer_r (INFINITY allowed) outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4.
- * False where the image turns too quickly for the table, which has not been seen for r >= 1.02 r+, and where light of the ring
- * arrives from further out, as it may once the observer is not far outside both the ring and the photon orbits. Some 500 rays. */
-bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double observer_r, double r, int order);
+/* r outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4. False where the image turns too quickly for the table,
+ * which has not been seen for r >= 1.02 r+. Some 500 rays. */
+bool kd_ring_image_init(struct kd_ring_image *ring, double spin, double inclination, double r, int order);
 
 /* The same without its table, for kd_ring_image_seen alone. */
-struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double observer_r, double r, int order);
+struct kd_ring_image kd_ring_image_plain(double spin, double inclination, double r, int order);
 
 /* phi, sense: as of struct kd_null_crossing. residual: the last step of Newton's method, before it was taken; the error is some
  * 1e-6 of it and rounding. */

@@ -83,20 +83,25 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame)
            frame->theta.momentum == 0 && frame->theta.radial == 0;
 }
 
-/* In the frame of rain, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the norm gives x_t + x_r. From there by
- * the inverse boost. */
+/* By the inverse of the boost that made the frame. */
+struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double energy, const double x[4])
+{
+    const double *v = frame->past_rain, along = v[1] * x[1] + v[2] * x[2] + v[3] * x[3], t = v[0] * x[0] - along;
+    double y[4] = { 0 };
+    for (int i = 1; i < 4; i++)
+        y[i] = x[i] - v[i] * x[0] + v[i] * along / (1 + v[0]);
+    return (struct kd_look) { -y[3] / t, y[2] / t, y[1] / t, energy / t };
+}
+
+/* In the frame of rain, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the norm gives x_t + x_r. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2)
 {
     const double a = frame->at.spin, r = frame->at.r, s = frame->at.s, sigma = r * r + a * a * frame->at.u * frame->at.u, w2 = r * r + a * a;
-    const double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a)), big = w2 * w2 - a * a * delta * s * s, *v = frame->past_rain;
+    const double delta = (r - kd_kerr_horizon(a)) * (r - kd_kerr_inner_horizon(a)), big = w2 * w2 - a * a * delta * s * s;
     const double round = photon->momentum * sqrt(sigma / big), up = photon->polar / sqrt(sigma);
     const double energy = photon->energy - 2 * a * r / big * photon->momentum * s;
     const double less = (sqrt(big) * energy - photon->radial) / (sqrt(big) + sqrt(2 * r * w2)), more = (polar2 / sigma + round * round) / less;
-    const double x[4] = { 0.5 * (more + less), 0.5 * (more - less), up, round };
-    double along = v[1] * x[1] + v[2] * x[2] + v[3] * x[3], t = v[0] * x[0] - along, y[4] = { 0 };
-    for (int i = 1; i < 4; i++)
-        y[i] = x[i] - v[i] * x[0] + v[i] * along / (1 + v[0]);
-    return (struct kd_look) { -y[3] / t, y[2] / t, y[1] / t, photon->energy / t };
+    return kd_tetrad_look_past_rain(frame, photon->energy, (double[]) { 0.5 * (more + less), 0.5 * (more - less), up, round });
 }
 
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon)

@@ -50,6 +50,9 @@ struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_cov
  * it is continued beyond what is seen, and `up` is then that of the photon's own p_theta. kd_tetrad_look does so by itself. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2);
 
+/* The same from the components x = (1, m) of a photon in the frame of rain: for a frame that falls, regular at a horizon whichever way light goes. */
+struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double energy, const double x[4]);
+
 /* The photon with the labels alpha, beta of null_geodesic.h, E = 1, that passes `at` outwards; radial is 0 where there is none. */
 struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta);
 
