@@ -22,7 +22,7 @@ static const char *const names[N_FIELDS] = { "spin",      "r",      "inclination
 struct arguments {
     const char *input, *output, *device, *format;
     const char *fields[N_FIELDS]; /* NULL: not given */
-    bool trace;
+    bool trace, points;           /* points: of its path, instead of its steps */
     struct kd_rays_request more;  /* the rays of --ray */
 };
 
@@ -39,7 +39,9 @@ static const struct argp_option table[] = {
     { "engine", KEY_ENGINE, "E", 0, "closed (the default), mino-rkn4, mino-rkn6, ks-euler, ks-rk4, ks-tao6, or auto", 0 },
     { "precision", KEY_PRECISION, "P", 0, "f64 (the default), f32 or auto", 0 },
     { "steps", KEY_STEPS, "N", 0, "steps a half period, a multiple of 4; 0 for the engine's default", 0 },
-    { "trace", KEY_TRACE, NULL, 0, "one ray step by step, as the device takes them (engine: mino-rkn6 unless one is named)", 0 },
+    { "trace", KEY_TRACE, "WHAT", OPTION_ARG_OPTIONAL,
+      "one ray: the case of its roots, why it ends, and its steps as the device takes them, or with --trace=path the points of its path "
+      "(engine: mino-rkn6 unless one is named)", 0 },
     { 0 },
 };
 
@@ -86,7 +88,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
         arguments->format = text;
         return 0;
     case 'r': add_ray(arguments, text, state); return 0;
-    case KEY_TRACE: arguments->trace = true; return 0;
+    case KEY_TRACE:
+        if (text && strcmp(text, "steps") && strcmp(text, "path"))
+            argp_error(state, "--trace=%s: steps or path", text);
+        arguments->trace = true;
+        arguments->points = text && !strcmp(text, "path");
+        return 0;
     case ARGP_KEY_ARG:
         if (arguments->input)
             argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
@@ -202,13 +209,13 @@ done:
     return status;
 }
 
-static enum kd_status tell(const struct arguments *arguments, const struct kd_rays_steps *steps, struct kd_error *error)
+static enum kd_status tell(const struct arguments *arguments, const struct kd_told_steps *trace, struct kd_error *error)
 {
     const char *format = format_name(arguments), *path = arguments->output;
     struct kd_buffer text = { 0 };
-    enum kd_status status = !strcmp(format, "json")  ? kd_trace_json(steps, &text)
-                            : !strcmp(format, "csv") ? kd_trace_csv(steps, &text)
-                                                     : kd_trace_text(steps, &text);
+    enum kd_status status = !strcmp(format, "json")  ? kd_trace_json(trace, &text)
+                            : !strcmp(format, "csv") ? kd_trace_csv(trace, &text)
+                                                     : kd_trace_text(trace, &text);
     if (status)
         status = kd_error_set(error, status, "out of memory for the steps");
     else
@@ -221,6 +228,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
 {
     struct kd_rays_request request;
     struct kd_rays_steps steps = { 0 };
+    struct kd_told_steps trace = { 0 };
     struct kd_renderer *renderer = NULL;
     kd_rays_request_init(&request);
     enum kd_status status;
@@ -234,8 +242,10 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     if (status == KD_EDEVICE && !*error->pointer) /* as in trace() */
         kd_cli_device_lost(error);
     KD_TRY(status);
-    KD_TRY(tell(arguments, &steps, error));
+    KD_TRY(kd_trace_explain(&steps, arguments->points, &trace, error));
+    KD_TRY(tell(arguments, &trace, error));
 done:
+    kd_trace_finish(&trace);
     kd_rays_steps_finish(&steps);
     kd_renderer_destroy(renderer);
     kd_rays_request_finish(&request);

@@ -1,9 +1,12 @@
 #include "cli/trace.h"
 
 #include "base/decimal.h"
+#include "physics/angle.h"
+#include "render/rays/closed.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 struct column { const char *name; size_t at; };
 #define C(name) { #name, offsetof(struct kd_rays_step, name) }
@@ -29,11 +32,30 @@ static const char *stage_name(const struct kd_rays_step *step)
     return names[step->stage];
 }
 
-static const char *fate_name(const struct kd_rays_steps *steps)
+static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
+
+enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_told_steps *out, struct kd_error *error)
 {
-    static const char *const names[] = { "captured", "escaped", "undecided" };
-    return names[steps->end.fate];
+    const double alpha_beta[] = { steps->alpha, steps->beta };
+    const struct kd_ray_labels labels = { alpha_beta, NULL, 1 };
+    struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
+    *out = (struct kd_told_steps) { .steps = steps, .points = points };
+    const struct kd_null_ray ray = {
+        .spin = steps->params.spin, .radius = steps->params.r, .cos_theta = kd_cos_deg(steps->params.inclination_deg),
+        .sin_theta = kd_sin_deg(steps->params.inclination_deg), .alpha = steps->alpha, .beta = steps->beta, .orders = (int)steps->params.orders,
+    };
+    enum kd_status status;
+    KD_TRY(kd_rays_closed(&steps->params, &labels, true, crossings, &out->end, NULL, NULL, error));
+    out->motion = kd_ray_motion_of(&ray);
+    KD_TRY(kd_ray_path_draw(&out->motion, &(struct kd_ray_path_frame) { 0 }, crossings, out->end.n_crossings, &out->path, error));
+    const int n = kd_ray_motion_why(&out->motion, out->end.fate, out->why, sizeof out->why);
+    if (steps->end.fate != out->end.fate)
+        snprintf(out->why + n, sizeof out->why - (size_t)n, " The engine has it otherwise: %s.", fates[steps->end.fate]);
+done:
+    return status;
 }
+
+void kd_trace_finish(struct kd_told_steps *trace) { kd_ray_path_finish(&trace->path); }
 
 /* Prints residuals by their size, and all else to as many digits as the precision has. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct column *column, double x, struct kd_buffer *out)
@@ -55,26 +77,55 @@ done:
     return status;
 }
 
-static enum kd_status put_verdict(const struct kd_rays_steps *steps, struct kd_buffer *out)
+static enum kd_status put_verdict(const struct kd_told_steps *trace, struct kd_buffer *out)
 {
+    const struct kd_rays_steps *steps = trace->steps;
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%s, crossings %u", fate_name(steps), steps->end.n_crossings));
+    KD_TRY(kd_buffer_printf(out, "%s, crossings %u", fates[steps->end.fate], steps->end.n_crossings));
     if (isfinite(steps->end.theta))
         KD_TRY(kd_buffer_printf(out, ", from theta %.11g, phi %.11g", steps->end.theta, steps->end.phi));
     if (isfinite(steps->end.error))
         KD_TRY(kd_buffer_printf(out, ", estimated error %.1e", steps->end.error));
     if (steps->lost)
         KD_TRY(kd_buffer_printf(out, "\n%zu more steps are not shown", steps->lost));
-    KD_TRY(kd_buffer_printf(out, "\nwithout --trace the device gives %s\n",
+    KD_TRY(kd_buffer_printf(out, "\n%s\nwithout --trace the device gives %s\n", trace->why,
                    steps->same ? "the same, bit for bit" : "OTHER numbers: these steps are not quite those"));
 done:
     return status;
 }
 
-enum kd_status kd_trace_text(const struct kd_rays_steps *steps, struct kd_buffer *out)
+static enum kd_status put_steps(const struct kd_rays_steps *steps, struct kd_buffer *out)
 {
+    const bool wide = steps->params.precision == KD_PRECISION_F64;
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(out, "%6s %-8s %5s", "number", "stage", "order"));
+    for (const struct column *c = columns_of(steps); c->name; c++)
+        KD_TRY(kd_buffer_printf(out, " %*s", c->name[0] == 'r' && c->name[1] == 'e' ? 8 : wide ? 18 : 14, c->name));
+    KD_TRY(kd_buffer_printf(out, "\n"));
+    for (size_t i = 0; i < steps->n; i++)
+        KD_TRY(put_text_row(steps, &steps->steps[i], out));
+done:
+    return status;
+}
+
+static enum kd_status put_points(const struct kd_ray_path *path, struct kd_buffer *out)
+{
+    enum kd_status status = KD_OK;
+    for (size_t k = 0; k < KD_PATH_COLUMNS && !status; k++)
+        status = kd_buffer_printf(out, " %15s%s", kd_ray_path_columns[k], k + 1 < KD_PATH_COLUMNS ? "" : "\n");
+    for (size_t i = 0; i < path->course.n && !status; i++) {
+        double row[KD_PATH_COLUMNS];
+        kd_ray_path_row(path, i, row);
+        for (size_t k = 0; k < KD_PATH_COLUMNS && !status; k++)
+            status = kd_buffer_printf(out, " %15.9g%s", row[k], k + 1 < KD_PATH_COLUMNS ? "" : "\n");
+    }
+    return status;
+}
+
+enum kd_status kd_trace_text(const struct kd_told_steps *trace, struct kd_buffer *out)
+{
+    const struct kd_rays_steps *steps = trace->steps;
     const struct kd_rays_params *p = &steps->params;
-    bool wide = p->precision == KD_PRECISION_F64;
     const double numbers[] = { steps->alpha, steps->beta, p->spin, p->inclination_deg, p->r };
     char given[sizeof numbers / sizeof *numbers][KD_DECIMAL_SIZE];
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
@@ -82,61 +133,61 @@ enum kd_status kd_trace_text(const struct kd_rays_steps *steps, struct kd_buffer
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s, inclination %s, r %s; ", given[0], given[1],
                             given[2], given[3], isinf(p->r) ? "infinity" : given[4]));
-    KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n%6s %-8s %5s", kd_engine_name(p->engine),
-                            kd_precision_name(p->precision), p->steps, "number", "stage", "order"));
-    for (const struct column *c = columns_of(steps); c->name; c++)
-        KD_TRY(kd_buffer_printf(out, " %*s", c->name[0] == 'r' && c->name[1] == 'e' ? 8 : wide ? 18 : 14, c->name));
-    KD_TRY(kd_buffer_printf(out, "\n"));
-    for (size_t i = 0; i < steps->n; i++)
-        KD_TRY(put_text_row(steps, &steps->steps[i], out));
-    KD_TRY(put_verdict(steps, out));
+    KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n", kd_engine_name(p->engine), kd_precision_name(p->precision), p->steps));
+    KD_TRY(kd_ray_motion_text(&trace->motion, out));
+    KD_TRY(trace->points ? put_points(&trace->path, out) : put_steps(steps, out));
+    KD_TRY(put_verdict(trace, out));
 done:
     return status;
 }
 
-/* "name":number, with a comma before it; nothing for a number that does not exist. */
-static enum kd_status put_member(const char *name, double x, struct kd_buffer *out)
+/* Nothing for a number that does not exist. */
+static void put_member(struct kd_json *json, const char *name, double x)
 {
-    char text[KD_DECIMAL_SIZE];
-    if (!isfinite(x))
-        return KD_OK;
-    kd_decimal_print(text, x);
-    return kd_buffer_printf(out, ",\"%s\":%s", name, text);
+    if (isfinite(x))
+        kd_json_number(json, name, x);
 }
 
-static enum kd_status put_json_step(const struct kd_rays_steps *steps, size_t i, struct kd_buffer *out)
+static void put_json_step(struct kd_json *json, const struct kd_rays_steps *steps, const struct kd_rays_step *step)
 {
-    const struct kd_rays_step *step = &steps->steps[i];
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%s{\"number\":%u,\"stage\":\"%s\",\"order\":%u", i ? "," : "", step->number,
-                            stage_name(step), step->order));
+    kd_json_object(json, NULL);
+    kd_json_number(json, "number", step->number);
+    kd_json_string(json, "stage", stage_name(step));
+    kd_json_number(json, "order", step->order);
     for (const struct column *c = columns_of(steps); c->name; c++)
-        KD_TRY(put_member(c->name, value(step, c), out));
-    KD_TRY(kd_buffer_printf(out, "}"));
-done:
-    return status;
+        put_member(json, c->name, value(step, c));
+    kd_json_end(json);
 }
 
-enum kd_status kd_trace_json(const struct kd_rays_steps *steps, struct kd_buffer *out)
+enum kd_status kd_trace_json(const struct kd_told_steps *trace, struct kd_buffer *out)
 {
+    const struct kd_rays_steps *steps = trace->steps;
     const struct kd_rays_params *p = &steps->params;
-    enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "{\"engine\":\"%s\",\"precision\":\"%s\"", kd_engine_name(p->engine), kd_precision_name(p->precision)));
-    KD_TRY(kd_buffer_printf(out, ",\"steps_a_half_period\":%u,\"orders\":%u", p->steps, p->orders));
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "engine", kd_engine_name(p->engine));
+    kd_json_string(&json, "precision", kd_precision_name(p->precision));
     const struct { const char *name; double x; } members[] = {
+        { "steps_a_half_period", p->steps }, { "orders", p->orders },
         { "spin", p->spin }, { "inclination_deg", p->inclination_deg }, { "r", p->r }, /* without r: from infinity */
-        { "alpha", steps->alpha }, { "beta", steps->beta }, { "sky_theta", steps->end.theta }, { "sky_phi", steps->end.phi },
-        { "error", steps->end.error },
+        { "alpha", steps->alpha }, { "beta", steps->beta }, { "lambda", trace->motion.lambda }, { "eta", trace->motion.eta },
+        { "sky_theta", steps->end.theta }, { "sky_phi", steps->end.phi }, { "error", steps->end.error },
     };
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        KD_TRY(put_member(members[i].name, members[i].x, out));
-    KD_TRY(kd_buffer_printf(out, ",\"fate\":\"%s\",\"crossings\":%u,\"not_shown\":%zu,\"same_without_trace\":%s,\"steps\":[",
-                            fate_name(steps), steps->end.n_crossings, steps->lost, steps->same ? "true" : "false"));
+        put_member(&json, members[i].name, members[i].x);
+    kd_ray_motion_json(&json, &trace->motion);
+    kd_json_string(&json, "fate", fates[steps->end.fate]);
+    kd_json_string(&json, "why", trace->why);
+    kd_json_number(&json, "crossings", steps->end.n_crossings);
+    kd_json_number(&json, "not_shown", (double)steps->lost);
+    kd_json_bool(&json, "same_without_trace", steps->same);
+    kd_json_array(&json, "steps");
     for (size_t i = 0; i < steps->n; i++)
-        KD_TRY(put_json_step(steps, i, out));
-    KD_TRY(kd_buffer_printf(out, "]}\n"));
-done:
-    return status;
+        put_json_step(&json, steps, &steps->steps[i]);
+    kd_json_end(&json);
+    kd_ray_path_json(&json, &trace->path);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
 }
 
 static enum kd_status put_csv_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step, struct kd_buffer *out)
@@ -156,9 +207,29 @@ done:
     return status;
 }
 
-enum kd_status kd_trace_csv(const struct kd_rays_steps *steps, struct kd_buffer *out)
+static enum kd_status put_csv_points(const struct kd_ray_path *path, struct kd_buffer *out)
 {
+    enum kd_status status = KD_OK;
+    for (size_t k = 0; k < KD_PATH_COLUMNS && !status; k++)
+        status = kd_buffer_printf(out, "%s%s", k ? "," : "", kd_ray_path_columns[k]);
+    for (size_t i = 0; i < path->course.n && !status; i++) {
+        double row[KD_PATH_COLUMNS];
+        kd_ray_path_row(path, i, row);
+        for (size_t k = 0; k < KD_PATH_COLUMNS && !status; k++) {
+            char text[KD_DECIMAL_SIZE];
+            kd_decimal_print(text, row[k]);
+            status = kd_buffer_printf(out, "%s%s", k ? "," : "\n", text);
+        }
+    }
+    return status ? status : kd_buffer_printf(out, "\n");
+}
+
+enum kd_status kd_trace_csv(const struct kd_told_steps *trace, struct kd_buffer *out)
+{
+    const struct kd_rays_steps *steps = trace->steps;
     enum kd_status status;
+    if (trace->points)
+        return put_csv_points(&trace->path, out);
     KD_TRY(kd_buffer_printf(out, "number,stage,order"));
     for (const struct column *c = columns_of(steps); c->name; c++)
         KD_TRY(kd_buffer_printf(out, ",%s", c->name));

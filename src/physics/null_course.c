@@ -213,6 +213,7 @@ struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double fa
         const struct state before = c.now;
         const double way = c.way;
         room = go(&c, h);
+        course.steps = i;
         const double w = c.now.y[W], dw = c.now.y[DW];
         if (!isfinite(w)) { /* of numbers without measure: nothing would end it */
             course.end = KD_COURSE_NONE;

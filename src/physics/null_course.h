@@ -24,7 +24,7 @@ struct kd_null_place {
 };
 
 struct kd_null_course {
-    size_t n;
+    size_t n, steps;      /* places; steps of the integrator, most of them between two places */
     enum { KD_COURSE_NONE, KD_COURSE_CAPTURED, KD_COURSE_ESCAPED, KD_COURSE_LONG } end; /* NONE: no such ray; LONG: more places than there is room for */
     double least_r;       /* of all places, the turning point included */
     double drift;         /* how far the first integrals are off at worst, relative to their terms */

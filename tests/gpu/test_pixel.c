@@ -119,7 +119,7 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         assert_int_equal(end.fate, x.end.fate);
         for (uint32_t n = 0; n < end.n_crossings; n++) {
             near("r", x.crossings[n].r, crossings[n].r, 0);
-            near("phi", x.crossings[n].phi, crossings[n].phi + x.twist, 1e-12);
+            near("phi", x.crossings[n].phi, crossings[n].phi + x.frame.twist, 1e-12);
             near("delay", x.crossings[n].delay, crossings[n].delay, 0);
             near("g", x.crossings[n].g, crossings[n].g / x.label.energy, 1e-15);
         }
@@ -133,12 +133,12 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         if (c->r > 1.05 * kd_kerr_isco(scene->spacetime.spin) && kd_explained_has_gas(p))
             near("g of the picture", (double)p->g, c->g, 2e-4);
     }
-    if (x.course.end != KD_COURSE_CAPTURED && x.course.end != KD_COURSE_ESCAPED)
+    if (x.path.course.end != KD_COURSE_CAPTURED && x.path.course.end != KD_COURSE_ESCAPED)
         fail_msg("the path has no end");
-    if ((x.course.end == KD_COURSE_ESCAPED) != (x.end.fate == KD_RAY_ESCAPED) && x.end.fate != KD_RAY_UNDECIDED)
+    if ((x.path.course.end == KD_COURSE_ESCAPED) != (x.end.fate == KD_RAY_ESCAPED) && x.end.fate != KD_RAY_UNDECIDED)
         fail_msg("the path ends otherwise");
-    if (!isnan(x.path_error))
-        near("crossings of the path", x.path_error, 0, fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with how much a ray amplifies */
+    if (!isnan(x.path.error))
+        near("crossings of the path", x.path.error, 0, fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with how much a ray amplifies */
     kd_explained_finish(&x);
 }
 

@@ -58,30 +58,12 @@ static void put_constants(struct kd_json *json, const struct kd_explained *x)
     kd_json_object(json, "constants");
     kd_json_number(json, "alpha", x->label.alpha);
     kd_json_number(json, "beta", x->label.beta);
-    kd_json_number(json, "lambda", x->lambda);
-    kd_json_number(json, "eta", x->eta);
+    kd_json_number(json, "lambda", x->motion.lambda);
+    kd_json_number(json, "eta", x->motion.eta);
     kd_json_number(json, "E", e);
-    kd_json_number(json, "L", e * x->lambda);
-    kd_json_number(json, "Q", e * e * x->eta);
+    kd_json_number(json, "L", e * x->motion.lambda);
+    kd_json_number(json, "Q", e * e * x->motion.eta);
     kd_json_bool(json, "outward", x->label.outward);
-    kd_json_end(json);
-}
-
-static void put_radial(struct kd_json *json, const struct kd_explained *x)
-{
-    kd_json_object(json, "radial");
-    kd_json_string(json, "case", x->radial_case);
-    kd_json_number(json, "real_roots", x->roots.kind == KD_NULL_FOUR_REAL ? 4 : x->roots.kind == KD_NULL_TWO_REAL ? 2 : 0);
-    kd_json_array(json, "roots");
-    for (int i = 0; i < 4; i++) {
-        kd_json_array(json, NULL);
-        kd_json_number(json, NULL, x->root[i][0]);
-        kd_json_number(json, NULL, x->root[i][1]);
-        kd_json_end(json);
-    }
-    kd_json_end(json);
-    kd_json_number(json, "horizon_r", x->horizon);
-    kd_json_number(json, "turning_r", x->turning_r);
     kd_json_end(json);
 }
 
@@ -257,31 +239,6 @@ static void put_end(struct kd_json *json, const struct kd_explained *x)
     kd_json_end(json);
 }
 
-static void put_path(struct kd_json *json, const struct kd_explained *x)
-{
-    static const char *const columns[] = { "x", "y", "z", "r", "theta", "phi", "delay", "order" };
-    kd_json_object(json, "path");
-    kd_json_number(json, "least_r", x->course.least_r);
-    kd_json_bool(json, "whole", x->course.end == KD_COURSE_CAPTURED || x->course.end == KD_COURSE_ESCAPED);
-    kd_json_array(json, "columns");
-    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
-        kd_json_string(json, NULL, columns[i]);
-    kd_json_end(json);
-    kd_json_array(json, "points");
-    for (size_t i = 0; i < x->course.n; i++) {
-        const struct kd_null_place *p = &x->places[i];
-        double at[3];
-        kd_explained_at(x, p, at);
-        const double row[] = { at[0], at[1], at[2], p->r, acos(p->u), kd_explained_phi(x, p->phi), kd_explained_delay(x, p->delay), p->order };
-        kd_json_array(json, NULL);
-        for (size_t k = 0; k < sizeof row / sizeof *row; k++)
-            kd_json_number(json, NULL, row[k]);
-        kd_json_end(json);
-    }
-    kd_json_end(json);
-    kd_json_end(json);
-}
-
 static void put_accuracy(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
     const struct kd_setting *by = &picture->plan->setting;
@@ -291,8 +248,8 @@ static void put_accuracy(struct kd_json *json, const struct kd_picture *picture,
     kd_json_number(json, "steps", by->steps);
     kd_json_number(json, "closed_form", x->end.error);
     kd_json_number(json, "picture", x->picture_error);
-    kd_json_number(json, "path", x->path_error);
-    kd_json_number(json, "first_integrals", x->course.drift);
+    kd_json_number(json, "path", x->path.error);
+    kd_json_number(json, "first_integrals", x->path.course.drift);
     kd_json_end(json);
 }
 
@@ -303,12 +260,12 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     put_pixel(&json, picture, x);
     put_colour(&json, picture, x);
     put_constants(&json, x);
-    put_radial(&json, x);
+    kd_ray_motion_json(&json, &x->motion);
     put_crossings(&json, x);
     put_along(&json, x);
     put_met(&json, x);
     put_end(&json, x);
-    put_path(&json, x);
+    kd_ray_path_json(&json, &x->path);
     put_accuracy(&json, picture, x);
     kd_json_number(&json, "lost", (double)x->told->lost);
     kd_json_array(&json, "approximations");

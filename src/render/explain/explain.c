@@ -1,8 +1,6 @@
 #include "render/explain/explain.h"
 
 #include "physics/angle.h"
-#include "physics/kerr.h"
-#include "physics/null_radial.h"
 #include "render/lens/label.h"
 #include "render/rays/closed.h"
 #include "scene/number.h"
@@ -10,29 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define FAR 50.0    /* M: as far as the path goes on, */
-#define FARTHEST 1e3 /* or as far as this for a crossing out there */
-#define NEAR 0.01   /* of the horizon's radius: as near as it comes to it */
-
-/* Roots in the order of Gralla & Lupsasca 2020, and the number of the case, arXiv:1910.12881, section IV. */
-static void name_roots(struct kd_explained *x)
-{
-    static const char *const cases[] = { [KD_NULL_FOUR_REAL] = "II", [KD_NULL_TWO_REAL] = "III", [KD_NULL_NO_REAL] = "IV" };
-    const struct kd_null_roots *q = &x->roots;
-    const double right = sqrt(fabs(q->pair)), left = sqrt(fabs(q->pair_left));
-    const bool complex_right = q->kind != KD_NULL_FOUR_REAL, complex_left = q->kind == KD_NULL_NO_REAL;
-    x->radial_case = q->kind == KD_NULL_FOUR_REAL && q->r4 > x->horizon ? "I" : cases[q->kind];
-    for (int i = 0; i < 2; i++) {
-        const double sign = i ? 1 : -1;
-        x->root[i][0] = complex_left ? -q->mean : i ? q->r2 : q->r1;
-        x->root[i][1] = complex_left ? sign * left : 0;
-        x->root[2 + i][0] = complex_right ? q->mean : i ? q->r4 : q->r3;
-        x->root[2 + i][1] = complex_right ? sign * right : 0;
-    }
-}
 
 static struct kd_null_ray null_ray(const struct kd_explained *x)
 {
@@ -41,19 +17,6 @@ static struct kd_null_ray null_ray(const struct kd_explained *x)
         .spin = at.spin, .radius = at.r, .cos_theta = at.u, .sin_theta = at.s, .alpha = x->label.alpha, .beta = x->label.beta,
         .outward = x->label.outward && isfinite(at.r), .orders = x->scene.accuracy.orders,
     };
-}
-
-/* Where the motion in r is, by closed form. */
-static void find_radial(struct kd_explained *x)
-{
-    const struct kd_null_ray ray = null_ray(x);
-    const struct kd_null_motion m = kd_null_motion_of(ray.spin, ray.cos_theta, ray.sin_theta, ray.alpha, ray.beta);
-    const struct kd_null_path path = kd_null_trace_fast(&ray);
-    x->horizon = kd_kerr_horizon(ray.spin);
-    x->lambda = m.lambda, x->eta = m.eta, x->carter = m.k;
-    x->roots = kd_null_roots_of(&m);
-    name_roots(x);
-    x->turning_r = !path.turned ? NAN : path.fate == KD_NULL_ESCAPED ? x->roots.r4 : x->roots.r3;
 }
 
 /* Crossings and end, with the azimuths and frequencies of the scene. A ray of negative energy goes round the other way (view/camera.h). */
@@ -68,32 +31,12 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
     enum kd_status status = kd_rays_closed(&params, &ray, true, x->crossings, &x->end, NULL, NULL, error);
     for (uint32_t n = 0; n < x->end.n_crossings && !status; n++) {
         struct kd_ray_crossing *c = &x->crossings[n];
-        c->phi = kd_explained_phi(x, c->phi);
-        c->delay = kd_explained_delay(x, c->delay);
+        c->phi = kd_ray_path_phi(&x->frame, c->phi);
+        c->delay = kd_ray_path_delay(&x->frame, c->delay);
         c->g /= x->label.energy; /* of light whose energy at infinity is below 0 both are */
     }
-    x->end.phi = kd_explained_phi(x, x->end.phi);
+    x->end.phi = kd_ray_path_phi(&x->frame, x->end.phi);
     return status;
-}
-
-static enum kd_status draw(struct kd_explained *x, struct kd_error *error)
-{
-    const struct kd_null_ray ray = null_ray(x);
-    double far = isfinite(ray.radius) ? fmax(FAR, 2 * ray.radius) : FAR, near = NEAR * x->horizon;
-    for (uint32_t n = 0; n < x->end.n_crossings; n++) {
-        far = fmax(far, fmin(1.25 * x->crossings[n].r, FARTHEST));
-        near = fmin(near, 0.5 * (x->crossings[n].r - x->horizon));
-    }
-    if (!(x->places = malloc(KD_EXPLAINED_PLACES * sizeof *x->places)))
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the path of a ray");
-    x->course = kd_null_course_of(&ray, far, near, x->places, KD_EXPLAINED_PLACES);
-    x->path_error = NAN;
-    for (size_t i = 0; i < x->course.n; i++) {
-        const struct kd_null_place *p = &x->places[i];
-        if (p->crossing >= 0 && p->crossing < (int)x->end.n_crossings)
-            x->path_error = fmax(x->path_error, fabs(p->r / x->crossings[p->crossing].r - 1));
-    }
-    return KD_OK;
 }
 
 /* The picture's crossings, which end where nothing behind is seen. */
@@ -123,21 +66,8 @@ static const struct kd_told_place *hiding(const struct kd_told *told)
 
 static void say_why(struct kd_explained *x)
 {
-    const bool inward = isinf(x->scene.camera.r) || !x->label.outward;
-    int n = 0;
+    int n = kd_ray_motion_why(&x->motion, x->end.fate, x->why, sizeof x->why);
 #define SAY(...) n += snprintf(x->why + n, sizeof x->why - (size_t)n, __VA_ARGS__)
-    if (x->end.fate == KD_RAY_UNDECIDED)
-        SAY("Followed back it is so close to the critical curve that double precision does not tell whether it escapes.");
-    else if (x->end.fate == KD_RAY_ESCAPED && isfinite(x->turning_r))
-        SAY("Followed back it turns at r = %.6g M and escapes to the sky.", x->turning_r);
-    else if (x->end.fate == KD_RAY_ESCAPED)
-        SAY("Followed back it leaves the observer outwards, and escapes to the sky without a turning point.");
-    else if (isfinite(x->turning_r))
-        SAY("Followed back it rises to r = %.6g M, turns, and falls to the horizon.", x->turning_r);
-    else if (inward)
-        SAY("Followed back it falls to the horizon: it has no turning point outside of it.");
-    else
-        SAY("Followed back it ends at the horizon.");
     if (x->told->through <= 0 && !x->told->given_up) {
         const struct kd_told_place *hides = hiding(x->told);
         if (x->told->met.met)
@@ -171,13 +101,13 @@ enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained 
     };
     if (!x->told)
         return kd_error_set(error, KD_EINVAL, "the frame tells of no pixel");
-    x->azimuth = x->scene.camera.azimuth_deg * (M_PI / 180);
-    x->twist = kd_camera_twist(&x->scene);
     kd_lens_label(&x->scene, picture->plan, x->told->ray_x, x->told->ray_y, &x->label);
-    find_radial(x);
+    const struct kd_null_ray ray = null_ray(x);
+    x->frame = (struct kd_ray_path_frame) { x->scene.camera.azimuth_deg * (M_PI / 180), kd_camera_twist(&x->scene), x->label.energy < 0 };
+    x->motion = kd_ray_motion_of(&ray);
     enum kd_status status;
     KD_TRY(find_crossings(x, error));
-    KD_TRY(draw(x, error));
+    KD_TRY(kd_ray_path_draw(&x->motion, &x->frame, x->crossings, x->end.n_crossings, &x->path, error));
     compare(x);
     say_why(x);
     find_shown(picture, x);
@@ -187,8 +117,7 @@ done:
 
 void kd_explained_finish(struct kd_explained *x)
 {
-    free(x->places);
-    x->places = NULL;
+    kd_ray_path_finish(&x->path);
 }
 
 const struct kd_told_place *kd_explained_place(const struct kd_explained *x, uint32_t order)
@@ -207,21 +136,10 @@ bool kd_explained_has_gas(const struct kd_told_place *p)
     return false;
 }
 
-double kd_explained_phi(const struct kd_explained *x, double phi) { return (x->label.energy < 0 ? -phi : phi) + x->twist; }
-double kd_explained_delay(const struct kd_explained *x, double delay) { return x->label.energy < 0 ? -delay : delay; }
-
 double kd_explained_azimuth(const struct kd_explained *x, double phi)
 {
-    const double turned = remainder(phi + x->azimuth, 2 * M_PI);
+    const double turned = remainder(phi + x->frame.azimuth, 2 * M_PI);
     return turned > -M_PI ? turned : M_PI;
-}
-
-void kd_explained_at(const struct kd_explained *x, const struct kd_null_place *p, double out[3])
-{
-    const double a = x->scene.spacetime.spin, phi = kd_explained_phi(x, p->phi) + x->azimuth, across = sqrt((p->r * p->r + a * a) * (1 - p->u) * (1 + p->u));
-    out[0] = across * cos(phi);
-    out[1] = across * sin(phi);
-    out[2] = p->r * p->u;
 }
 
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error)

@@ -5,34 +5,25 @@
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H
 #define KD_RENDER_EXPLAIN_EXPLAIN_H
 
-#include "physics/null_course.h"
-#include "physics/null_quartic.h"
+#include "render/explain/motion.h"
 #include "render/frame/tell.h"
 #include "render/output/format.h"
 #include "render/rays/rays.h"
 #include "render/view/camera.h"
-
-#define KD_EXPLAINED_PLACES 4000 /* of the path, at most */
 
 struct kd_explained {
     const struct kd_told *told;
     const char *eye;                /* "left", "right"; NULL: the picture is of one eye */
     struct kd_scene scene;          /* that of this eye */
     struct kd_camera_label label;   /* energy: E at infinity by what the observer measures */
-    double lambda, eta, carter;     /* L/E, Q/E^2, and (r^2 + a^2 - a lambda)^2 - R(r) over Delta: eta + (lambda - a)^2 */
-    struct kd_null_roots roots;
-    const char *radial_case;        /* "I" to "IV" */
-    double root[4][2];              /* real and imaginary part */
-    double horizon, turning_r;      /* turning_r: of this ray, NAN if it has none */
+    struct kd_ray_motion motion;
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS]; /* by closed form, as the scene has azimuths, and g as the observer measures it */
     struct kd_ray_end end;
-    double azimuth, twist;          /* of the observer; what is added to its azimuths */
-    double path_error;              /* of crossings of the path, relative in r, at worst; NAN: it has none */
+    struct kd_ray_path_frame frame;
+    struct kd_ray_path path;
     double picture_error;           /* of the picture's, likewise; 1: it has another number of them */
     double shown[3];                /* the pixel as it is shown, 0 to 1 */
     char why[240];                  /* where the ray ends and why, a sentence */
-    struct kd_null_course course;
-    struct kd_null_place *places;   /* malloc'd */
 };
 
 /* KD_EINVAL for a ray without a course in closed form. Finish *out in any case. */
@@ -43,12 +34,8 @@ void kd_explained_finish(struct kd_explained *explained);
 const struct kd_told_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* Says whether gas lies there, of whose temperature and angle something can be told; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_told_place *place);
-/* Boyer-Lindquist azimuth of the hole's own frame in (-pi, pi]; and a place of the path by it: x, y = sqrt(r^2 + a^2) sin(theta) (cos, sin), z = r cos(theta). */
+/* Boyer-Lindquist azimuth of the hole's own frame in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
-void kd_explained_at(const struct kd_explained *explained, const struct kd_null_place *place, double out[3]);
-/* Azimuth and delay of a place of the course, as the scene has them. */
-double kd_explained_phi(const struct kd_explained *explained, double phi);
-double kd_explained_delay(const struct kd_explained *explained, double delay);
 
 /* A table for eyes. KD_EINVAL as kd_explain. */
 enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error);

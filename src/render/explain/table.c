@@ -15,11 +15,8 @@ static enum kd_status put_head(const struct kd_picture *picture, const struct kd
     if (x->eye)
         KD_TRY(kd_buffer_printf(out, " of the %s eye", x->eye));
     KD_TRY(kd_buffer_printf(out, t->rays > 1 ? ": the middle one of its %u rays\n" : ": its one ray\n", t->rays));
-    KD_TRY(kd_buffer_printf(out, "alpha %.9g, beta %.9g, lambda %.9g, eta %.9g, E %.9g\n", x->label.alpha, x->label.beta, x->lambda, x->eta, x->label.energy));
-    KD_TRY(kd_buffer_printf(out, "radial case %s, roots", x->radial_case));
-    for (int i = 0; i < 4; i++)
-        KD_TRY(kd_buffer_printf(out, x->root[i][1] != 0 ? " %.6g%+.6gi" : " %.6g", x->root[i][0], x->root[i][1]));
-    KD_TRY(kd_buffer_printf(out, "; horizon %.6g\n", x->horizon));
+    KD_TRY(kd_buffer_printf(out, "alpha %.9g, beta %.9g, lambda %.9g, eta %.9g, E %.9g\n", x->label.alpha, x->label.beta, x->motion.lambda, x->motion.eta, x->label.energy));
+    KD_TRY(kd_ray_motion_text(&x->motion, out));
     KD_TRY(kd_buffer_printf(out, "%s\n\n", x->why));
 done:
     return status;
@@ -87,9 +84,9 @@ done:
 static enum kd_status put_accuracy(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "\npath: %zu points, least r %.6g M; first integrals hold to %.1e", x->course.n, x->course.least_r, x->course.drift));
-    if (!isnan(x->path_error))
-        KD_TRY(kd_buffer_printf(out, ", crossings of the closed form to %.1e", x->path_error));
+    KD_TRY(kd_buffer_printf(out, "\npath: %zu points of %zu steps, least r %.6g M; first integrals hold to %.1e", x->path.course.n, x->path.course.steps, x->path.course.least_r, x->path.course.drift));
+    if (!isnan(x->path.error))
+        KD_TRY(kd_buffer_printf(out, ", crossings of the closed form to %.1e", x->path.error));
     KD_TRY(kd_buffer_printf(out, "\n"));
     if (x->told->n_volumes)
         KD_TRY(kd_buffer_printf(out, "march: %u steps, light looked at in %u places\n", x->told->steps, x->told->samples));
