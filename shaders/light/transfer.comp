@@ -94,15 +94,17 @@ uint light_at(uint x, uint y) { return (y - (CRITICAL > 0 ? slice.band0 : slice.
 #ifdef KD_TELL
 #include "light/numbers.glsl"
 
-/* Follows the middle ray of one pixel, whose place is in the push constants: its row of rays is row0, its column `rows`. */
+/* Follows one ray, whose place is in the push constants: on the grid its row of rays is row0, its column `rows`; on listed pixels it is number `ray` of that
+ * whose number in the list is row0. */
 void main()
 {
     kd_camera_read();
     KD_EMIT_BLOCKS(READ)
     if (gl_GlobalInvocationID.x > 0)
         return;
-    uvec2 place = uvec2(slice.rows, slice.row0);
-    follow(place, (place.y - slice.band0) * cam.width + place.x, light_at(place.x / SIDE, place.y / SIDE));
+    uvec2 pixel = CRITICAL > 0 ? kd_listed_pixel(slice.row0) : uvec2(slice.rows, slice.row0) / SIDE;
+    uvec2 place = CRITICAL > 0 ? kd_critical_place(pixel, slice.ray) : uvec2(slice.rows, slice.row0);
+    follow(place, CRITICAL > 0 ? slice.row0 * CRITICAL + slice.ray : (place.y - slice.band0) * cam.width + place.x, light_at(pixel.x, pixel.y));
 }
 #else
 void store_light(uint at, vec3 light)

@@ -48,7 +48,7 @@ static void near(const char *what, double got, double want, double allowed)
 }
 
 /* Those in front of the crossing of that order. */
-static void add_stretches(const struct kd_told *told, size_t *s, uint32_t order, double *through, double sum[3])
+static void add_stretches(const struct kd_told_ray *told, size_t *s, uint32_t order, double *through, double sum[3])
 {
     for (; *s < told->n_stretches && told->stretches[*s].order <= order; ++*s) {
         const struct kd_told_stretch *stretch = &told->stretches[*s];
@@ -60,7 +60,7 @@ static void add_stretches(const struct kd_told *told, size_t *s, uint32_t order,
 }
 
 /* All that emitters gave, as it arrives: by what they say of themselves, front to back. */
-static void add_up(const struct kd_told *told, double sum[3])
+static void add_up(const struct kd_told_ray *told, double sum[3])
 {
     double through = 1;
     size_t s = 0;
@@ -84,7 +84,7 @@ static void add_up(const struct kd_told *told, double sum[3])
 /* The sum that is told is the pixel's linear radiance. Returns how many emitters gave light. */
 static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
 {
-    const struct kd_told *told = frame->told;
+    const struct kd_told_ray *told = &frame->told->middle;
     const float *radiance = (const float *)kd_frame_layer(frame, "radiance")->data + 3 * (y * (size_t)frame->width + x);
     double sum[3] = { 0 }, size = 0;
     size_t n = told->n_ends;
@@ -93,14 +93,40 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
         size = fmax(size, fabs((double)radiance[c]));
     for (int c = 0; c < 3; c++) {
         near("the ray's light", (double)told->light[c], sum[c], 2e-6 * size);
-        near("the pixel's light", (double)told->radiance[c], (double)radiance[c], 0);
-        if (told->rays == 1)
+        near("the pixel's light", (double)frame->told->radiance[c], (double)radiance[c], 0);
+        if (frame->told->rays == 1)
             near("the pixel's light and its ray's", (double)told->light[c], (double)radiance[c], 2e-6 * size);
     }
     for (size_t i = 0; i < told->n_places; i++)
         for (size_t k = 0; k < told->places[i].n_glows; k++)
             n += told->places[i].glows[k].light[0] > 0;
     return n;
+}
+
+/* All rays of the pixel together are its light, each of them what its emitters gave: 0 where nothing of it is lost on the way from the kernel. Returns how many
+ * rays have other light than the first. */
+static uint32_t judge_rays(const struct kd_frame *frame)
+{
+    const struct kd_told *told = frame->told;
+    double sum[3] = { 0 }, size = 0;
+    uint32_t others = 0;
+    for (int c = 0; c < 3; c++)
+        size = fmax(size, fabs((double)told->radiance[c]));
+    for (uint32_t i = 0; i < told->rays; i++) {
+        const struct kd_told_ray *ray = &told->each[i];
+        double given[3] = { 0 };
+        add_up(ray, given);
+        assert_int_equal(ray->x / ray->steps_a_pixel, told->x);
+        assert_int_equal(ray->y / ray->steps_a_pixel, told->y);
+        others += ray->light[0] < told->each[0].light[0] || ray->light[0] > told->each[0].light[0];
+        for (int c = 0; c < 3; c++) {
+            sum[c] += given[c] / told->rays;
+            near("a ray's light", (double)ray->light[c], given[c], 2e-6 * (size + fabs(given[c])));
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        near("light of all rays", sum[c], (double)told->radiance[c], 2e-6 * size + 1e-30);
+    return others;
 }
 
 /* The closed form's crossings are those that the list of rays has, and the picture's but for its rounding. */
@@ -162,8 +188,9 @@ static void judge(const struct kd_scene *scene, size_t least)
         struct kd_plan plan;
         struct kd_frame frame = told_at(scene, at[i][0], at[i][1], &plan);
         assert_int_equal(frame.told->x, at[i][0]);
-        assert_int_equal(frame.told->lost, 0);
+        assert_int_equal(frame.told->middle.lost, 0);
         n += judge_sum(&frame, at[i][0], at[i][1]);
+        judge_rays(&frame);
         judge_crossings(scene, &plan, &frame);
         if (!i)
             judge_picture(scene, &plan, &frame);
@@ -215,9 +242,9 @@ static void layers(void **state)
             layer[i] = ((const float *)kd_frame_layer(&frame, names[i])->data)[19 * WIDTH + x];
         OK(kd_explain(&picture, &e, &error));
         const struct kd_told_place *p = NULL;
-        for (size_t i = 0; i < frame.told->n_places && !p; i++)
-            if (kd_explained_has_gas(&frame.told->places[i]))
-                p = &frame.told->places[i];
+        for (size_t i = 0; i < frame.told->middle.n_places && !p; i++)
+            if (kd_explained_has_gas(&frame.told->middle.places[i]))
+                p = &frame.told->middle.places[i];
         if (p) {
             const struct kd_ray_crossing *c = &e.crossings[p->order];
             near("layer r", layer[0], (double)(1.0f / p->w), 0);
@@ -286,8 +313,8 @@ static void negative_energies(void **state)
         struct kd_explained x;
         OK(kd_explain(&picture, &x, &error));
         assert_true(x.label.energy < 0);
-        for (size_t k = 0; k < frame.told->n_places; k++) {
-            const struct kd_told_place *p = &frame.told->places[k];
+        for (size_t k = 0; k < frame.told->middle.n_places; k++) {
+            const struct kd_told_place *p = &frame.told->middle.places[k];
             const double r = p->order < x.end.n_crossings ? x.crossings[p->order].r : 0;
             if (kd_explained_has_gas(p) && r > 1.05 * kd_kerr_isco(0.998)) {
                 near("g of light whose energy is below 0", (double)p->g / x.crossings[p->order].g, 1, 1e-3);
@@ -299,6 +326,52 @@ static void negative_energies(void **state)
     }
     printf("negative energies: %d compared of %d\n", compared, below);
     assert_true(compared > 0);
+}
+
+/* Pixels of many rays: where samples are asked for, at the critical curve, and those that "auto" chose, followed and between others. The mean of what is told of
+ * each ray is the layer of the pixel's light; labels of the rays are as far apart as they are in the picture. */
+static void many_rays(void **state)
+{
+    const struct { const char *preset; const char *const *set; uint32_t rays; } cases[] = {
+        { "gas", (const char *const[]) { "image.samples", "3", NULL }, 9 },
+        { "smooth", (const char *const[]) { "sky.model", "grid", "image.critical_factor", "16", NULL }, 16 },
+        { "smooth", (const char *const[]) { "sky.model", "grid", "image.critical_factor", "16", "accuracy.engine", "mino-rkn6", "accuracy.precision", "f64", NULL }, 16 },
+        { "smooth", (const char *const[]) { "sky.model", "grid", "image.samples", "auto", "image.pixel_error", "0.002", NULL }, 2 },
+        { "smooth", (const char *const[]) { "volume.model", "uniform", "disk.opacity", "0.5", "image.critical_factor", "4", NULL }, 4 },
+        { NULL, (const char *const[]) { "camera.r", "12", "camera.projection", "equirectangular", "image.samples", "2", NULL }, 4 },
+        { NULL, (const char *const[]) { "camera.r", "12", "camera.projection", "fulldome", "image.samples", "2", NULL }, 4 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct kd_scene scene = scene_of(cases[i].preset, cases[i].set);
+        uint32_t most = 0, others = 0;
+        for (uint32_t x = 12; x < 54; x += 7) {
+            struct kd_plan plan;
+            struct kd_frame frame = told_at(&scene, x, 18, &plan);
+            const struct kd_picture picture = { &frame, &scene, &plan, "", 0 };
+            const struct kd_told *told = frame.told;
+            judge_sum(&frame, x, 18);
+            others += judge_rays(&frame);
+            most = told->rays > most ? told->rays : most;
+            for (uint32_t k = 0; k < told->rays; k++) {
+                struct kd_explained e;
+                double at[2];
+                OK(kd_explain_each(&picture, k, &e, &error));
+                kd_explained_ray_at(&picture, &e, at);
+                assert_true(at[0] > x && at[0] < x + 1 && at[1] > 18 && at[1] < 19);
+                near("weight", e.weight, 1.0 / told->rays, 0);
+                for (size_t n = 0; n < e.told->n_places; n++) {
+                    const struct kd_told_place *p = &e.told->places[n];
+                    const struct kd_ray_crossing *c = &e.crossings[p->order];
+                    if (p->order == 0 && e.end.n_crossings && c->r < 60 && told->rays == plan.side * plan.side)
+                        near("r of the picture over r", 1 / ((double)p->w * c->r), 1, 2e-4);
+                }
+            }
+            kd_frame_finish(&frame);
+        }
+        printf("%s: up to %u rays a pixel, %u unlike the first\n", cases[i].preset ? cases[i].preset : "default", most, others);
+        assert_true(most >= cases[i].rays && others > 0);
+    }
 }
 
 static void places(void **state)
@@ -319,14 +392,14 @@ static void places(void **state)
 /* The volume of that name in what is told; NULL: it is not there. */
 static const struct kd_told_volume *volume_of(const struct kd_frame *frame, const char *name)
 {
-    for (size_t i = 0; i < frame->told->n_volumes; i++)
-        if (!strcmp(kd_emitters[frame->told->volumes[i].emitter]->name, name))
-            return &frame->told->volumes[i];
+    for (size_t i = 0; i < frame->told->middle.n_volumes; i++)
+        if (!strcmp(kd_emitters[frame->told->middle.volumes[i].emitter]->name, name))
+            return &frame->told->middle.volumes[i];
     return NULL;
 }
 
 /* What each volume gave is all that they gave together. */
-static void judge_volumes(const struct kd_told *told)
+static void judge_volumes(const struct kd_told_ray *told)
 {
     double sum[3] = { 0 }, all[3] = { 0 }, depth = 0, passes = 1;
     for (size_t i = 0; i < told->n_volumes; i++) {
@@ -360,19 +433,19 @@ static void volumes(void **state)
         for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
             struct kd_plan plan;
             struct kd_frame frame = told_at(&both, at[i][0], at[i][1], &plan);
-            judge_volumes(frame.told);
-            assert_int_equal(frame.told->n_volumes, 2);
+            judge_volumes(&frame.told->middle);
+            assert_int_equal(frame.told->middle.n_volumes, 2);
             for (int k = 0; k < 2; k++) {
                 struct kd_scene one = both;
                 OK(kd_scene_set(&one, k ? "volume.model" : "jets.brightness", k ? "none" : "0", &error));
                 struct kd_frame alone = told_at(&one, at[i][0], at[i][1], &plan);
                 const struct kd_told_volume *v = volume_of(&frame, names[k]);
-                const double depth = -log((double)alone.told->through);
+                const double depth = -log((double)alone.told->middle.through);
                 near("its depth", (double)v->depth, depth, 2e-5 + 5e-4 * depth);
                 for (int c = 0; c < 3 && !hides; c++)
                     near("its light", (double)v->light[c], (double)alone.told->radiance[c], 5e-4 * (double)alone.told->radiance[c]);
                 lit[k] += v->light[0] > 0;
-                dim += hides && k && v->light[0] < 0.9f * alone.told->light[0]; /* behind the shell's matter */
+                dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0]; /* behind the shell's matter */
                 kd_frame_finish(&alone);
             }
             kd_frame_finish(&frame);
@@ -383,7 +456,7 @@ static void volumes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(sums), cmocka_unit_test(volumes), cmocka_unit_test(layers), cmocka_unit_test(other_pictures),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(sums), cmocka_unit_test(many_rays), cmocka_unit_test(volumes), cmocka_unit_test(layers), cmocka_unit_test(other_pictures),
         cmocka_unit_test(negative_energies), cmocka_unit_test(places) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));

@@ -115,15 +115,21 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-/* Of a pixel it tells that its light is a quarter, and nothing of what gave it. */
+/* Of a pixel it tells that its light and that of all its rays is a quarter, and nothing of what gave it. */
 static struct kd_told *tell(const struct kd_plan *plan)
 {
+    const uint32_t side = plan->side;
     struct kd_told *told = plan->told.on ? malloc(sizeof *told) : NULL;
-    if (told)
-        *told = (struct kd_told) {
-            .x = plan->told.x, .y = plan->told.y, .ray_x = plan->told.x * plan->side, .ray_y = plan->told.y * plan->side, .rays = plan->side * plan->side,
-            .light = { 0.25f, 0.25f, 0.25f }, .radiance = { 0.25f, 0.25f, 0.25f },
+    if (!told)
+        return NULL;
+    *told = (struct kd_told) { .x = plan->told.x, .y = plan->told.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f } };
+    told->each = malloc(told->rays * sizeof *told->each);
+    for (uint32_t i = 0; told->each && i < told->rays; i++)
+        told->each[i] = (struct kd_told_ray) {
+            .steps_a_pixel = side, .x = told->x * side + i % side, .y = told->y * side + i / side, .light = { 0.25f, 0.25f, 0.25f },
         };
+    told->rays = told->each ? told->rays : 0;
+    told->middle = told->each ? told->each[0] : (struct kd_told_ray) { .steps_a_pixel = side };
     return told;
 }
 

@@ -23,6 +23,10 @@ class Pixel(daemon.Case):
     def test_the_middle_one_of_its_rays(self):
         found = self.daemon.get(PIXEL + '&image.samples=4').json()
         self.assertEqual((found['ray_at'], found['rays']), ([20.125, 11.125], 16))  # the fake takes the first one
+        self.assertEqual([ray['ray_at'] for ray in found['each_ray']], [[20 + (i % 4 + 0.5) / 4, 11 + (i // 4 + 0.5) / 4] for i in range(16)])
+        self.assertEqual({ray['weight'] for ray in found['each_ray']}, {1 / 16})
+        self.assertEqual((found['weight'], found['accuracy']['sum']), (1 / 16, 0))
+        self.assertEqual(len({ray['constants']['alpha'] for ray in found['each_ray']}), 4)
 
     def test_tag(self):
         first = self.daemon.get(PIXEL)

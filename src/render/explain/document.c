@@ -21,21 +21,26 @@ static void put_depth(struct kd_json *json, double through) { kd_json_number(jso
 
 static double passed(const struct kd_told_stretch *s) { return s->through[0] > 0 ? (double)s->through[1] / (double)s->through[0] : 1; }
 
+static void put_at(struct kd_json *json, const char *name, const struct kd_picture *picture, const struct kd_explained *x)
+{
+    double at[2];
+    kd_explained_ray_at(picture, x, at);
+    kd_json_array(json, name);
+    kd_json_number(json, NULL, at[0]);
+    kd_json_number(json, NULL, at[1]);
+    kd_json_end(json);
+}
+
 static void put_pixel(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
-    const struct kd_told *t = x->told;
-    const double side = picture->plan->side, left = x->eye && *x->eye == 'r' ? picture->frame->width / 2 : 0;
     kd_json_array(json, "pixel");
     kd_json_number(json, NULL, picture->plan->told.x);
     kd_json_number(json, NULL, picture->plan->told.y);
     kd_json_end(json);
     if (x->eye)
         kd_json_string(json, "eye", x->eye);
-    kd_json_array(json, "ray_at");
-    kd_json_number(json, NULL, left + (t->ray_x + 0.5) / side);
-    kd_json_number(json, NULL, (t->ray_y + 0.5) / side);
-    kd_json_end(json);
-    kd_json_number(json, "rays", t->rays);
+    put_at(json, "ray_at", picture, x);
+    kd_json_number(json, "rays", x->pixel->rays);
 }
 
 static void put_colour(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
@@ -45,7 +50,7 @@ static void put_colour(struct kd_json *json, const struct kd_picture *picture, c
     for (int i = 0; i < 3; i++)
         kd_json_number(json, NULL, x->shown[i]);
     kd_json_end(json);
-    put_rgb(json, "pixel", x->told->radiance, 1);
+    put_rgb(json, "pixel", x->pixel->radiance, 1);
     put_rgb(json, "ray", x->told->light, 1);
     kd_json_number(json, "exposure", picture->frame->exposure);
     kd_json_end(json);
@@ -161,9 +166,9 @@ static void put_stretch(struct kd_json *json, const struct kd_told_stretch *s)
 }
 
 /* What lies along the ray, if the scene has volumes. */
-static void put_along(struct kd_json *json, const struct kd_explained *x)
+static void put_along(struct kd_json *json, const struct kd_explained *x, bool stretches)
 {
-    const struct kd_told *t = x->told;
+    const struct kd_told_ray *t = x->told;
     float sum[3] = { 0 };
     double passes = 1;
     for (size_t i = 0; i < t->n_stretches; i++) {
@@ -187,10 +192,12 @@ static void put_along(struct kd_json *json, const struct kd_explained *x)
     for (size_t i = 0; i < t->n_volumes; i++)
         put_volume(json, &t->volumes[i]);
     kd_json_end(json);
-    kd_json_array(json, "stretches");
-    for (size_t i = 0; i < t->n_stretches; i++)
-        put_stretch(json, &t->stretches[i]);
-    kd_json_end(json);
+    if (stretches) {
+        kd_json_array(json, "stretches");
+        for (size_t i = 0; i < t->n_stretches; i++)
+            put_stretch(json, &t->stretches[i]);
+        kd_json_end(json);
+    }
     kd_json_end(json);
 }
 
@@ -220,7 +227,7 @@ static void put_met(struct kd_json *json, const struct kd_explained *x)
 static void put_end(struct kd_json *json, const struct kd_explained *x)
 {
     static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
-    const struct kd_told *t = x->told;
+    const struct kd_told_ray *t = x->told;
     kd_json_object(json, "end");
     kd_json_string(json, "fate", fates[x->end.fate]);
     kd_json_string(json, "why", x->why);
@@ -250,10 +257,45 @@ static void put_accuracy(struct kd_json *json, const struct kd_picture *picture,
     kd_json_number(json, "picture", x->picture_error);
     kd_json_number(json, "path", x->path.error);
     kd_json_number(json, "first_integrals", x->path.course.drift);
+    kd_json_number(json, "sum", kd_explained_sum_error(x->pixel));
     kd_json_end(json);
 }
 
-static enum kd_status write(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
+/* One of those that the pixel's light is the mean of: the same members, without what it takes to draw it. */
+static void put_ray(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
+{
+    kd_json_object(json, NULL);
+    put_at(json, "ray_at", picture, x);
+    kd_json_number(json, "weight", x->weight);
+    put_rgb(json, "light", x->told->light, 1);
+    kd_json_number(json, "luminance", luminance(x->told->light));
+    put_constants(json, x);
+    kd_ray_motion_json(json, &x->motion);
+    put_crossings(json, x);
+    put_along(json, x, false);
+    put_met(json, x);
+    put_end(json, x);
+    kd_json_number(json, "closed_form", x->end.error);
+    kd_json_number(json, "picture", x->picture_error);
+    kd_json_number(json, "lost", (double)x->told->lost);
+    kd_json_end(json);
+}
+
+static enum kd_status put_each(struct kd_json *json, const struct kd_picture *picture, const struct kd_told *pixel, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    kd_json_array(json, "each_ray");
+    for (uint32_t i = 0; i < pixel->rays && !status; i++) {
+        struct kd_explained x;
+        status = kd_explain_each(picture, i, &x, error);
+        if (!status)
+            put_ray(json, picture, &x);
+    }
+    kd_json_end(json);
+    return status;
+}
+
+static enum kd_status write(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
@@ -262,18 +304,21 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     put_constants(&json, x);
     kd_ray_motion_json(&json, &x->motion);
     put_crossings(&json, x);
-    put_along(&json, x);
+    put_along(&json, x, true);
     put_met(&json, x);
     put_end(&json, x);
     kd_ray_path_json(&json, &x->path);
     put_accuracy(&json, picture, x);
     kd_json_number(&json, "lost", (double)x->told->lost);
+    kd_json_number(&json, "weight", x->weight);
+    const enum kd_status status = put_each(&json, picture, x->pixel, error);
     kd_json_array(&json, "approximations");
     for (size_t i = 0; i < picture->plan->n_approximations; i++)
         kd_json_string(&json, NULL, picture->plan->approximations[i]);
     kd_json_end(&json);
     kd_json_end(&json);
-    return kd_json_finish_line(&json);
+    const enum kd_status written = kd_json_finish_line(&json);
+    return status || !written ? status : kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
 }
 
 static enum kd_status encode(const struct kd_picture *picture, enum kd_effort effort, void **memory, struct kd_buffer *out, struct kd_error *error)
@@ -281,8 +326,8 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     struct kd_explained x;
     (void)effort, (void)memory;
     enum kd_status status = kd_explain(picture, &x, error);
-    if (!status && write(picture, &x, out))
-        status = kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
+    if (!status)
+        status = write(picture, &x, out, error);
     kd_explained_finish(&x);
     return status;
 }

@@ -3,6 +3,7 @@
 #include "physics/angle.h"
 #include "render/lens/label.h"
 #include "render/rays/closed.h"
+#include "render/view/critical_pixels.h"
 #include "scene/number.h"
 #include "scene/text.h"
 
@@ -51,7 +52,7 @@ static void compare(struct kd_explained *x)
 }
 
 /* The place that lets nothing pass; NULL: there is none, or light ended in a volume. */
-static const struct kd_told_place *hiding(const struct kd_told *told)
+static const struct kd_told_place *hiding(const struct kd_told_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {
         const struct kd_told_place *p = &told->places[i];
@@ -92,27 +93,73 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
         x->shown[i] = kd_frame_bit_depth(f) == 16 ? ((const uint16_t *)kd_frame_pixels(f))[at + i] / 65535.0 : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
 }
 
-enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *x, struct kd_error *error)
+/* Labels are those of the camera that counts its pixels in the steps of the ray. */
+static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
-    const struct kd_scene *scene = picture->scene;
+    const uint32_t steps = x->told->steps_a_pixel;
+    const struct kd_scene counted = steps == picture->plan->side ? x->scene : kd_critical_camera(&x->scene, steps);
+    kd_lens_label(&counted, picture->plan, x->told->x, x->told->y, &x->label);
+}
+
+/* Everything but the path. */
+static enum kd_status explain(const struct kd_picture *picture, const struct kd_told_ray *ray, struct kd_explained *x, struct kd_error *error)
+{
     const bool pair = picture->plan->eyes == 2, right = pair && picture->plan->told.x >= picture->frame->width / 2;
     *x = (struct kd_explained) {
-        .told = picture->frame->told, .eye = !pair ? NULL : right ? "right" : "left", .scene = pair ? kd_scene_eye(scene, right ? 1 : -1) : *scene,
+        .pixel = picture->frame->told, .told = ray, .eye = !pair ? NULL : right ? "right" : "left",
+        .scene = pair ? kd_scene_eye(picture->scene, right ? 1 : -1) : *picture->scene,
     };
-    if (!x->told)
-        return kd_error_set(error, KD_EINVAL, "the frame tells of no pixel");
-    kd_lens_label(&x->scene, picture->plan, x->told->ray_x, x->told->ray_y, &x->label);
-    const struct kd_null_ray ray = null_ray(x);
+    for (uint32_t i = 0; i < x->pixel->rays; i++)
+        if (x->pixel->each[i].steps_a_pixel == ray->steps_a_pixel && x->pixel->each[i].x == ray->x && x->pixel->each[i].y == ray->y)
+            x->weight = 1.0 / x->pixel->rays;
+    find_label(picture, x);
+    const struct kd_null_ray labels = null_ray(x);
     x->frame = (struct kd_ray_path_frame) { x->scene.camera.azimuth_deg * (M_PI / 180), kd_camera_twist(&x->scene), x->label.energy < 0 };
-    x->motion = kd_ray_motion_of(&ray);
-    enum kd_status status;
-    KD_TRY(find_crossings(x, error));
-    KD_TRY(kd_ray_path_draw(&x->motion, &x->frame, x->crossings, x->end.n_crossings, &x->path, error));
+    x->motion = kd_ray_motion_of(&labels);
+    enum kd_status status = find_crossings(x, error);
+    if (status)
+        return status;
     compare(x);
     say_why(x);
     find_shown(picture, x);
+    return KD_OK;
+}
+
+enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *x, struct kd_error *error)
+{
+    enum kd_status status;
+    *x = (struct kd_explained) { 0 };
+    if (!picture->frame->told)
+        return kd_error_set(error, KD_EINVAL, "the frame tells of no pixel");
+    KD_TRY(explain(picture, &picture->frame->told->middle, x, error));
+    KD_TRY(kd_ray_path_draw(&x->motion, &x->frame, x->crossings, x->end.n_crossings, &x->path, error));
 done:
     return status;
+}
+
+enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *x, struct kd_error *error)
+{
+    return explain(picture, &picture->frame->told->each[number], x, error);
+}
+
+void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *x, double out[2])
+{
+    const double steps = x->told->steps_a_pixel;
+    out[0] = (x->eye && *x->eye == 'r' ? picture->frame->width / 2 : 0) + (x->told->x + 0.5) / steps;
+    out[1] = (x->told->y + 0.5) / steps;
+}
+
+double kd_explained_sum_error(const struct kd_told *pixel)
+{
+    double off = 0, size = 0;
+    for (int c = 0; c < 3; c++) {
+        double sum = 0;
+        for (uint32_t i = 0; i < pixel->rays; i++)
+            sum += (double)pixel->each[i].light[c];
+        off = fmax(off, fabs(sum / pixel->rays - (double)pixel->radiance[c]));
+        size = fmax(size, fabs((double)pixel->radiance[c]));
+    }
+    return off > 0 ? off / size : 0;
 }
 
 void kd_explained_finish(struct kd_explained *x)

@@ -1,5 +1,5 @@
-/* This explains the light of one pixel. Its middle ray is followed by closed form; what each emitter gave that ray is told by the picture's own kernel
- * (frame/tell.h). The document has both, how far they are apart, and the ray's path for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
+/* This explains the light of one pixel. Each of its rays is followed by closed form; what each emitter gave that ray is told by the picture's own kernel
+ * (frame/tell.h). The document has both, how far they are apart, and the middle ray's path for drawing. The plan of the picture names the pixel (kd_plan.told). Any thread.
  *
  * Lengths and times in M, angles in radians, frequencies by those that the observer measures. docs/pixel.md says what the document holds. */
 #ifndef KD_RENDER_EXPLAIN_EXPLAIN_H
@@ -12,7 +12,9 @@
 #include "render/view/camera.h"
 
 struct kd_explained {
-    const struct kd_told *told;
+    const struct kd_told *pixel;
+    const struct kd_told_ray *told; /* which of its rays this is */
+    double weight;                  /* that its light has in the pixel's: 0, or 1 over the number of rays */
     const char *eye;                /* "left", "right"; NULL: the picture is of one eye */
     struct kd_scene scene;          /* that of this eye */
     struct kd_camera_label label;   /* energy: E at infinity by what the observer measures */
@@ -20,14 +22,20 @@ struct kd_explained {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS]; /* by closed form, as the scene has azimuths, and g as the observer measures it */
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
-    struct kd_ray_path path;
+    struct kd_ray_path path;        /* of the middle ray; of others it has no places */
     double picture_error;           /* of the picture's, likewise; 1: it has another number of them */
     double shown[3];                /* the pixel as it is shown, 0 to 1 */
     char why[240];                  /* where the ray ends and why, a sentence */
 };
 
-/* KD_EINVAL for a ray without a course in closed form. Finish *out in any case. */
+/* The middle ray; or one of those that the pixel's light is the mean of, without its path. KD_EINVAL for a ray without a course in closed form. Finish *out in
+ * any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
+enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out, struct kd_error *error);
+/* Where the ray goes through the picture, in pixels. */
+void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
+/* How far the mean of the rays' light is off the pixel's, relative to that. */
+double kd_explained_sum_error(const struct kd_told *pixel);
 void kd_explained_finish(struct kd_explained *explained);
 
 /* A place of the crossing of that order in what is told, NULL: its light did not come through, or nothing shines. */

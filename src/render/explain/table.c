@@ -9,12 +9,12 @@
 
 static enum kd_status put_head(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out)
 {
-    const struct kd_told *t = x->told;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "pixel %u, %u", picture->plan->told.x, picture->plan->told.y));
     if (x->eye)
         KD_TRY(kd_buffer_printf(out, " of the %s eye", x->eye));
-    KD_TRY(kd_buffer_printf(out, t->rays > 1 ? ": the middle one of its %u rays\n" : ": its one ray\n", t->rays));
+    KD_TRY(x->pixel->rays > 1 ? kd_buffer_printf(out, x->weight > 0 ? ": the middle one of its %u rays\n" : ": the ray in its middle, and not one of its %u rays\n", x->pixel->rays)
+                              : kd_buffer_printf(out, ": its one ray\n"));
     KD_TRY(kd_buffer_printf(out, "alpha %.9g, beta %.9g, lambda %.9g, eta %.9g, E %.9g\n", x->label.alpha, x->label.beta, x->motion.lambda, x->motion.eta, x->label.energy));
     KD_TRY(kd_ray_motion_text(&x->motion, out));
     KD_TRY(kd_buffer_printf(out, "%s\n\n", x->why));
@@ -50,7 +50,7 @@ done:
 
 static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *out)
 {
-    const struct kd_told *t = x->told;
+    const struct kd_told_ray *t = x->told;
     char where[16];
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "\n%-8s %-10s %35s   %35s %8s\n", "order", "emitter", "light there, linear RGB", "as it arrives", "opacity"));
@@ -75,7 +75,7 @@ static enum kd_status put_light(const struct kd_explained *x, struct kd_buffer *
     if (t->lost)
         KD_TRY(kd_buffer_printf(out, "%zu records of the ray had no room and are not told; its sum has them\n", t->lost));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "ray", "", (double)t->light[0], (double)t->light[1], (double)t->light[2]));
-    KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "pixel", "", (double)t->radiance[0], (double)t->radiance[1], (double)t->radiance[2]));
+    KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4e %11.4e %11.4e\n", "pixel", "", (double)x->pixel->radiance[0], (double)x->pixel->radiance[1], (double)x->pixel->radiance[2]));
     KD_TRY(kd_buffer_printf(out, "%-19s %35s   %11.4f %11.4f %11.4f\n", "shown", "", x->shown[0], x->shown[1], x->shown[2]));
 done:
     return status;
@@ -97,11 +97,35 @@ done:
     return status;
 }
 
+/* Those whose mean the pixel's light is, where they are several. */
+static enum kd_status put_each(const struct kd_picture *picture, const struct kd_told *pixel, struct kd_buffer *out, struct kd_error *error)
+{
+    static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
+    enum kd_status status = KD_OK;
+    if (pixel->rays > 1)
+        KD_TRY(kd_buffer_printf(out, "\n%-9s %10s %10s %5s %-9s %4s %35s   %s\n", "ray", "x", "y", "case", "fate", "seen", "its light, linear RGB", "radii of crossings (M)"));
+    for (uint32_t i = 0; i < pixel->rays && pixel->rays > 1; i++) {
+        struct kd_explained x;
+        double at[2];
+        KD_TRY(kd_explain_each(picture, i, &x, error));
+        kd_explained_ray_at(picture, &x, at);
+        KD_TRY(kd_buffer_printf(out, "1/%-7u %10.4f %10.4f %5s %-9s %4zu %11.4e %11.4e %11.4e  ", pixel->rays, at[0], at[1], x.motion.radial_case, fates[x.end.fate],
+                                x.told->n_places, (double)x.told->light[0], (double)x.told->light[1], (double)x.told->light[2]));
+        for (uint32_t n = 0; n < x.end.n_crossings; n++)
+            KD_TRY(kd_buffer_printf(out, " %.6g", x.crossings[n].r));
+        KD_TRY(kd_buffer_printf(out, "\n"));
+    }
+    if (pixel->rays > 1)
+        KD_TRY(kd_buffer_printf(out, "their mean is the pixel's light to %.1e\n", kd_explained_sum_error(pixel)));
+done:
+    return status;
+}
+
 enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_explained x;
     enum kd_status status = kd_explain(picture, &x, error);
-    if (!status && (put_head(picture, &x, out) || put_crossings(&x, out) || put_light(&x, out) || put_accuracy(picture, &x, out)))
+    if (!status && (put_head(picture, &x, out) || put_crossings(&x, out) || put_light(&x, out) || put_each(picture, x.pixel, out, error) || put_accuracy(picture, &x, out)))
         status = kd_error_set(error, KD_ENOMEM, "out of memory for what is told of a pixel");
     kd_explained_finish(&x);
     return status;

@@ -1,4 +1,5 @@
 #include "render/frame/frame.h"
+#include "render/frame/tell.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +39,6 @@ void kd_frame_drop_layers(struct kd_frame *frame)
 void kd_frame_finish(struct kd_frame *frame)
 {
     kd_frame_drop_layers(frame);
-    free(frame->told);
+    kd_told_destroy(frame->told);
     *frame = (struct kd_frame) { 0 };
 }

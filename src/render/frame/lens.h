@@ -36,6 +36,9 @@ void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame
 /* Their places, behind the planes. */
 enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_frame_part *part);
 
+/* Tells the light of the plan's pixel anew, if it is one of a part that has just been lit. */
+enum kd_status kd_frame_tell_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
+
 /* Rays of pixels on a square grid, by interpolation in the lens map of the picture's grid (comp/between.comp). kd_frame_has_between: that
  * has one ray a pixel, and all of it is there. kd_frame_mark_between: of which pixels that is right; a byte each, 1 or 0; waits for
  * the device. */

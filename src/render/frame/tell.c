@@ -1,4 +1,4 @@
-/* This part of a frame tells the light of one ray, and what became of its pixel. */
+/* This part of a frame tells the light of one pixel, ray by ray. */
 #include "render/frame/lens.h"
 #include "render/frame/tell.h"
 
@@ -35,7 +35,7 @@ static struct kd_told_stretch stretch_of(const struct record *r, uint32_t behind
 }
 
 /* Makes room: two neighbours before the same crossing become one. */
-static void join(struct kd_told *told)
+static void join(struct kd_told_ray *told)
 {
     struct kd_told_stretch *s = told->stretches;
     size_t n = 0;
@@ -52,7 +52,7 @@ static void join(struct kd_told *told)
     told->n_stretches = n;
 }
 
-static void take_stretch(struct kd_told *told, struct kd_told_stretch stretch)
+static void take_stretch(struct kd_told_ray *told, struct kd_told_stretch stretch)
 {
     if (told->n_stretches == KD_TOLD_STRETCHES)
         join(told);
@@ -73,7 +73,7 @@ static void take_met(struct kd_told_met *met, const struct record *r)
         met->w = r->a[0], met->u = r->a[1], met->phi = r->a[2], met->g = r->a[3];
 }
 
-static void take(struct kd_told *told, const struct record *r)
+static void take(struct kd_told_ray *told, const struct record *r)
 {
     struct kd_told_place *last = told->n_places ? &told->places[told->n_places - 1] : NULL;
     if (r->of == (float)KD_TELL_AT && told->n_places < KD_TOLD_PLACES)
@@ -100,74 +100,134 @@ static void take(struct kd_told *told, const struct record *r)
         memcpy(told->light, r->a, sizeof told->light);
 }
 
-/* The ray in the middle of its pixel, or before it, as layers have it. */
-static void begin(struct kd_frame_job *j, struct kd_told *told)
+void kd_told_destroy(struct kd_told *told)
 {
-    const struct kd_plan *p = j->plan;
-    *told = (struct kd_told) {
-        .through = 1,
-        .x = p->told.x, .y = p->told.y, .rays = p->side * p->side,
-        .ray_x = p->told.x * p->side + (p->side - 1) / 2, .ray_y = p->told.y * p->side + (p->side - 1) / 2,
-    };
+    if (told)
+        free(told->each);
+    free(told);
 }
 
-static enum kd_status follow(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *records)
+/* Where rays are, and what reads them. */
+struct source {
+    const struct kd_critical_lattice *lattice; /* all 0: the grid */
+    struct kd_vk_buffer *lens, *records;
+    uint32_t band;
+    int camera;
+    struct kd_slice push; /* but for the ray */
+};
+
+static enum kd_status follow(struct kd_frame_job *j, const struct source *s, struct kd_told_ray *out)
 {
-    static const struct kd_critical_lattice on_grid; /* none */
-    const struct kd_plan *p = j->plan;
-    const struct kd_told *told = j->frame->told;
     const struct kd_vk_pipeline *pipeline;
-    const struct kd_slice push = {
-        .row0 = told->ray_y, .rows = told->ray_x, .band0 = kd_frame_band_first(j, band) * p->side, .stride = p->width * p->side * p->band_rows * p->side,
-        .steps = p->march.steps, .fine = p->march.fine, .opaque = (float)p->march.opaque,
-    };
     enum kd_status status;
-    KD_TRY(kd_frame_light_kernel(j, &on_grid, KD_MAKES_TOLD, &pipeline));
-    struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, kd_frame_band_lens(j, band), band, KD_CAMERA_GRID, KD_MAKES_PICTURE);
-    d.bindings[3] = (struct kd_vk_binding) { records, 0, 0, true };
-    d.push = &push;
+    if (!j->plan->planes && !j->plan->march.steps) /* nothing shines anywhere */
+        return KD_OK;
+    KD_TRY(kd_frame_light_kernel(j, s->lattice, KD_MAKES_TOLD, &pipeline));
+    struct kd_vk_dispatch d = kd_frame_transfer(j, pipeline, s->lens, s->band, s->camera, KD_MAKES_PICTURE);
+    d.bindings[3] = (struct kd_vk_binding) { s->records, 0, 0, true };
+    d.push = &s->push;
     d.groups[0] = d.groups[1] = 1;
     KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
+    const float *from = kd_vk_buffer_map(s->records);
+    const size_t n = (size_t)from[0], kept = n < RECORDS ? n : RECORDS;
+    for (size_t i = 0; i < KD_TELL_SUMS + kept; i++)
+        take(out, (const struct record *)(from + 1) + i);
+    out->lost += n - kept;
 done:
+    return status;
+}
+
+/* Tells that the pixel has so many rays, of none of which anything is known yet. */
+static enum kd_status make_room(struct kd_frame_job *j, uint32_t rays)
+{
+    struct kd_told *told = j->frame->told;
+    free(told->each);
+    told->rays = 0;
+    if (!(told->each = malloc(rays * sizeof *told->each)))
+        return kd_error_set(j->error, KD_ENOMEM, "out of memory for what is told of %u rays", rays);
+    told->rays = rays;
+    return KD_OK;
+}
+
+static struct kd_told_ray ray_at(uint32_t steps_a_pixel, uint32_t x, uint32_t y)
+{
+    return (struct kd_told_ray) { .through = 1, .steps_a_pixel = steps_a_pixel, .x = x, .y = y };
+}
+
+/* Those of the square grid. */
+static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
+{
+    struct kd_told *told = j->frame->told;
+    const uint32_t side = j->plan->side, middle = (side - 1) / 2;
+    enum kd_status status = make_room(j, side * side);
+    for (uint32_t i = 0; i < side * side && !status; i++) {
+        struct kd_told_ray *ray = &told->each[i];
+        *ray = ray_at(side, told->x * side + i % side, told->y * side + i / side);
+        s->push.rows = ray->x, s->push.row0 = ray->y;
+        status = follow(j, s, ray);
+        if (i == middle * side + middle)
+            told->middle = *ray;
+    }
     return status;
 }
 
 enum kd_status kd_frame_tell(struct kd_frame_job *j, uint32_t band)
 {
+    static const struct kd_critical_lattice on_grid; /* none */
+    const struct kd_plan *p = j->plan;
     const uint32_t first = kd_frame_band_first(j, band);
-    if (!j->plan->told.on || j->plan->told.y < first || j->plan->told.y >= first + kd_frame_band_rows(j, band))
+    if (!p->told.on || p->told.y < first || p->told.y >= first + kd_frame_band_rows(j, band))
         return KD_OK;
-    struct kd_vk_buffer *records = NULL;
+    struct source s = {
+        .lattice = &on_grid, .lens = kd_frame_band_lens(j, band), .band = band, .camera = KD_CAMERA_GRID,
+        .push = { .band0 = first * p->side, .stride = p->width * p->side * p->band_rows * p->side, .steps = p->march.steps, .fine = p->march.fine,
+                  .opaque = (float)p->march.opaque },
+    };
     enum kd_status status = KD_OK;
-    if (!j->frame->told && !(j->frame->told = malloc(sizeof *j->frame->told)))
+    if (!j->frame->told && !(j->frame->told = calloc(1, sizeof *j->frame->told)))
         return kd_error_set(j->error, KD_ENOMEM, "out of memory for what is told of a pixel");
-    struct kd_told *told = j->frame->told;
-    begin(j, told);
-    if (!j->plan->planes && !j->plan->march.steps) /* nothing shines anywhere */
-        return KD_OK;
-    KD_TRY(kd_vk_buffer_create(j->r->vk, SIZE, KD_VK_READBACK, "light of a ray", &records, j->error));
-    KD_TRY(follow(j, band, records));
-    const float *from = kd_vk_buffer_map(records);
-    const size_t n = (size_t)from[0], kept = n < RECORDS ? n : RECORDS;
-    for (size_t i = 0; i < KD_TELL_SUMS + kept; i++)
-        take(told, (const struct record *)(from + 1) + i);
-    told->lost += n - kept;
+    j->frame->told->x = p->told.x, j->frame->told->y = p->told.y;
+    KD_TRY(kd_vk_buffer_create(j->r->vk, SIZE, KD_VK_READBACK, "light of a ray", &s.records, j->error));
+    KD_TRY(follow_grid(j, &s));
 done:
-    kd_vk_buffer_destroy(j->r->vk, records);
+    kd_vk_buffer_destroy(j->r->vk, s.records);
     return status;
 }
 
-/* Rays of the pixel, if it has other ones than those of the grid. */
-static uint32_t rays_of(const struct kd_frame_job *j, const struct kd_told *told)
+/* Its place in the list, or past its end. */
+static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_told *told)
 {
-    const struct kd_plan *p = j->plan;
-    const uint8_t kind = j->kinds ? j->kinds[(size_t)told->y * p->width + told->x] : KD_REFINED_NOT;
-    for (size_t i = 0; p->critical && i < j->lens->pixels.n; i++)
-        if (j->lens->pixels.pixels[i].x == told->x && j->lens->pixels.pixels[i].y == told->y)
-            return kind == KD_REFINED_AT_CURVE ? p->critical_dense : p->critical;
-    return kind == KD_REFINED_FOLLOWED || kind == KD_REFINED_BETWEEN ? p->adaptive : told->rays;
+    uint64_t i = 0;
+    while (i < part->n && (part->list->pixels->pixels[part->first + i].x != told->x || part->list->pixels->pixels[part->first + i].y != told->y))
+        i++;
+    return i;
+}
+
+enum kd_status kd_frame_tell_listed(struct kd_frame_job *j, const struct kd_frame_part *part)
+{
+    struct kd_told *told = j->frame->told;
+    const struct kd_critical_lattice *lattice = &part->list->lattice;
+    const uint64_t at = told && !told->whole ? listed_at(part, told) : part->n;
+    if (at == part->n)
+        return KD_OK;
+    struct source s = { .lattice = lattice, .lens = part->lens, .band = told->y / j->plan->band_rows, .camera = part->list->camera, .push = part->push };
+    s.push.row0 = (uint32_t)at;
+    s.push.rows = 1;
+    s.push.band0 = kd_frame_band_first(j, s.band);
+    enum kd_status status = KD_OK;
+    KD_TRY(kd_vk_buffer_create(j->r->vk, SIZE, KD_VK_READBACK, "light of a ray", &s.records, j->error));
+    KD_TRY(make_room(j, lattice->rays));
+    for (uint32_t i = 0; i < lattice->rays; i++) {
+        const struct kd_pixel place = kd_critical_place(lattice, (struct kd_pixel) { told->x, told->y }, i);
+        told->each[i] = ray_at(kd_critical_steps(lattice), place.x, place.y);
+        s.push.ray = i;
+        KD_TRY(follow(j, &s, &told->each[i]));
+    }
+done:
+    kd_vk_buffer_destroy(j->r->vk, s.records);
+    return status;
 }
 
 enum kd_status kd_frame_tell_pixel(struct kd_frame_job *j)
@@ -179,7 +239,7 @@ enum kd_status kd_frame_tell_pixel(struct kd_frame_job *j)
         return KD_OK;
     const uint32_t band = told->y / j->plan->band_rows;
     const uint64_t pixel = (uint64_t)(told->y - kd_frame_band_first(j, band)) * j->plan->width + told->x;
-    told->rays = rays_of(j, told);
+    told->whole = true;
     KD_TRY(kd_vk_buffer_create(j->r->vk, sizeof told->radiance, KD_VK_READBACK, "light of a pixel", &host, j->error));
     KD_TRY(kd_vk_copy(j->r->vk, "readback", host, 0, j->store->radiance.buffers[band], 12 * pixel, sizeof told->radiance, j->error));
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));

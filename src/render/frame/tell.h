@@ -1,5 +1,5 @@
-/* This is what a frame tells of the light of one ray, emitter by emitter, as the kernel that makes the picture adds it up (light/tell.glsl): of the
- * middle ray of the pixel that the plan names. Radiance is linear sRGB, in units of the picture's. */
+/* This is what a frame tells of the light of the pixel that the plan names, ray by ray and emitter by emitter, as the kernel that makes the picture adds
+ * it up (light/tell.glsl). Radiance is linear sRGB, in units of the picture's. */
 #ifndef KD_RENDER_FRAME_TELL_H
 #define KD_RENDER_FRAME_TELL_H
 
@@ -55,10 +55,9 @@ struct kd_told_met {
     float light[3], through; /* without what lies in front; what that lets pass */
 };
 
-struct kd_told {
-    uint32_t x, y;      /* the pixel, and */
-    uint32_t ray_x, ray_y; /* its ray, counted from the upper left one */
-    uint32_t rays;      /* that the pixel's light is the mean of */
+struct kd_told_ray {
+    uint32_t steps_a_pixel; /* it goes through the middle of one of so many by so many parts of the pixel, */
+    uint32_t x, y;          /* counted through the picture from its upper left corner */
     struct kd_told_place places[KD_TOLD_PLACES];
     struct kd_told_stretch stretches[KD_TOLD_STRETCHES];
     struct kd_told_volume volumes[KD_PLAN_EMITTERS];
@@ -71,8 +70,17 @@ struct kd_told {
     struct kd_told_glow ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: of all that lies before it */
     size_t n_ends;
     float through;      /* of all crossings and volumes */
-    float light[3];     /* the sum, of this ray */
-    float radiance[3];  /* of the pixel: the mean over its rays, before glare, beam and tone curve */
+    float light[3];     /* the sum */
 };
+
+struct kd_told {
+    uint32_t x, y;
+    struct kd_told_ray middle; /* of the square grid of image.samples, or the one before the middle, as layers have it; not among `each` where the pixel has other rays */
+    struct kd_told_ray *each;  /* malloc'd: those that the pixel's light is the mean of */
+    uint32_t rays;
+    bool whole;                /* what is made from now on is not this picture */
+    float radiance[3];  /* of the pixel, before glare, beam and tone curve */
+};
+void kd_told_destroy(struct kd_told *told);
 
 #endif
