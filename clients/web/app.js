@@ -157,6 +157,13 @@ async function watch(scene) {
     fall.then(({ begin }) => begin()).catch(error => ((fall = null), sayWrong(error.message)));
   });
 
+  // What there is to see, once somebody wants to know.
+  let tour = null;
+  byId('tour-begin').addEventListener('click', () => {
+    tour ??= load(import('./tour.js')).then(({ buildTour }) => buildTour(stage, scene));
+    tour.then(begin => begin()).catch(error => ((tour = null), sayWrong(error.message)));
+  });
+
   // Names of stars, once there are any that have one.
   let stars = null;
   function nameStars() {
@@ -244,8 +251,16 @@ async function watch(scene) {
   }).observe(stage);
 }
 
+// A line says what this is until somebody does something; who follows a link to a scene knows.
+function welcome() {
+  const line = byId('welcome');
+  line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));
+  for (const event of ['pointerdown', 'keydown', 'wheel']) document.addEventListener(event, () => (line.hidden = true), { once: true, passive: true });
+}
+
 async function start() {
   translatePage();
+  welcome();
   buildLanguages();
   for (const button of document.querySelectorAll('nav [data-view]'))
     button.addEventListener('click', () => goTo(button.dataset.view));

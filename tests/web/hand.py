@@ -1,7 +1,7 @@
 """What is done by hand: asking what a light is, taking back, keys: hand.py KERRD FOLDER (browser.py)."""
 import math
 
-from browser import SMOOTH, Browser, main, value
+from browser import AT_REST, SMOOTH, Browser, main, value
 import daemon
 
 FACE_ON = SMOOTH + '&lang=en&spacetime.spin=0&camera.r=infinity&camera.field_m=40&camera.inclination_deg=0&sky.model=none'
@@ -105,6 +105,28 @@ class Hand(Browser):
         page.mouse.dblclick(box['x'] + 200, box['y'] + 200)
         self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
         self.assertFalse(page.is_visible('#pixel'))
+
+    def test_what_there_is_to_see(self):
+        """Five views and five texts, and then all is as it was; the line that says what this is goes with the first touch."""
+        page = self.page(self.context(viewport={'width': 900, 'height': 520}))
+        page.goto(self.base + '#lang=en&pause=1')
+        page.wait_for_selector(AT_REST, timeout=60000)
+        self.assertIn('computed live', page.inner_text('#welcome'))
+        page.click('#tour-begin')
+        self.assertFalse(page.is_visible('#welcome'))
+        seen = []
+        for i in range(5):
+            page.wait_for_selector(f'#tour .help:has-text("{i + 1} of 5")')
+            page.wait_for_timeout(1500)
+            page.wait_for_selector(AT_REST, timeout=60000)
+            self.assertTrue(daemon.eventually(lambda: page.locator('#overlay path').count() == (1 if i in (0, 4) else 0), 20), i)
+            seen.append((page.inner_text('#tour h2'), self.pixels(page), page.input_value('[data-path="spacetime.spin"] input[type=number]')))
+            self.shot(page, f'tour-{i + 1}')
+            page.click('#tour button:nth-child(2)')
+        self.assertEqual([len(set(column)) for column in zip(*seen)], [5, 5, 2])
+        self.assertFalse(page.is_visible('#tour'))
+        self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
+        self.assertEqual((page.text_content('#play'), page.locator('#overlay path').count()), ('Play', 0), 'as it stood before')
 
 
 if __name__ == '__main__':

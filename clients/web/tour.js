@@ -1,0 +1,128 @@
+// "Look around": five things to see on a black hole, each with a view of its own and a few sentences. What was seen before comes back.
+import { byId, el, still } from './dom.js';
+import { t } from './i18n.js';
+import { startAgain } from './presets.js';
+
+const flight_ms = 1400;
+const least_ms = 60; // between two places on the way
+
+// name, view, overlays, words. Lengths and angles of the view are those that are flown through.
+const stops = [
+  [
+    t('The shadow', 'L’ombra'),
+    { 'camera.inclination_deg': 55, 'camera.field_m': 40 },
+    ['shadow'],
+    t(
+      'Light that comes closer than a certain distance never comes out again. For a hole without spin that distance is √27 ≈ 5.2 M, two and a half times the radius of its horizon: the line round the dark is the edge of this shadow, and it hides more than the hole itself, for the hole bends light towards it.',
+      'La luce che passa più vicino di una certa distanza non ne esce più. Per un buco senza spin la distanza è √27 ≈ 5,2 M, due volte e mezzo il raggio del suo orizzonte: la linea attorno al buio è il bordo di quest’ombra, più grande del buco stesso, perché il buco piega la luce verso di sé.',
+    ),
+  ],
+  [
+    t('The photon ring', 'L’anello di fotoni'),
+    { 'camera.inclination_deg': 20, 'camera.field_m': 17, 'disk.inner': 6 },
+    [],
+    t(
+      'Inside the disk’s own image stands a thin bright line. Its light went at least half way round the hole before it came to us; in it are further lines, of light that went round more often. Without spin each is e^π ≈ 23 times thinner than the one before, and they crowd at the edge of the shadow.',
+      'Dentro l’immagine del disco sta una linea sottile e luminosa. La sua luce ha fatto almeno mezzo giro attorno al buco prima di venire a noi; in essa vi sono altre linee, di luce che ha girato più volte. Senza spin ognuna è e^π ≈ 23 volte più sottile della precedente, e si affollano al bordo dell’ombra.',
+    ),
+  ],
+  [
+    t('The far side', 'Il lato lontano'),
+    { 'camera.inclination_deg': 84, 'camera.field_m': 44 },
+    [],
+    t(
+      'The disk is flat, and nearly edge on. The arch above the hole is the part of it that lies behind: its light starts upwards and is bent over the top to us. The thinner arch below is the underside of the same part.',
+      'Il disco è piatto, e visto quasi di taglio. L’arco sopra il buco è la parte che sta dietro: la sua luce parte verso l’alto ed è piegata sopra il buco fino a noi. L’arco più sottile in basso è la faccia inferiore della stessa parte.',
+    ),
+  ],
+  [
+    t('Beaming', 'La luce in avanti'),
+    { 'camera.inclination_deg': 76, 'camera.field_m': 44 },
+    [],
+    t(
+      'The gas goes round at up to about half the speed of light. On the left it comes towards us: its light is shifted to the blue by a factor g and is brighter by g⁴. On the right it goes away, redder and fainter. Click on both sides to read g.',
+      'Il gas gira fino a circa metà della velocità della luce. A sinistra viene verso di noi: la sua luce è spostata verso il blu di un fattore g ed è più intensa di g⁴. A destra si allontana, più rossa e più debole. Tocca i due lati per leggere g.',
+    ),
+  ],
+  [
+    t('Frame dragging', 'Il trascinamento dello spazio'),
+    { 'spacetime.spin': 0.99, 'camera.inclination_deg': 86, 'camera.field_m': 26 },
+    ['shadow'],
+    t(
+      'A hole that spins drags space round with it. Light that goes along gets by closer than light that goes against: the shadow is flat on the side that turns towards us, and shifted. The disk reaches in further, too, for orbits along with the spin are stable closer to the hole.',
+      'Un buco che ruota trascina con sé lo spazio. La luce che gira nel suo verso può passare più vicina di quella che gira contro: l’ombra è piatta dal lato che viene verso di noi, e spostata. Anche il disco giunge più dentro, perché le orbite nel verso dello spin sono stabili più vicino al buco.',
+    ),
+  ],
+];
+
+const eased = x => x * x * (3 - 2 * x);
+
+export function buildTour(stage, scene) {
+  const box = byId('tour'),
+    name = el('h2'),
+    words = el('p', { role: 'status' }),
+    at = el('span', { class: 'help' }),
+    back = el('button', { type: 'button', onclick: () => go(here - 1) }, t('Back', 'Indietro')),
+    next = el('button', { type: 'button', onclick: () => (here + 1 < stops.length ? go(here + 1) : end()) }),
+    leave = el('button', { type: 'button', onclick: () => end() }, t('End the tour', 'Fine del giro'));
+  box.replaceChildren(name, words, el('p', { class: 'row' }, back, next, leave, at));
+  let here = 0,
+    before = null, // the scene, and the lines over it
+    flight = 0;
+
+  const lines = () => [...document.querySelectorAll('#overlays input:checked')].map(input => input.id.slice(5));
+  function draw(wanted) {
+    for (const input of document.querySelectorAll('#overlays input')) if (input.checked !== wanted.includes(input.id.slice(5))) input.click();
+  }
+
+  // Through what lies between, by factors for lengths; the rest of the view changes at once.
+  function fly(view) {
+    const now = ++flight,
+      ways = Object.entries(view).map(([path, to]) => ({ path, to, from: scene.get(path), glides: path.startsWith('camera.') && typeof scene.get(path) === 'number', length: path === 'camera.field_m' })),
+      begun = performance.now();
+    const place = x => Object.fromEntries(ways.map(({ path, to, from, glides, length }) => [path, x === 1 || !glides ? to : Number((length ? from * (to / from) ** x : from + x * (to - from)).toFixed(3))]));
+    function step() {
+      if (now !== flight) return;
+      const x = still.matches ? 1 : Math.min((performance.now() - begun) / flight_ms, 1);
+      scene.change(place(eased(x)));
+      if (x < 1) setTimeout(step, least_ms);
+    }
+    step();
+  }
+
+  function go(to) {
+    here = to;
+    const [title, view, over, text] = stops[here];
+    name.textContent = title;
+    words.textContent = text;
+    at.textContent = t(`${here + 1} of ${stops.length}`, `${here + 1} di ${stops.length}`);
+    back.disabled = here === 0;
+    next.textContent = here + 1 < stops.length ? t('Next', 'Avanti') : t('Done', 'Fatto');
+    const rest = Object.fromEntries(stops.flatMap(([, others]) => Object.keys(others)).map(path => [path, usual.get(path)]));
+    fly({ ...rest, ...view });
+    draw(over);
+  }
+
+  let usual = new Map();
+  async function begin() {
+    if (!box.hidden) return;
+    before = { document: scene.document({}, true), held: scene.held, lines: lines() };
+    await startAgain(scene);
+    scene.hold(true); // pictures at rest are the finest
+    usual = new Map([...scene.fields.keys()].map(path => [path, scene.get(path)]));
+    box.hidden = false;
+    go(0);
+    next.focus();
+  }
+
+  function end() {
+    flight++;
+    box.hidden = true;
+    scene.replace(before.document);
+    scene.hold(before.held);
+    draw(before.lines);
+    stage.focus();
+  }
+  box.addEventListener('keydown', event => event.key === 'Escape' && end());
+  return begin;
+}
