@@ -465,6 +465,9 @@ const refusals = [
   ['Hot spots going round at {…}.', 'Macchie calde in orbita a {…}.'],
   ['A body at {…}.', 'Un corpo a {…}.'],
   ['Bodies at {…}.', 'Corpi a {…}.'],
+  ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un campo giochi, a {…} M del suo tempo.'],
+  ['{…} body of a playground at {…} M of its time.', '{…} corpo di un campo giochi, a {…} M del suo tempo.'],
+  ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
 ].map(([english, italian]) => {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
   const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
@@ -515,6 +518,7 @@ export const sentences = {
   volume: 'volume',
   jets: 'getti',
   bodies: 'corpi',
+  debris: 'detriti',
   'Disk of particles': 'Disco di particelle',
   'Hot spot': 'Macchia calda',
   Body: 'Corpo',
@@ -565,6 +569,26 @@ export const sentences = {
     'corpi: la luminosità è bolometrica (g^4), il colore quello della parte visibile dello spettro',
   'bodies: one that is smaller than a pixel may lie between its rays':
     'corpi: uno più piccolo di un pixel può stare tra i suoi raggi',
+  'bodies: those of a playground are where they are at its time, and move past an observer of zero angular momentum':
+    'corpi: quelli di un campo giochi sono dove sono al suo tempo, e si muovono rispetto a un osservatore di momento angolare nullo',
+  "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v":
+    'corpi: quelli di un campo giochi si muovono in un potenziale: il suo r sta per quello di Boyer e Lindquist, la sua velocità per gamma v',
+  'debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as wide as a cell at least':
+    'detriti: messi sul piano del disco al loro r e azimut, come densità dei pezzi su una griglia: le correnti sono larghe almeno una cella',
+  'debris: it moves off that plane, by more than a fiftieth of r in the mean: its height is not shown':
+    'detriti: si muovono fuori da quel piano, in media di più di un cinquantesimo di r: la loro altezza non è mostrata',
+  'debris: a black body of one chosen temperature; its optical depth is a chosen number times its column, at any angle':
+    'detriti: un corpo nero di una temperatura scelta; la profondità ottica è un numero scelto per la colonna, sotto ogni angolo',
+  'debris: the mean velocity of a place shifts its light, without that across the plane; no heat of shocks, no spread of velocities':
+    'detriti: la velocità media di un luogo ne sposta la luce, senza quella attraverso il piano; niente calore di urti, né dispersione di velocità',
+  "debris: fast light: shown where it is at one coordinate time, whatever the light's delay":
+    'detriti: luce veloce: mostrati dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
+  "debris: it moves in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v":
+    'detriti: si muovono in un potenziale: il suo r sta per quello di Boyer e Lindquist, la sua velocità per gamma v',
+  'debris: some pieces are beyond the grid, and not shown':
+    'detriti: alcuni pezzi sono fuori dalla griglia, e non mostrati',
+  'debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum':
+    'detriti: la luminosità è bolometrica (g^4), il colore quello della parte visibile dello spettro',
   'disk: opacity is a chosen number a crossing, not computed from the gas':
     'disco: l’opacità è un numero scelto per attraversamento, non calcolata dal gas',
   'gas: turbulence is procedural noise, no solution of magnetohydrodynamics; it multiplies the flux, and with it temperature and colour, and the optical depth where that is in force':

@@ -38,7 +38,8 @@
     ALONG(7, volume)                                                                                           \
     ALONG(8, jets)                                                                                             \
     ALONG(9, thick)                                                                                            \
-    MET(10, bodies)
+    MET(10, bodies)                                                                                            \
+    AT_CROSSING(11, debris)
 
 /* All that has numbers. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)

@@ -1,6 +1,8 @@
 /* kerrd playground lets bodies move round the hole for a while, and writes where they are then and what has happened. */
 #include "cli/cli.h"
 #include "cli/file.h"
+#include "cli/playground_pictures.h"
+#include "cli/progress.h"
 #include "playground/json.h"
 #include "playground/preset.h"
 
@@ -9,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_SET = 256, KEY_TIME, KEY_SERIES, KEY_FALLBACK, KEY_EVENTS, KEY_LIST, SETS_MAX = 64 };
+enum { KEY_SET = 256, KEY_TIME, KEY_SERIES, KEY_FALLBACK, KEY_EVENTS, KEY_LIST, KEY_PICTURE, KEY_EVERY, KEY_SCENE, KEY_SCENE_PRESET, KEY_SCENE_SET, KEY_SIZE, SETS_MAX = 64 };
 
 struct arguments {
     const char *document, *preset, *output, *series, *fallback, *events;
@@ -17,17 +19,26 @@ struct arguments {
     size_t n_sets;
     double time;
     bool list;
+    struct kd_pictures_asked pictures;
 };
 
 static const struct argp_option table[] = {
     { "preset", 'p', "NAME", 0, "begin with this one; --list names them", 0 },
     { "set", KEY_SET, "NAME=VALUE", 0, "a setting, such as waves=true", 0 },
     { "time", KEY_TIME, "M", 0, "how long (default: 0, which only writes the begin)", 0 },
-    { "output", 'o', "FILE.json", 0, "where the snapshot goes, which can be gone on from (default: standard output)", 0 },
+    { "output", 'o', "FILE.json", 0, "where the snapshot goes, which can be gone on from (default: standard output, unless there are pictures)", 0 },
     { "series", KEY_SERIES, "FILE", 0, "energy, angular momentum, separation and strain over time, as .csv or .npy", 0 },
     { "fallback", KEY_FALLBACK, "FILE.csv", 0, "the rate at which debris has come back, beside the line t^(-5/3)", 0 },
     { "events", KEY_EVENTS, "FILE.ndjson", 0, "what has happened, a line each", 0 },
     { "list", KEY_LIST, 0, 0, "name the presets", 0 },
+    { "picture", KEY_PICTURE, "FILE", 0, "a lensed picture of it at the end, by its end a PNG, FITS, EXR, NPZ or NPY; with --every a name with %d in it, as film/%05d.png", 1 },
+    { "every", KEY_EVERY, "M", 0, "pictures from the begin on, so far apart", 1 },
+    { "scene", KEY_SCENE, "SCENE.json", 0, "camera, disk, sky and all else of the pictures (default: a view of the preset, or of all bodies)", 1 },
+    { "scene-preset", KEY_SCENE_PRESET, "NAME", 0, "the same from a preset of scenes (`kerrd presets` lists them)", 1 },
+    { "scene-set", KEY_SCENE_SET, "PATH=VALUE", 0, "set one field of that scene, as in camera.inclination_deg=60; may be repeated", 1 },
+    { "size", KEY_SIZE, "WIDTHxHEIGHT", 0, "of the pictures, as in 1920x1080", 1 },
+    { "stats", 't', NULL, 0, "print how many pictures there are and how long they took, as one line of JSON on standard error", 1 },
+    KD_CLI_MEMORY,
     { 0 },
 };
 
@@ -36,6 +47,27 @@ static error_t parse(int key, char *text, struct argp_state *state)
     struct arguments *a = state->input;
     char *end;
     switch (key) {
+    case ARGP_KEY_INIT: state->child_inputs[0] = &a->pictures.device; return 0;
+    case KEY_PICTURE: a->pictures.path = text; return 0;
+    case KEY_EVERY:
+        a->pictures.every = strtod(text, &end);
+        if (*end || end == text || !(a->pictures.every > 0) || !isfinite(a->pictures.every))
+            argp_error(state, "--every is %s, allowed are numbers above 0", text);
+        return 0;
+    case KEY_SCENE: a->pictures.scene.document = text; return 0;
+    case KEY_SCENE_PRESET: a->pictures.scene.preset = text; return 0;
+    case KEY_SCENE_SET:
+        if (!strchr(text, '='))
+            argp_error(state, "--scene-set %s: it takes PATH=VALUE, as in camera.inclination_deg=60", text);
+        if (!kd_scene_options_add_set(&a->pictures.scene, text))
+            argp_failure(state, KD_EXIT_FAILURE, 0, "out of memory");
+        return 0;
+    case KEY_SIZE:
+        if (!kd_scene_options_add_size(&a->pictures.scene, text))
+            argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
+        return 0;
+    case 't': a->pictures.stats = true; return 0;
+    case 'M': a->pictures.memory = kd_cli_bytes(state, "--memory", text); return 0;
     case 'p': a->preset = text; return 0;
     case 'o': a->output = text; return 0;
     case KEY_SERIES: a->series = text; return 0;
@@ -141,21 +173,50 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     return status;
 }
 
-static enum kd_status work(const struct arguments *a, struct kd_error *error)
+/* Goes on to the time t, or as far as the budget of sub-steps leads. */
+static void go_on(struct kd_playground *p, double t)
+{
+    struct kd_playground_progress progress;
+    if (!(t > p->t))
+        return;
+    kd_playground_advance(p, t - p->t, &progress);
+    if (progress.slowed)
+        fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget, progress.done, progress.asked);
+}
+
+static enum kd_status film(struct arguments *a, struct kd_playground *p, struct kd_error *error)
+{
+    const struct kd_playground_preset *preset = a->preset ? kd_playground_preset_of(a->preset) : NULL;
+    const double begin = p->t, end = p->t + a->time, every = a->pictures.every;
+    struct kd_pictures pictures;
+    enum kd_status status = KD_OK;
+    KD_TRY(kd_pictures_begin(&a->pictures, preset ? preset->scene : NULL, p, &pictures, error));
+    for (unsigned k = 0; every > 0 && k <= a->time / every * (1 + 1e-12); k++) {
+        go_on(p, begin + k * every);
+        KD_TRY(kd_pictures_take(&pictures, p, error));
+    }
+    go_on(p, end);
+    if (!(every > 0))
+        KD_TRY(kd_pictures_take(&pictures, p, error));
+done:
+    kd_pictures_finish(&pictures);
+    return status;
+}
+
+static enum kd_status work(struct arguments *a, struct kd_error *error)
 {
     struct kd_playground *p = NULL;
     enum kd_status status;
+    KD_TRY(kd_pictures_check(&a->pictures, error));
     KD_TRY(load(a, &p, error));
-    if (a->time > 0) {
-        struct kd_playground_progress progress;
-        kd_playground_advance(p, a->time, &progress);
-        if (progress.slowed)
-            fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget, progress.done, progress.asked);
-    }
+    if (a->pictures.path)
+        KD_TRY(film(a, p, error));
+    else
+        go_on(p, p->t + a->time);
     KD_TRY(write_one(p, SERIES, a->series, error));
     KD_TRY(write_one(p, FALLBACK, a->fallback, error));
     KD_TRY(write_one(p, EVENTS, a->events, error));
-    KD_TRY(write_one(p, SNAPSHOT, a->output ? a->output : "-", error));
+    KD_TRY(write_one(p, SNAPSHOT, a->output ? a->output : a->pictures.path ? NULL : "-", error));
 done:
     kd_playground_destroy(p);
     return status;
@@ -163,14 +224,13 @@ done:
 
 int kd_cli_playground(int argc, char **argv)
 {
-    static const struct argp_child children[] = { { &kd_cli_log_argp, 0, NULL, 0 }, { 0 } };
     static const struct argp argp = {
         .options = table,
         .parser = parse,
         .args_doc = "[FILE.json|-]",
         .doc = "Bodies round the hole that pull one another, merge, are torn apart and spiral in; docs/playground.md says what is computed.\v"
                "The document is one that was asked for or written as a snapshot. Without one, and without --preset, there are no bodies.",
-        .children = children,
+        .children = kd_cli_device_children,
     };
     struct arguments arguments = { 0 };
     struct kd_error error = { 0 };
@@ -179,5 +239,7 @@ int kd_cli_playground(int argc, char **argv)
         printf("%-14s %s\n", kd_playground_presets[i].name, kd_playground_presets[i].title);
     if (arguments.list)
         return KD_EXIT_OK;
-    return work(&arguments, &error) ? kd_cli_fail(&error) : KD_EXIT_OK;
+    const enum kd_status status = work(&arguments, &error);
+    kd_scene_options_finish(&arguments.pictures.scene);
+    return kd_progress_exit(status, &error);
 }

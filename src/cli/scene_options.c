@@ -22,25 +22,37 @@ static const struct argp_option options_table[] = {
     { 0 },
 };
 
-static void add_set(struct kd_scene_options *options, const char *text, struct argp_state *state)
+bool kd_scene_options_add_set(struct kd_scene_options *options, const char *text)
 {
     const char **set = realloc(options->set, (options->n_set + 1) * sizeof *set);
     if (!set)
-        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--set");
+        return false;
     options->set = set;
     options->set[options->n_set++] = text;
+    return true;
+}
+
+static void add_set(struct kd_scene_options *options, const char *text, struct argp_state *state)
+{
+    if (!kd_scene_options_add_set(options, text))
+        argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--set");
 }
 
 /* "1920x1080" as the two fields that it means, in texts of the options' own. */
-static void add_size(struct kd_scene_options *options, const char *text, struct argp_state *state)
+bool kd_scene_options_add_size(struct kd_scene_options *options, const char *text)
 {
     size_t width = strspn(text, "0123456789"), height = text[width] ? strspn(text + width + 1, "0123456789") : 0;
     if (!width || !height || !strchr("xX", text[width]) || text[width + 1 + height] || width > 9 || height > 9)
-        argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
+        return false;
     snprintf(options->width, sizeof options->width, "image.width=%.*s", (int)width, text);
     snprintf(options->height, sizeof options->height, "image.height=%s", text + width + 1);
-    add_set(options, options->width, state);
-    add_set(options, options->height, state);
+    return kd_scene_options_add_set(options, options->width) && kd_scene_options_add_set(options, options->height);
+}
+
+static void add_size(struct kd_scene_options *options, const char *text, struct argp_state *state)
+{
+    if (!kd_scene_options_add_size(options, text))
+        argp_error(state, "--size %s: it takes WIDTHxHEIGHT in pixels, as in 1920x1080", text);
 }
 
 static void add_asset(struct kd_scene_options *options, const char *text, struct argp_state *state)
@@ -128,23 +140,28 @@ static enum kd_status apply_set(const char *text, struct kd_scene *scene, struct
     return status;
 }
 
-enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out,
-                                     struct kd_error *error)
+enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error)
 {
     enum kd_status status;
-    kd_scene_defaults(out);
-    if (options->preset)
-        KD_TRY(kd_scene_preset(out, options->preset, error));
     if (options->document)
-        KD_TRY(merge_document(options->document, out, error));
+        KD_TRY(merge_document(options->document, scene, error));
     if (options->from)
-        KD_TRY(take_picture(options->from, out, error));
+        KD_TRY(take_picture(options->from, scene, error));
     for (size_t i = 0; i < options->n_set; i++)
-        KD_TRY(apply_set(options->set[i], out, error));
-    KD_TRY(kd_asset_options_resolve(&options->assets, out, error));
-    KD_TRY(kd_scene_validate(out, error));
+        KD_TRY(apply_set(options->set[i], scene, error));
+    KD_TRY(kd_asset_options_resolve(&options->assets, scene, error));
+    KD_TRY(kd_scene_validate(scene, error));
 done:
     return status;
+}
+
+enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    kd_scene_defaults(out);
+    if (options->preset)
+        status = kd_scene_preset(out, options->preset, error);
+    return status ? status : kd_scene_options_merge(options, out, error);
 }
 
 void kd_scene_options_finish(struct kd_scene_options *options)

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #include <argp.h>
+#include <stdbool.h>
 
 struct kd_scene_options {
     const char *document; /* a path or "-"; NULL: none */
@@ -29,6 +30,11 @@ extern const struct argp_child kd_scene_device_children[];
 /* The merged scene, valid. */
 enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out,
                                      struct kd_error *error);
+/* The same of options without --preset and --from, over what *scene is. */
+enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error);
+/* Append one "path=value", and a size "1920x1080" as the two that it is; false: no memory, or no size. */
+bool kd_scene_options_add_set(struct kd_scene_options *options, const char *text);
+bool kd_scene_options_add_size(struct kd_scene_options *options, const char *text);
 void kd_scene_options_finish(struct kd_scene_options *options);
 
 #endif

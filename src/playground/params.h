@@ -29,6 +29,8 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
     TRUTH(feeds, true, "debris that has come back is counted and leaves, as part of the disk; else it goes on") \
     WHOLE(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, "pieces of debris there may be; a new one takes the place of the oldest") \
     WHOLE(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
+    REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the black body that debris shines as in pictures") \
+    REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
     WHOLE(seed, 1, 0, 4294967295u, "of the directions that debris takes")
 
 struct kd_playground_params {

@@ -172,18 +172,32 @@ enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const 
     return status;
 }
 
+/* Whether all settings are the same. */
+static bool same(const struct kd_playground_params *a, const struct kd_playground_params *b)
+{
+#define KD_SAME_(name, ...) && a->name == b->name
+    return true KD_PLAYGROUND_SETTINGS(KD_SAME_, KD_SAME_, KD_SAME_, KD_SAME_);
+#undef KD_SAME_
+}
+
 enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playground_params *params, struct kd_error *error)
 {
     if (params->gravity != p->params.gravity)
         return kd_error_field(error, "/gravity", "gravity is chosen when a playground is made, and stays");
     if (params->spin != p->params.spin)
         return kd_error_field(error, "/spin", "spin is chosen when a playground is made, and stays");
-    disturb(p);
+    struct kd_playground_params looks = *params; /* how it is shown, and all else as it is */
+    looks.debris_temperature_k = p->params.debris_temperature_k;
+    looks.debris_depth = p->params.debris_depth;
+    const bool moves_on = same(&looks, &p->params);
+    if (!moves_on)
+        disturb(p);
     enum kd_status status = kd_debris_resize(&p->debris, params->debris_capacity, error);
     if (status)
         return status;
     p->params = *params;
-    begin_anew(p);
+    if (!moves_on)
+        begin_anew(p);
     return KD_OK;
 }
 

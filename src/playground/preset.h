@@ -9,6 +9,7 @@ struct kd_playground_preset {
     void (*settings)(struct kd_playground_params *params);
     /* Adds its bodies to an empty playground with these settings, or others. */
     enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);
+    const char *scene; /* JSON of a scene that shows it well, over the default one */
 };
 extern const struct kd_playground_preset kd_playground_presets[];
 extern const size_t kd_playground_n_presets;

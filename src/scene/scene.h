@@ -46,8 +46,10 @@ struct kd_words {
 /* A member for each section: struct kd_camera camera, ... Members of the document itself are in `top`. A list is
  * struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots; elements from count on hold their defaults, so that equal scenes
  * are equal bytes. */
+struct kd_crowd;
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
+    struct kd_scene_crowd { const struct kd_crowd *at; uint64_t generation; } crowd; /* what it shows besides (scene/crowd.h); NULL and 0: nothing */
 };
 
 /* Sets every field to its default: the picture of an empty document. */

@@ -36,10 +36,16 @@ static double omega_of(const struct kd_scene *scene, const struct kd_body *body)
     return motion_of(body, &at, velocity);
 }
 
-size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body out[KD_SCENE_BODIES])
+size_t kd_bodies_count(const struct kd_scene *scene)
 {
     const struct kd_body *on[KD_SCENE_BODIES];
-    const size_t n = kd_scene_bodies(scene, on);
+    return kd_scene_bodies(scene, on) + (scene->crowd.at ? scene->crowd.at->n : 0);
+}
+
+size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
+{
+    const struct kd_body *on[KD_SCENE_BODIES];
+    const size_t n = kd_scene_bodies(scene, on), others = scene->crowd.at ? scene->crowd.at->n : 0;
     const double time = scene->top.time - kd_particle_delay(scene);
     for (size_t i = 0; i < n; i++) {
         const struct kd_vantage at = kd_body_vantage(scene, on[i]);
@@ -51,14 +57,14 @@ size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body out[KD_SCE
         };
         b->phi = on[i]->phase_deg * (M_PI / 180) + remainder(motion_of(on[i], &at, b->velocity) * time, 2 * M_PI);
     }
-    return n;
+    if (others)
+        memcpy(out + n, scene->crowd.at->bodies, others * sizeof *out);
+    for (size_t i = n; i < n + others; i++)
+        out[i].which += KD_SCENE_BODIES;
+    return n + others;
 }
 
-static bool present(const struct kd_scene *scene)
-{
-    const struct kd_body *on[KD_SCENE_BODIES];
-    return kd_scene_bodies(scene, on);
-}
+static bool present(const struct kd_scene *scene) { return kd_bodies_count(scene); }
 
 static uint32_t traits(const struct kd_scene *scene) { return KD_TRAIT_AZIMUTH | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0); }
 
@@ -74,32 +80,39 @@ static unsigned varies(const struct kd_scene *scene)
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
     const struct kd_body *on[KD_SCENE_BODIES];
-    size_t n = kd_scene_bodies(scene, on), used = (size_t)snprintf(out, KD_EMIT_TOLD, "%s at ", n > 1 ? "Bodies" : "A body");
+    const size_t n = kd_scene_bodies(scene, on), others = kd_bodies_count(scene) - n;
+    size_t used = n ? (size_t)snprintf(out, KD_EMIT_TOLD, "%s at ", n > 1 ? "Bodies" : "A body") : 0;
     for (size_t i = 0; i < n && used < KD_EMIT_TOLD; i++)
         used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r, i + 1 == n ? "." : "");
+    if (others && used < KD_EMIT_TOLD)
+        snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.", n ? " " : "", others, others > 1 ? "bodies" : "body",
+                 scene->crowd.at->time);
 }
 
-static uint64_t device_bytes(const struct kd_scene *scene)
+static uint64_t device_bytes(const struct kd_scene *scene) { return sizeof(float) * kd_bodies_words(kd_bodies_count(scene)); }
+
+/* All of them, n; to be freed. NULL: no memory. */
+static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
 {
-    const struct kd_body *on[KD_SCENE_BODIES];
-    return sizeof(float) * kd_bodies_words(kd_scene_bodies(scene, on));
+    struct kd_seen_body *bodies = malloc((kd_bodies_count(scene) + 1) * sizeof *bodies);
+    *n = bodies ? kd_bodies_of(scene, bodies) : 0;
+    return bodies;
 }
 
-/* The buffer's words, and the numbers that go with them. */
-static enum kd_status pack(const struct kd_scene *scene, struct kd_bodies_block *out, float *words, struct kd_error *error)
+static struct kd_bodies_view view_of(const struct kd_scene *scene)
 {
-    struct kd_seen_body bodies[KD_SCENE_BODIES];
-    const size_t n = kd_bodies_of(scene, bodies);
-    return kd_bodies_pack(bodies, n, scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180), kd_disk_peak_temperature(scene) * scene->disk.hardening, out,
-                          words, error);
+    return (struct kd_bodies_view) { scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180), kd_disk_peak_temperature(scene) * scene->disk.hardening };
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
-    float words[(8 + KD_BODY_WORDS) * KD_SCENE_BODIES];
-    struct kd_error error;
-    if (pack(scene, &out->bodies, words, &error))
-        out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 };
+    const struct kd_bodies_view view = view_of(scene);
+    size_t n;
+    struct kd_seen_body *bodies = listed(scene, &n);
+    out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 }; /* without memory `prepare` fails, and says so */
+    if (bodies)
+        kd_bodies_bound(bodies, n, &view, &out->bodies);
+    free(bodies);
 }
 
 struct own {
@@ -115,33 +128,39 @@ static void forget(void *own)
     o->there = NULL;
 }
 
-static enum kd_status send(const struct kd_own_work *work, const float *words, size_t n, struct kd_error *error)
+/* *words become the ones that are there. */
+static enum kd_status send(const struct kd_own_work *work, float **words, size_t n, struct kd_error *error)
 {
     struct own *o = work->own;
-    const uint64_t bytes = n * sizeof *words;
+    const uint64_t bytes = n * sizeof **words;
     enum kd_status status;
-    if (o->there && o->words == n && !memcmp(o->there, words, bytes))
+    if (o->there && o->words == n && !memcmp(o->there, *words, bytes))
         return KD_OK;
     forget(o);
     KD_TRY(kd_own_at_least(work, &o->device, bytes, KD_VK_DEVICE, "bodies", error));
     KD_TRY(kd_own_at_least(work, &o->staging, bytes, KD_VK_UPLOAD, "bodies on the host", error));
-    memcpy(kd_vk_buffer_map(o->staging), words, bytes);
+    memcpy(kd_vk_buffer_map(o->staging), *words, bytes);
     KD_TRY(kd_vk_copy(work->vk, "upload", o->device, 0, o->staging, 0, bytes, error));
     KD_TRY(kd_vk_submit(work->vk, NULL, error));
     o->words = n;
-    if ((o->there = malloc(bytes)))
-        memcpy(o->there, words, bytes);
+    o->there = *words;
+    *words = NULL;
 done:
     return status;
 }
 
 static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_body *on[KD_SCENE_BODIES];
-    float words[(8 + KD_BODY_WORDS) * KD_SCENE_BODIES];
-    struct kd_bodies_block block;
-    enum kd_status status = pack(scene, &block, words, error);
-    return status ? status : send(work, words, kd_bodies_words(kd_scene_bodies(scene, on)), error);
+    const struct kd_bodies_view view = view_of(scene);
+    size_t n;
+    struct kd_seen_body *bodies = listed(scene, &n);
+    float *words = malloc(kd_bodies_words(n) * sizeof *words);
+    enum kd_status status = bodies && words ? kd_bodies_pack(bodies, n, &view, words, error) : kd_error_set(error, KD_ENOMEM, "out of memory for bodies");
+    if (!status)
+        status = send(work, &words, kd_bodies_words(n), error);
+    free(bodies);
+    free(words);
+    return status;
 }
 
 static void buffers(const void *own, struct kd_vk_buffer *out[KD_OWN_COUNT]) { out[KD_OWN_bodies] = ((const struct own *)own)->device; }
@@ -175,8 +194,14 @@ static bool large(const struct kd_scene *scene, const struct kd_setting *rays)
     for (size_t i = kd_scene_bodies(scene, on); i; i--)
         if (on[i - 1]->radius > 0.1 * on[i - 1]->r)
             return true;
+    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
+        if (scene->crowd.at->bodies[i].radius > 0.1 * scene->crowd.at->bodies[i].r)
+            return true;
     return false;
 }
+
+static bool shown(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->crowd.at && scene->crowd.at->n; }
+static bool by_potential(const struct kd_scene *scene, const struct kd_setting *rays) { return shown(scene, rays) && scene->crowd.at->approximate; }
 
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
@@ -188,6 +213,8 @@ static const struct kd_sentence sentences[] = {
     { "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
     { "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay", NULL },
     { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no more", stands },
+    { "bodies: those of a playground are where they are at its time, and move past an observer of zero angular momentum", shown },
+    { "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v", by_potential },
     { "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
     { "bodies: one that is smaller than a pixel may lie between its rays", NULL },
 };
@@ -202,7 +229,7 @@ const struct kd_emitter kd_emit_bodies = {
     .own = &kd_own_bodies,
     .device_bytes = device_bytes,
     .fill = fill,
-    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies), KD_SCENE_PART(top) },
+    .depends = { KD_SCENE_PART(spacetime), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(bodies), KD_SCENE_PART(top), KD_SCENE_PART(crowd) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
     .reads = &kd_emit_disk,

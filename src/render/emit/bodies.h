@@ -4,30 +4,29 @@
 #define KD_RENDER_EMIT_BODIES_H
 
 #include "render/emit/emission.h"
+#include "scene/crowd.h"
 #include "scene/scene.h"
 
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_SEEN_BODIES 4096 /* at most */
+#define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* at most */
 
-struct kd_seen_body {
-    double r, u, s, phi;     /* Boyer-Lindquist: radius outside the outer horizon; cosine and sine of the polar angle; azimuth, in the hole's own frame */
-    double velocity[3];      /* along e_r, e_theta, e_phi of the observer of zero angular momentum there, less than 1 in all */
-    double radius;           /* in its own frame; 0 or less: it is not seen */
-    uint32_t which;          /* what a pixel that shows it is told: its place in whoever's list */
-    double temperature_k, brightness, limb_darkening; /* as bodies.* of a scene has them */
-};
+/* Where all is seen from: the hole's spin, the observer's azimuth; temperature that the disk's brightness 1 is of. */
+struct kd_bodies_view { double spin, azimuth, peak_k; };
 
 /* Counts the floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
-/* Writes them, and the numbers of *out. spin: of the hole; azimuth: the observer's; peak_k: temperature that the disk's brightness 1 is of. n at most
- * KD_SEEN_BODIES. Some 10 us of 16 bodies. Bodies that cannot be, or have no size, are left out: they have none of the numbers above, or are within 1.05 of the horizon's radius. */
-enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, double spin, double azimuth, double peak_k, struct kd_bodies_block *out, float *words,
-                              struct kd_error *error);
+/* Writes them; n at most KD_SEEN_BODIES. Some 10 us of 16 bodies, 2 ms of 4096. Bodies that cannot be, or have no size, are left out: they have none of the
+ * numbers above, or are within KD_BODIES_CLEAR of the horizon's radius. */
+enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, float *words, struct kd_error *error);
+/* Finds the numbers that go with them. */
+void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct kd_bodies_block *out);
+#define KD_BODIES_CLEAR 1.05
 
-/* Lists those of a valid scene as they are at its time. */
-size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body out[KD_SCENE_BODIES]);
+/* Count and list those that a valid scene shows: its own as they are at its time, then those of its crowd. */
+size_t kd_bodies_count(const struct kd_scene *scene);
+size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out);
 
 /* Brings the buffer to what a scene's bodies are (emit/own.h). */
 extern const struct kd_own kd_own_bodies;

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CLEAR 1.05   /* of the horizon's radius */
 #define SINE 1e-4    /* on the axis azimuths stand for nothing */
 
 /* A body with its ball. */
@@ -37,17 +36,14 @@ static double speed2(const struct kd_seen_body *b) { return b->velocity[0] * b->
 
 static bool is_seen(const struct kd_seen_body *b, double spin)
 {
-    return b->radius > 0 && b->r >= CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 && b->s >= 0 && b->s <= 1 && isfinite(b->phi) &&
+    return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 && b->s >= 0 && b->s <= 1 && isfinite(b->phi) &&
            speed2(b) < 1 && isfinite(b->radius) && b->temperature_k > 0 && b->brightness >= 0;
 }
-
-/* Where all is seen from: the hole's spin, the observer's azimuth, the disk's largest temperature. */
-struct view { double spin, azimuth, peak_k; };
 
 static double turn_of(const struct metric *g, const struct kd_seen_body *b) { return g->phi * b->s * g->omega / g->lapse; }
 
 /* Azimuths are mirrored, as the path that is traced has them. What is met of a body at one time of the observer's is longer than it is wide. */
-static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct view *view)
+static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
     const struct metric g = metric_at(view->spin, b);
     const double phi = b->phi - view->azimuth, v2 = speed2(b);
@@ -55,7 +51,7 @@ static struct ball ball_of(const struct kd_seen_body *b, size_t body, const stru
     return (struct ball) { { b->r * b->s * cos(phi), -b->r * b->s * sin(phi), b->r * b->u }, fmin(b->radius * longer, 1e9), body };
 }
 
-static void fill(float *w, const struct kd_seen_body *b, const struct view *view)
+static void fill(float *w, const struct kd_seen_body *b, const struct kd_bodies_view *view)
 {
     const struct metric g = metric_at(view->spin, b);
     const double phi = b->phi - view->azimuth, c = cos(phi), s = sin(phi), sine = fmax(b->s, SINE);
@@ -76,10 +72,36 @@ static void fill(float *w, const struct kd_seen_body *b, const struct view *view
         w[12 + i] = (float)rest[i];
 }
 
-static int by_axis(const struct ball *a, const struct ball *b, int axis) { return (a->at[axis] > b->at[axis]) - (a->at[axis] < b->at[axis]); }
-static int by_x(const void *a, const void *b) { return by_axis(a, b, 0); }
-static int by_y(const void *a, const void *b) { return by_axis(a, b, 1); }
-static int by_z(const void *a, const void *b) { return by_axis(a, b, 2); }
+static void swap(struct ball *a, struct ball *b)
+{
+    const struct ball was = *a;
+    *a = *b;
+    *b = was;
+}
+
+/* The first k become those that lie least far along the axis (C. A. R. Hoare 1961, "Find", Commun. ACM 4, 321). */
+static void part(struct ball *balls, size_t n, size_t k, int axis)
+{
+    size_t low = 0, high = n - 1;
+    while (low < high) {
+        const double middle = balls[(low + high) / 2].at[axis];
+        size_t i = low, j = high;
+        for (;;) {
+            while (balls[i].at[axis] < middle)
+                i++;
+            while (balls[j].at[axis] > middle)
+                j--;
+            if (i >= j)
+                break;
+            swap(&balls[i++], &balls[j--]);
+        }
+        /* Up to j none is beyond `middle`, behind it none is before. */
+        if (k <= j)
+            high = j;
+        else
+            low = j + 1;
+    }
+}
 
 /* The box of some balls: its middle, and the axis along which it is longest. */
 static struct ball round_all(const struct ball *balls, size_t n, int *axis)
@@ -105,12 +127,11 @@ static struct ball round_all(const struct ball *balls, size_t n, int *axis)
     return all;
 }
 
-struct tree { const struct kd_seen_body *bodies; const struct view *view; float *words; uint32_t leaves; };
+struct tree { const struct kd_seen_body *bodies; const struct kd_bodies_view *view; float *words; uint32_t leaves; };
 
 /* Balls go to the leaves below a node, half of them to either side. A leaf without a body is at the hole and of no size, where no ray is near. */
 static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t n)
 {
-    static int (*const by[])(const void *, const void *) = { by_x, by_y, by_z };
     int axis = 0;
     if (!n)
         return;
@@ -122,31 +143,60 @@ static void grow(const struct tree *t, uint32_t node, struct ball *balls, size_t
         fill(t->words + 8 * (size_t)t->leaves + (size_t)KD_BODY_WORDS * (node - t->leaves), &t->bodies[balls[0].body], t->view);
         return;
     }
-    qsort(balls, n, sizeof *balls, by[axis]);
+    part(balls, n, (n + 1) / 2, axis);
     grow(t, 2 * node, balls, (n + 1) / 2);
     grow(t, 2 * node + 1, balls + (n + 1) / 2, n / 2);
 }
 
-enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, double spin, double azimuth, double peak_k, struct kd_bodies_block *out, float *words,
-                              struct kd_error *error)
+/* The balls of those that are seen; they are so many. */
+static size_t seen_of(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct ball *balls)
 {
-    const struct view view = { spin, azimuth, peak_k };
-    struct ball *balls = malloc((n ? n : 1) * sizeof *balls);
-    const struct tree tree = { bodies, &view, words, leaves_of(n) };
     size_t seen = 0;
+    for (size_t i = 0; i < n; i++)
+        if (is_seen(&bodies[i], view->spin))
+            balls[seen++] = ball_of(&bodies[i], i, view);
+    return seen;
+}
+
+enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, float *words, struct kd_error *error)
+{
+    struct ball *balls = malloc((n ? n : 1) * sizeof *balls);
+    const struct tree tree = { bodies, view, words, leaves_of(n) };
     if (!balls)
         return kd_error_set(error, KD_ENOMEM, "out of memory for bodies");
     memset(words, 0, kd_bodies_words(n) * sizeof *words);
-    for (size_t i = 0; i < n; i++)
-        if (is_seen(&bodies[i], spin))
-            balls[seen++] = ball_of(&bodies[i], i, &view);
-    double outermost = 1;
-    for (size_t i = 0; i < seen; i++)
-        outermost = fmax(outermost, bodies[balls[i].body].r + balls[i].reach);
-    grow(&tree, 1, balls, seen);
-    *out = (struct kd_bodies_block) {
-        .least = (float)(1 / outermost), .x = words[4], .y = words[5], .z = words[6], .reach = words[7], .leaves = tree.leaves,
-    };
+    grow(&tree, 1, balls, seen_of(bodies, n, view, balls));
     free(balls);
     return KD_OK;
+}
+
+void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct kd_bodies_block *out)
+{
+    double low[3] = { 0 }, high[3] = { 0 }, outermost = 1, reach = 0;
+    size_t seen = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!is_seen(&bodies[i], view->spin))
+            continue;
+        const struct ball ball = ball_of(&bodies[i], i, view);
+        for (int k = 0; k < 3; k++) {
+            low[k] = seen ? fmin(low[k], ball.at[k] - ball.reach) : ball.at[k] - ball.reach;
+            high[k] = seen ? fmax(high[k], ball.at[k] + ball.reach) : ball.at[k] + ball.reach;
+        }
+        outermost = fmax(outermost, bodies[i].r + ball.reach);
+        seen++;
+    }
+    *out = (struct kd_bodies_block) { .least = (float)(1 / outermost), .leaves = leaves_of(n) };
+    if (!seen)
+        return;
+    const double middle[3] = { 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2]) };
+    for (size_t i = 0; i < n; i++) {
+        if (!is_seen(&bodies[i], view->spin))
+            continue;
+        const struct ball ball = ball_of(&bodies[i], i, view);
+        reach = fmax(reach, hypot(hypot(ball.at[0] - middle[0], ball.at[1] - middle[1]), ball.at[2] - middle[2]) + ball.reach);
+    }
+    out->x = (float)middle[0];
+    out->y = (float)middle[1];
+    out->z = (float)middle[2];
+    out->reach = (float)(reach * (1 + 1e-6));
 }

@@ -3,6 +3,7 @@
 
 #include "image/fits.h"
 #include "physics/scale.h"
+#include "scene/crowd.h"
 #include "scene/table.h"
 
 #include <math.h>
@@ -103,6 +104,13 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!varies(sweep, numbers[i].of[0]) && !(numbers[i].of[1] && varies(sweep, numbers[i].of[1])))
             KD_TRY(put_number(cards, numbers[i].key, numbers[i].value, numbers[i].comment));
+    if (s->crowd.at) {
+        KD_TRY(kd_fits_real(cards, "PLAY_T", s->crowd.at->time, "M; time of the playground that is shown"));
+        KD_TRY(kd_fits_real(cards, "PLAY_N", (double)s->crowd.at->n, "its bodies"));
+        KD_TRY(kd_fits_real(cards, "PLAY_D", s->crowd.at->debris.pieces, "its pieces of debris"));
+    }
+    if (s->crowd.at && *s->crowd.at->snapshot)
+        KD_TRY(kd_fits_text(cards, "PLAYSHA", s->crowd.at->snapshot, "SHA-256"));
 done:
     return status;
 }

@@ -1,6 +1,11 @@
 #include "render/output/notes.h"
 
+#include "scene/crowd.h"
+
 #include <stdio.h>
+#include <string.h>
+
+#define PLAYGROUND "playground" /* a member that no scene has */
 
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan *plan, char out[KD_ACCURACY_TEXT])
 {
@@ -54,13 +59,24 @@ static enum kd_status join_approximations(const struct kd_plan *plan, struct kd_
     return status;
 }
 
+/* The canonical scene; of a picture that shows a playground it is no scene that can be read again, and says of what state it was made. */
+static enum kd_status put_scene(const struct kd_scene *scene, struct kd_buffer *out)
+{
+    const struct kd_crowd *crowd = scene->crowd.at;
+    enum kd_status status = kd_scene_to_json(scene, out);
+    if (status || !crowd)
+        return status;
+    out->size--; /* the last brace */
+    return kd_buffer_printf(out, ",\"" PLAYGROUND "\":{\"t\":%.17g,\"bodies\":%zu,\"debris\":%u,\"snapshot\":\"%s\"}}", crowd->time, crowd->n, crowd->debris.pieces, crowd->snapshot);
+}
+
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error)
 {
     *out = (struct kd_notes) { 0 };
     kd_accuracy_text(&picture->frame->accuracy, picture->plan, out->accuracy);
     kd_fall_clock_text(picture->scene, out->clock);
     enum kd_status status;
-    KD_TRY(kd_scene_to_json(picture->scene, &out->scene));
+    KD_TRY(put_scene(picture->scene, &out->scene));
     KD_TRY(kd_scene_hash(picture->scene, out->hash));
     KD_TRY(join_approximations(picture->plan, &out->approximations));
 done:
@@ -75,6 +91,9 @@ void kd_notes_finish(struct kd_notes *notes)
 
 enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *out, struct kd_error *error)
 {
+    if (length && memmem(text, length, ",\"" PLAYGROUND "\":{", sizeof PLAYGROUND + 4))
+        return kd_error_set(error, KD_EINVAL, "the picture shows a playground, which its scene does not hold: make it again of the playground's snapshot, by "
+                                              "kerrd playground SNAPSHOT.json --picture FILE");
     struct kd_scene scene; /* *out stays as it was when the document is refused */
     kd_scene_smooth(&scene); /* the document is whole: what it lacks was not there when it was written */
     enum kd_status status = kd_scene_from_json(&scene, text, length, error);

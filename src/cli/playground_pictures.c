@@ -1,0 +1,157 @@
+#include "cli/playground_pictures.h"
+
+#include "cli/cli.h"
+#include "cli/file.h"
+#include "cli/progress.h"
+#include "playground/hole.h"
+#include "playground/json.h"
+#include "playground/show.h"
+#include "scene/sha256.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One %d, perhaps with a width: where it is, and how long; NULL: there is none, or there is something else that printf would take. */
+static const char *number_in(const char *path, int *length)
+{
+    const char *at = strchr(path, '%'), *end = at;
+    if (!at || strchr(at + 1, '%'))
+        return NULL;
+    end += 1 + strspn(at + 1, "0123456789");
+    if (*end != 'd' || end - at > 4)
+        return NULL;
+    *length = (int)(end - at) + 1;
+    return at;
+}
+
+enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error)
+{
+    int length;
+    if (!asked->path)
+        return asked->every > 0 ? kd_error_set(error, KD_EINVAL, "--every is for --picture FILE, which is missing") : KD_OK;
+    if (!kd_format_of_path(asked->path))
+        return kd_error_set(error, KD_EINVAL, "--picture is \"%s\", allowed is a name that ends in .png, .fits, .exr, .npz or .npy", asked->path);
+    if (asked->every > 0 && !number_in(asked->path, &length))
+        return kd_error_set(error, KD_EINVAL, "--picture is \"%s\", allowed with --every is a name with one %%d in it, as film/%%05d.png", asked->path);
+    return KD_OK;
+}
+
+/* As wide as its bodies are far out. */
+static enum kd_status widen(struct kd_scene *scene, const struct kd_playground *p, struct kd_error *error)
+{
+    double farthest = 0;
+    for (size_t i = 0; i < p->n; i++)
+        farthest = fmax(farthest, kd_playground_radius(p->bodies[i].x) + p->bodies[i].radius);
+    char text[40];
+    snprintf(text, sizeof text, "%.9g", fmin(fmax(2.4 * farthest, scene->camera.field_m), 1e6));
+    return kd_scene_set(scene, "camera.field_m", text, error);
+}
+
+/* A scene that nobody names has the spin that the playground has. */
+static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
+{
+    enum kd_status status;
+    if (asked->scene.document || asked->scene.preset)
+        return kd_scene_options_load(&asked->scene, out, error);
+    kd_scene_defaults(out);
+    out->spacetime.spin = p->params.spin;
+    status = view ? kd_scene_from_json(out, view, strlen(view), error) : widen(out, p, error);
+    return status ? status : kd_scene_options_merge(&asked->scene, out, error);
+}
+
+enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p, struct kd_pictures *out, struct kd_error *error)
+{
+    enum kd_status status;
+    *out = (struct kd_pictures) { .asked = asked };
+    out->format = kd_format_of_path(asked->path);
+    KD_TRY(load(asked, view, p, &out->scene, error));
+    KD_TRY(kd_playground_may_show(p, &out->scene, error));
+    out->assets = kd_asset_options_assets(&asked->scene.assets);
+    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = asked->device, .memory_bytes = asked->memory, .assets = &out->assets }, &out->renderer, error));
+done:
+    return status;
+}
+
+/* The name of the next one. */
+static void name_of(const struct kd_pictures *p, char out[4096])
+{
+    int length;
+    const char *at = p->asked->every > 0 ? number_in(p->asked->path, &length) : NULL;
+    if (!at) {
+        snprintf(out, 4096, "%s", p->asked->path);
+        return;
+    }
+    const int width = atoi(at + 1); /* behind a 0 or not: numbers in names are filled up with zeros */
+    snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
+}
+
+/* Which state it is: a picture says so. */
+static enum kd_status name_state(struct kd_playground *p, struct kd_crowd *crowd, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status = kd_playground_write(p, true, &text);
+    if (status)
+        kd_error_set(error, status, "out of memory for a snapshot");
+    else
+        kd_sha256(text.data, text.size, crowd->snapshot);
+    kd_buffer_finish(&text);
+    return status;
+}
+
+static enum kd_status render(struct kd_pictures *p, struct kd_scene *scene, struct kd_buffer *file, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_frame frame = { 0 };
+    struct kd_progress progress;
+    enum kd_status status;
+    kd_renderer_capacity(p->renderer, &capacity);
+    KD_TRY(kd_format_plan(p->format, scene, &capacity, &plan, error));
+    kd_progress_init(&progress);
+    kd_progress_catch_signals();
+    status = kd_render(p->renderer, scene, &plan, kd_progress_update, &progress, &frame, error);
+    kd_progress_finish(&progress);
+    p->ms += 1e3 * (kd_progress_clock() - progress.started);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    KD_TRY(status);
+    const struct kd_picture picture = { &frame, scene, &plan, kd_renderer_device_name(p->renderer), p->made };
+    KD_TRY(kd_encode(p->format, &picture, KD_EFFORT_KEEP, &p->encoder, file, error));
+done:
+    kd_frame_finish(&frame);
+    return status;
+}
+
+enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playground *p, struct kd_error *error)
+{
+    struct kd_crowd *crowd = NULL;
+    struct kd_buffer file = { 0 };
+    struct kd_scene scene = pictures->scene;
+    char path[4096];
+    enum kd_status status;
+    KD_TRY(kd_playground_show(p, &crowd, error));
+    KD_TRY(name_state(p, crowd, error));
+    kd_scene_show(&scene, crowd);
+    scene.top.time += p->t;
+    KD_TRY(kd_scene_validate(&scene, error));
+    KD_TRY(render(pictures, &scene, &file, error));
+    name_of(pictures, path);
+    KD_TRY(kd_file_write(path, &file, error));
+    pictures->made++;
+done:
+    kd_crowd_release(crowd);
+    kd_buffer_finish(&file);
+    return status;
+}
+
+void kd_pictures_finish(struct kd_pictures *pictures)
+{
+    if (pictures->asked && pictures->asked->stats && pictures->made)
+        fprintf(stderr, "{\"pictures\":%u,\"render_s\":%.3f}\n", pictures->made, 1e-3 * pictures->ms);
+    kd_encoder_finish(&pictures->encoder);
+    kd_renderer_destroy(pictures->renderer);
+    *pictures = (struct kd_pictures) { 0 };
+}

@@ -1,0 +1,184 @@
+#include "playground/show.h"
+
+#include "playground/hole.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LIMB 0.6    /* as the default of bodies.limb_darkening */
+#define PER_CELL 6. /* pieces that there are in cells which have any, in the mean and at least */
+
+/* What an observer of zero angular momentum sees of a velocity by Newton, over it. */
+static double slower(const double v[3], bool approximate)
+{
+    const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    return approximate ? 1 / sqrt(1 + v2) : 1;
+}
+
+static void show_body(const struct kd_playground_body *body, uint32_t which, bool approximate, struct kd_seen_body *out)
+{
+    const struct kd_playground_spherical at = kd_playground_spherical(body->x, body->v);
+    const double slow = slower(at.v, approximate);
+    *out = (struct kd_seen_body) {
+        .r = at.r, .u = cos(at.theta), .s = sin(at.theta), .phi = at.phi, .velocity = { slow * at.v[0], slow * at.v[1], slow * at.v[2] },
+        .radius = body->radius, .which = which, .temperature_k = body->temperature_k, .brightness = 1, .limb_darkening = LIMB,
+    };
+}
+
+void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_show_place *out)
+{
+    const float cells = (float)(KD_SHOW_TURN_MOST / (2 * M_PI)), turn = KD_SHOW_TURN_MOST;
+    for (size_t i = 0; i < n; i++) {
+        const float x = pieces[i].x[0], y = pieces[i].x[1], z = pieces[i].x[2], r2 = x * x + y * y + z * z, across2 = x * x + y * y;
+        float column = cells * atan2f(y, x);
+        column += column < 0 ? turn : 0;
+        const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 < 1e30f;
+        out[i] = somewhere ? (struct kd_show_place) { 0.5f * cells * logf(r2), column < turn ? column : 0 } : (struct kd_show_place) { NAN, NAN };
+    }
+}
+
+/* Cells of the coarsest grid that have pieces: how many, and in which columns and rows they are. */
+struct taken {
+    size_t cells, pieces;
+    int32_t rows[2];
+    bool column[KD_SHOW_TURN_LEAST];
+};
+
+enum { COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST, LOW = -1024, HIGH = 3072 }; /* rows of it: of any r that there is */
+
+static bool take(const struct kd_show_place *places, size_t n, struct taken *out)
+{
+    uint8_t *seen = calloc((size_t)(HIGH - LOW) * KD_SHOW_TURN_LEAST / 8, 1);
+    *out = (struct taken) { .rows = { INT32_MAX, INT32_MIN } };
+    for (size_t i = 0; seen && i < n; i++) {
+        if (isnan(places[i].row))
+            continue;
+        const int32_t row = (int32_t)floorf(places[i].row / COARSER), column = (int32_t)(places[i].column / COARSER);
+        const size_t cell = (size_t)(row - LOW) * KD_SHOW_TURN_LEAST + (size_t)column;
+        out->cells += !(seen[cell / 8] >> cell % 8 & 1);
+        seen[cell / 8] |= (uint8_t)(1 << cell % 8);
+        out->pieces++;
+        out->column[column] = true;
+        out->rows[0] = row < out->rows[0] ? row : out->rows[0];
+        out->rows[1] = row > out->rows[1] ? row : out->rows[1];
+    }
+    free(seen);
+    return seen;
+}
+
+/* The columns that are left beside the widest gap: where they begin, and how many they are. */
+static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, uint32_t *count)
+{
+    uint32_t widest = 0, run = 0;
+    *first = 0;
+    for (uint32_t i = 0; i < 2 * KD_SHOW_TURN_LEAST; i++) {
+        run = column[i % KD_SHOW_TURN_LEAST] ? 0 : run + 1;
+        if (run > widest && run < KD_SHOW_TURN_LEAST) {
+            widest = run;
+            *first = (i + 1) % KD_SHOW_TURN_LEAST;
+        }
+    }
+    *count = KD_SHOW_TURN_LEAST - widest;
+}
+
+/* Cells are as small as they may be with a handful of pieces in each that has any, by those of the coarsest grid: a stream is narrower than these, and
+ * has more. A grid that does not go all round ends a node behind its last cell. */
+void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_debris *out)
+{
+    struct taken taken;
+    uint32_t first, columns, finer = 1;
+    *out = (struct kd_crowd_debris) { 0 };
+    if (!take(places, n, &taken) || !taken.pieces)
+        return;
+    beside_gap(taken.column, &first, &columns);
+    const double rows = taken.rows[1] - taken.rows[0] + 1, mean = (double)taken.pieces / (double)taken.cells;
+    const bool round_ = columns == KD_SHOW_TURN_LEAST;
+    while (finer < COARSER && mean >= PER_CELL * 4 * finer * finer && (2 * finer * rows + 1) * (2 * finer * columns + 1) <= KD_SHOW_NODES)
+        finer *= 2;
+    *out = (struct kd_crowd_debris) {
+        .turn = finer * KD_SHOW_TURN_LEAST, .rows = finer * (uint32_t)rows + 1, .columns = finer * columns + !round_,
+        .first_row = (int32_t)finer * taken.rows[0], .first_column = finer * first,
+    };
+}
+
+/* Two nodes of one row. */
+static void add(float *left, float *right, float share, float worth, float vr, float vphi)
+{
+    float *const to[2] = { left, right }, shares[2] = { worth * (1 - share), worth * share };
+    for (int k = 0; k < 2; k++) {
+        to[k][0] += shares[k];
+        to[k][1] += shares[k] * vr;
+        to[k][2] += shares[k] * vphi;
+    }
+}
+
+/* What moves so fast as seen by the observer of zero angular momentum, along e_r and e_phi. */
+static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
+{
+    const float *x = p->x, *v = p->v, across = hypotf(x[0], x[1]), r = hypotf(across, x[2]), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const float slow = approximate ? 1 / sqrtf(1 + v2) : 1;
+    out[0] = slow * (x[0] * v[0] + x[1] * v[1] + x[2] * v[2]) / r;
+    out[1] = slow * (x[0] * v[1] - x[1] * v[0]) / across;
+}
+
+void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n, double worth, bool approximate, struct kd_crowd_debris *to)
+{
+    const float scale = (float)to->turn / KD_SHOW_TURN_MOST, turn = (float)to->turn;
+    const size_t width = KD_CROWD_NODE * (size_t)to->columns;
+    double thick = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (isnan(places[i].row)) {
+            to->hidden += pieces[i].stage != KD_DEBRIS_FREE;
+            continue;
+        }
+        const float row = scale * places[i].row - (float)to->first_row, from = scale * places[i].column - (float)to->first_column;
+        const float column = from < 0 ? from + turn : from, *x = pieces[i].x;
+        const uint32_t k = (uint32_t)fminf(fmaxf(row, 0), (float)(to->rows - 2)), j = (uint32_t)fminf(column, (float)(to->columns - (to->columns == to->turn ? 1 : 2)));
+        const float upper = row - (float)k, right = column - (float)j;
+        float *node = to->nodes + k * width + KD_CROWD_NODE * (size_t)j, *next = j + 1 < to->columns ? node + KD_CROWD_NODE : to->nodes + k * width, v[2];
+        seen_velocity(&pieces[i], approximate, v);
+        add(node, next, right, (float)worth * (1 - upper), v[0], v[1]);
+        add(node + width, next + width, right, (float)worth * upper, v[0], v[1]);
+        thick += fabsf(x[2]) / sqrtf(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+        to->pieces++;
+    }
+    to->thick = to->pieces ? thick / to->pieces : 0;
+}
+
+enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd **out, struct kd_error *error)
+{
+    const bool approximate = p->params.gravity == KD_GRAVITY_PACZYNSKI_WIITA;
+    const size_t n = p->debris.used;
+    struct kd_show_place *places = malloc((n + 1) * sizeof *places);
+    struct kd_crowd_debris grid = { 0 };
+    struct kd_crowd *crowd = NULL;
+    enum kd_status status = places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
+    KD_TRY(status);
+    kd_show_places(p->debris.pieces, n, places);
+    if (p->debris.alive)
+        kd_show_grid(places, n, &grid);
+    KD_TRY(kd_crowd_create(p->n, grid.rows, grid.columns, &crowd, error));
+    for (size_t i = 0; i < p->n; i++)
+        show_body(&p->bodies[i], (uint32_t)i, approximate, &crowd->bodies[i]);
+    grid.nodes = crowd->debris.nodes;
+    grid.temperature_k = p->params.debris_temperature_k;
+    grid.depth = p->params.debris_depth;
+    crowd->debris = grid;
+    crowd->time = p->t;
+    crowd->approximate = approximate;
+    if (grid.rows)
+        kd_show_share_out(p->debris.pieces, places, n, 1.0 / p->params.debris_per_body, approximate, &crowd->debris);
+    *out = crowd;
+done:
+    free(places);
+    return status;
+}
+
+enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene, struct kd_error *error)
+{
+    if (p->params.gravity == KD_GRAVITY_KERR && p->params.spin != scene->spacetime.spin)
+        return kd_error_field(error, "/spacetime/spin", "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
+                              scene->spacetime.spin, p->params.spin);
+    return KD_OK;
+}

@@ -1,0 +1,332 @@
+/* A playground in pictures: where the images of its bodies are, and which of them hides which, by the Kerr-Schild oracle; that one of its bodies is seen
+ * as one of a scene is, before and behind the disk and the hole; the light of its debris; and crowds that cannot be. */
+#include "render_support.h"
+
+#include "kerr_schild.h"
+#include "playground/show.h"
+
+#include <math.h>
+
+enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, MOST = 8, MANY = 4096 };
+#define RADIUS 0.15
+#define LEAST_K 3000.0 /* bodies are told by their temperatures: one is 2 K hotter than the one before */
+
+static struct kd_scene scene_of(const char *json)
+{
+    struct kd_scene scene;
+    kd_scene_smooth(&scene);
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    scene.image.critical_factor = 1;
+    scene.disk.model = KD_DISK_NONE;
+    OK(kd_scene_from_json(&scene, json, strlen(json), &error));
+    return scene;
+}
+
+static const float *layer_of(const struct kd_frame *frame, const char *name)
+{
+    const struct kd_layer *layer = kd_frame_layer(frame, name);
+    assert_non_null(layer);
+    return layer->data;
+}
+
+static uint32_t seed = 11;
+static double chance(void)
+{
+    seed = seed * 1664525 + 1013904223;
+    return (seed >> 8) * 0x1p-24;
+}
+
+/* Bodies all round the hole, from 7.5 to 20 M. */
+static struct kd_playground *many(double spin)
+{
+    struct kd_playground_params params = kd_playground_defaults();
+    struct kd_playground *p;
+    params.gravity = KD_GRAVITY_KERR;
+    params.spin = spin;
+    OK(kd_playground_create(&params, &p, &error));
+    for (int i = 0; i < MANY;) {
+        const double r = 7.5 + 12.5 * chance(), u = 1.8 * chance() - 0.9, s = sqrt(1 - u * u), phi = 2 * M_PI * chance();
+        struct kd_playground_body body = { .mass = 1e-9, .radius = RADIUS, .temperature_k = LEAST_K + 2 * i,
+                                           .x = { r * s * cos(phi), r * s * sin(phi), r * u }, .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
+        struct kd_error none; /* some motions are as good as on the edge between two kinds: others are drawn */
+        i += !kd_playground_add(p, &body, NULL, &none);
+    }
+    return p;
+}
+
+static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, double alpha, double beta, double within, double *delay)
+{
+    struct ks_near at[MOST];
+    const double theta = scene->camera.inclination_deg * M_PI / 180;
+    const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi, within, MOST, at);
+    double least = INFINITY;
+    for (int i = 0; i < n; i++) /* the first that meets it, else the nearest */
+        if (least > RADIUS && at[i].b < least) {
+            least = at[i].b;
+            *delay = at[i].delay;
+        }
+    return least;
+}
+
+/* The middle of an image near a place; how wide it is. 0: none was found. */
+static double image_near(const struct kd_scene *scene, const struct kd_seen_body *b, double at[2], double step)
+{
+    double delay, least = pass(scene, b, at[0], at[1], 8, &delay);
+    for (int tries = 0; tries < 60 && least > 0.1 * RADIUS; tries++) {
+        double best[2] = { at[0], at[1] };
+        for (int k = 0; k < 8; k++) {
+            const double x = at[0] + step * cos(k * M_PI / 4), y = at[1] + step * sin(k * M_PI / 4), off = pass(scene, b, x, y, 8, &delay);
+            if (off < least) {
+                least = off;
+                best[0] = x;
+                best[1] = y;
+            }
+        }
+        if (best[0] == at[0] && best[1] == at[1])
+            step *= 0.5;
+        at[0] = best[0];
+        at[1] = best[1];
+    }
+    if (least > 0.5 * RADIUS)
+        return 0;
+    double far = 1e-3;
+    while (far < 2 && pass(scene, b, at[0] + far * 0.8, at[1] + far * 0.6, 8, &delay) < RADIUS)
+        far *= 1.3;
+    return far;
+}
+
+struct judged { int shown, hidden, images; double worst; };
+
+/* A picture of one image: each pixel shows the body where the oracle says so, or one that the ray met before. */
+static void judge(struct kd_scene scene, const struct kd_crowd *crowd, uint32_t which, const double at[2], double size, struct judged *sum)
+{
+    char set[64];
+    const double field = 5 * size, step = field / WIDTH;
+    snprintf(set, sizeof set, "%.9g", field);
+    OK(kd_scene_set(&scene, "camera.field_m", set, &error));
+    scene.camera.centre_alpha = at[0];
+    scene.camera.centre_beta = at[1];
+    struct kd_frame frame = rendered(&scene);
+    const float *kelvin = layer_of(&frame, "temperature");
+    int lit = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const double x = at[0] + step * (i % WIDTH + 0.5 - 0.5 * WIDTH), y = at[1] - step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
+        double delay, before;
+        const bool there = pass(&scene, &crowd->bodies[which], x, y, 4, &delay) < RADIUS;
+        const long seen = isnan(kelvin[i]) ? -1 : lround((kelvin[i] - LEAST_K) / 2);
+        bool right = (seen == which) == there;
+        if (there && seen >= 0 && seen != which) { /* another one: it lies before this one */
+            assert_true(seen < MANY);
+            right = pass(&scene, &crowd->bodies[seen], x, y, 4, &before) < 1.02 * RADIUS && before < delay + 0.1;
+            sum->hidden += right;
+        }
+        lit += there;
+        sum->shown += there && seen == which;
+        for (double reach = 0.02; !right && reach < 1; reach += 0.02)
+            for (int k = 0; k < 12 && !right; k++) {
+                right = (pass(&scene, &crowd->bodies[which], x + reach * step * cos(k * M_PI / 6), y + reach * step * sin(k * M_PI / 6), 4, &delay) < RADIUS) == (seen == which);
+                sum->worst = fmax(sum->worst, reach);
+            }
+        if (!right)
+            fail_msg("body %u, pixel %d: the picture has %ld, the oracle %s", which, i, seen, there ? "this one" : "another or none");
+    }
+    sum->images += lit >= 4;
+    kd_frame_finish(&frame);
+}
+
+static void test_places(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70},\"spacetime\":{\"spin\":0.7},\"disk\":{\"inner\":5,\"outer\":5.001},\"image\":{\"layers\":[\"rgb\",\"temperature\"]}}");
+    struct kd_playground *p = many(scene.spacetime.spin);
+    struct kd_crowd *crowd;
+    struct judged first = { 0 }, second = { 0 };
+    OK(kd_playground_may_show(p, &scene, &error));
+    OK(kd_playground_show(p, &crowd, &error));
+    kd_playground_destroy(p);
+    kd_scene_show(&scene, crowd);
+    for (uint32_t i = 0; i < 40; i++) {
+        const uint32_t which = i * 101 + 7;
+        const struct kd_seen_body *b = &crowd->bodies[which];
+        const double theta = scene.camera.inclination_deg * M_PI / 180, c = cos(theta), s = sin(theta);
+        const double x[3] = { b->r * b->s * cos(b->phi), b->r * b->s * sin(b->phi), b->r * b->u };
+        const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] }, impact = hypot(across[0], across[1]);
+        double at[2] = { across[0], across[1] }, size;
+        if (ahead < 0 || impact > 6) { /* light that comes by the hole is bent */
+            const double more = impact < 8 && ahead < 0 ? sqrt(impact * impact + 4 * -ahead) : impact + 1;
+            at[0] *= more / fmax(impact, 0.1);
+            at[1] *= more / fmax(impact, 0.1);
+        }
+        size = image_near(&scene, b, at, 1);
+        if (size > 0)
+            judge(scene, crowd, which, at, size, &first);
+        /* On the other side of the hole. */
+        double other[2] = { -5.6 * across[0] / fmax(impact, 0.1), -5.6 * across[1] / fmax(impact, 0.1) };
+        size = i % 2 ? image_near(&scene, b, other, 0.4) : 0;
+        if (size > 0 && hypot(other[0] - at[0], other[1] - at[1]) > 1)
+            judge(scene, crowd, which, other, size, &second);
+    }
+    printf("%d images of order 0: %d pixels, %d behind others, edges off by %.2g pixels; %d of order 1: %d pixels, %d behind others, %.2g\n", first.images, first.shown,
+           first.hidden, first.worst, second.images, second.shown, second.hidden, second.worst);
+    assert_true(first.images >= 30 && second.images >= 5 && first.worst < 0.5 && second.worst < 0.5);
+    kd_crowd_release(crowd);
+}
+
+static struct kd_crowd *one(const struct kd_seen_body *body, size_t n)
+{
+    struct kd_crowd *crowd;
+    OK(kd_crowd_create(n, 0, 0, &crowd, &error));
+    for (size_t i = 0; i < n; i++)
+        crowd->bodies[i] = *body;
+    return crowd;
+}
+
+/* What a scene's own body shows, hides and is hidden by is judged in test_bodies.c: one of a playground is the same to the bit. */
+static void test_as_a_scene_has_it(void **state)
+{
+    (void)state;
+    static const double phases[] = { 20, 150, -170 };
+    for (int k = 0; k < 3; k++) {
+        char json[256];
+        snprintf(json, sizeof json, "{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\"},\"image\":{\"layers\":[\"rgb\",\"intensity\"]},"
+                 "\"bodies\":[{\"radius\":3,\"r\":14,\"phase_deg\":%g,\"inclination_deg\":65,\"motion\":\"zamo\"}]}", phases[k]);
+        struct kd_scene own = scene_of(json), other = own;
+        const struct kd_body *b = &own.bodies.at[0];
+        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = b->r, .u = cos(65 * M_PI / 180), .s = sin(65 * M_PI / 180), .phi = phases[k] * M_PI / 180,
+                                                             .radius = b->radius, .temperature_k = b->temperature_k, .brightness = 1, .limb_darkening = b->limb_darkening }, 1);
+        other.bodies.at[0].radius = 0;
+        kd_scene_show(&other, crowd);
+        struct kd_frame a = rendered(&own), c = rendered(&other);
+        int lit = 0;
+        assert_true(c.lens_reused);
+        for (int i = 0; i < PIXELS; i++) {
+            const float x = layer_of(&a, "intensity")[i], y = layer_of(&c, "intensity")[i];
+            if (fabsf(x - y) > 1e-5f * x)
+                fail_msg("phase %g, pixel %d: %g, not %g", phases[k], i, y, x);
+            lit += x > 0;
+        }
+        assert_true(lit > 20);
+        kd_frame_finish(&a);
+        kd_frame_finish(&c);
+        kd_crowd_release(crowd);
+    }
+}
+
+/* 1/g of what moves with (v_r, v_phi) past the observer of zero angular momentum, by the photon's own components, in the equatorial plane. */
+static double shift_of(double a, double r, const struct ks_photon *p, double p_z, bool falls, const double v[2])
+{
+    const double delta = r * r - 2 * r + a * a, area = (r * r + a * a) * (r * r + a * a) - a * a * delta, k = p->momentum - a * p->energy;
+    const double w = (r * r + a * a) * p->energy - a * p->momentum, radial = sqrt(fmax(w * w - delta * (k * k + r * r * p_z * p_z), 0)) / delta;
+    const double p_r = falls ? -radial : radial, omega = 2 * a * r / area, lapse = r * sqrt(delta / area), gamma = 1 / sqrt(1 - v[0] * v[0] - v[1] * v[1]);
+    return gamma * ((p->energy - omega * p->momentum) / lapse - v[0] * p_r * sqrt(delta) / r - v[1] * p->momentum * r / sqrt(area));
+}
+
+static void test_debris(void **state)
+{
+    (void)state;
+    static const double velocities[][2] = { { 0, 0 }, { -0.4, 0.3 }, { 0.5, -0.2 } };
+    for (int k = 0; k < 3; k++) {
+        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":44},\"spacetime\":{\"spin\":0.8},\"accuracy\":{\"orders\":1},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
+        const double cell = 2 * M_PI / 512, worth = 3e-5, kelvin = 5000, *v = velocities[k];
+        const int32_t from = (int32_t)floor(log(4) / cell);
+        struct kd_crowd *crowd;
+        const uint32_t rows = (uint32_t)ceil(log(18) / cell) - (uint32_t)from;
+        OK(kd_crowd_create(0, rows, 512, &crowd, &error));
+        crowd->debris.turn = 512;
+        crowd->debris.first_row = from;
+        crowd->debris.depth = 1;
+        crowd->debris.temperature_k = kelvin;
+        for (uint32_t i = 0; i < rows * 512; i++) {
+            float *node = crowd->debris.nodes + 3 * i;
+            node[0] = (float)(worth * (1 + 0.5 * sin(2 * M_PI * (i % 512) / 512.0)));
+            node[1] = node[0] * (float)v[0];
+            node[2] = node[0] * (float)v[1];
+        }
+        kd_scene_show(&scene, crowd);
+        struct kd_frame frame = rendered(&scene);
+        int lit = 0;
+        double worst = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            const double step = 44.0 / WIDTH, x = step * (i % WIDTH + 0.5 - 0.5 * WIDTH), y = -step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
+            const struct ks_photon photon = ks_from_infinity(0.8, 0.5, x, y);
+            const struct ks_path path = ks_trace(photon, 1);
+            const double inner = exp(from * cell), outer = exp((from + rows - 1.0) * cell), r = path.crossings ? path.r[0] : 0;
+            const float seen = layer_of(&frame, "intensity")[i];
+            if (fabs(r - inner) < 0.01 * inner || fabs(r - outer) < 0.01 * outer)
+                continue;
+            if (r < inner || r > outer) {
+                assert_true(seen == 0);
+                continue;
+            }
+            const double depth = 1000 * worth * (1 + 0.5 * sin(path.phi[0])) / (cell * cell * r * r);
+            const double t = kelvin / scene.disk.peak_temperature_k / shift_of(0.8, r, &photon, path.p_z[0], path.falls[0], v), want = (1 - exp(-depth)) * t * t * t * t;
+            worst = fmax(worst, fabs(seen / want - 1));
+            lit++;
+        }
+        printf("debris of velocity %g, %g: %d pixels, worst %.2g\n", v[0], v[1], lit, worst);
+        assert_true(lit > 60 && worst < 1e-3);
+        kd_frame_finish(&frame);
+        kd_crowd_release(crowd);
+    }
+}
+
+/* All of them leave numbers in all pixels. */
+static void test_adversarial(void **state)
+{
+    (void)state;
+    const struct kd_seen_body plain = { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000, .brightness = 1 };
+    for (int k = 0; k < 8; k++) {
+        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\"},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
+        struct kd_seen_body body = plain;
+        body.r = k == 1 ? 1.2 : k == 2 ? NAN : k == 3 ? 0 : body.r;
+        body.velocity[0] = k == 4 ? 1 : k == 5 ? -0.9999999 : 0;
+        body.radius = k == 6 ? INFINITY : body.radius;
+        body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
+        struct kd_crowd *crowd = one(&body, k == 5 ? 64 : MANY); /* what moves so is long: none of them is passed by */
+        for (size_t i = 0; k == 7 && i < MANY; i++) { /* everywhere, and everything */
+            crowd->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
+            crowd->bodies[i].phi = 1e3 * chance();
+            crowd->bodies[i].radius = 1e3 * pow(chance(), 9);
+        }
+        kd_scene_show(&scene, crowd);
+        struct kd_frame frame = rendered(&scene);
+        for (int i = 0; i < PIXELS; i++)
+            if (!(layer_of(&frame, "intensity")[i] >= 0 && isfinite(layer_of(&frame, "intensity")[i])))
+                fail_msg("crowd %d, pixel %d: %g", k, i, layer_of(&frame, "intensity")[i]);
+        printf("crowd %d: march %.3g ms, %llu given up\n", k, timing_of(&frame, "march"), (unsigned long long)frame.accuracy.undecided);
+        kd_frame_finish(&frame);
+        kd_crowd_release(crowd);
+    }
+}
+
+/* A scene without one costs nothing: no emitter of it is in the plan. */
+static void test_off(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of("{\"disk\":{\"model\":\"novikov-thorne\"}}"), shown = scene;
+    struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = 12, .s = 1, .radius = 1, .temperature_k = 6000 }, 0);
+    struct kd_capacity c;
+    struct kd_plan without, with;
+    kd_scene_show(&shown, crowd);
+    kd_renderer_capacity(renderer, &c);
+    OK(kd_plan_make(&scene, &c, &without, &error));
+    OK(kd_plan_make(&shown, &c, &with, &error));
+    assert_memory_equal(without.traits, with.traits, sizeof with.traits);
+    assert_string_equal(without.lens_key, with.lens_key);
+    assert_true(!with.march.steps);
+    kd_crowd_release(crowd);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_as_a_scene_has_it),
+        cmocka_unit_test(test_debris),
+        cmocka_unit_test(test_adversarial),
+        cmocka_unit_test(test_off),
+    };
+    int code = open_renderer();
+    return code ? code : close_renderer(cmocka_run_group_tests(tests, NULL, NULL));
+}

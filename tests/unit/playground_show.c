@@ -1,0 +1,217 @@
+/* What pictures are made of: bodies of a playground by the metric's coordinates, and its debris on a grid, which holds as much as the pieces. */
+#include "playground_support.h"
+
+#include "playground/debris.h"
+#include "playground/show.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static struct kd_crowd *shown(struct kd_playground *p)
+{
+    struct kd_crowd *crowd;
+    struct kd_error error = { 0 };
+    if (kd_playground_show(p, &crowd, &error))
+        fail_msg("%s", error.message);
+    return crowd;
+}
+
+/* Places are the body's; the energy of what moves by Newton, u^2/2, is (gamma v)^2/2, and its direction stays. */
+static void bodies(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_make(playground_quiet());
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 0, 3, 4 }, .v = { -0.6, 0, 0.5 } });
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.2, .temperature_k = 9000, .x = { 2.5, 0, 0 }, .v = { -1, 0, 0 } });
+    struct kd_crowd *crowd = shown(p);
+    const struct kd_seen_body *b = &crowd->bodies[0];
+    double v2 = 0;
+    for (int k = 0; k < 3; k++)
+        v2 += b->velocity[k] * b->velocity[k];
+    assert_true(fabs(b->r - 5) < 1e-12 && fabs(b->u - 0.8) < 1e-12 && fabs(b->s - 0.6) < 1e-12 && fabs(b->phi - M_PI / 2) < 1e-12);
+    assert_true(fabs(v2 / (1 - v2) - 0.61) < 1e-12);
+    assert_true(fabs(b->velocity[0] / b->velocity[2] - 0.4 / 0.6) < 1e-9 && fabs(b->velocity[1] / b->velocity[2] + 0.3 / 0.6) < 1e-9);
+    assert_true(b->radius == 0.3 && b->temperature_k == 4000 && b->brightness == 1 && b->which == 0 && crowd->bodies[1].which == 1);
+    assert_true(fabs(crowd->bodies[1].velocity[0] + M_SQRT1_2) < 1e-12 && crowd->approximate && crowd->time == 0 && !crowd->debris.rows);
+    kd_crowd_release(crowd);
+    kd_playground_destroy(p);
+
+    struct kd_playground_params kerr = playground_quiet();
+    kerr.gravity = KD_GRAVITY_KERR;
+    kerr.spin = 0.9;
+    p = playground_make(kerr);
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.3, .temperature_k = 4000, .x = { 9, 0, 0 }, .v = { 0.1, 0.4, 0 } });
+    crowd = shown(p);
+    assert_true(!crowd->approximate && crowd->bodies[0].velocity[0] == 0.1 && crowd->bodies[0].velocity[2] == 0.4);
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    kd_scene_defaults(&scene);
+    scene.spacetime.spin = 0.5;
+    assert_int_equal(kd_playground_may_show(p, &scene, &error), KD_EINVAL);
+    assert_string_equal(error.pointer, "/spacetime/spin");
+    scene.spacetime.spin = 0.9;
+    assert_int_equal(kd_playground_may_show(p, &scene, &error), KD_OK);
+    kd_crowd_release(crowd);
+    kd_playground_destroy(p);
+}
+
+static uint32_t seed = 5;
+static double chance(void)
+{
+    seed = seed * 1664525 + 1013904223;
+    return (seed >> 8) * 0x1p-24;
+}
+
+static struct kd_debris_piece piece(double r, double phi, double z, double vr, double vphi)
+{
+    struct kd_debris_piece p = { .stage = KD_DEBRIS_LEAVES };
+    p.x[0] = (float)(r * cos(phi));
+    p.x[1] = (float)(r * sin(phi));
+    p.x[2] = (float)z;
+    p.v[0] = (float)(vr * cos(phi) - vphi * sin(phi));
+    p.v[1] = (float)(vr * sin(phi) + vphi * cos(phi));
+    return p;
+}
+
+static struct kd_crowd *grid_of(const struct kd_debris_piece *pieces, size_t n, double worth)
+{
+    struct kd_show_place *places = malloc(n * sizeof *places);
+    struct kd_crowd_debris grid;
+    struct kd_crowd *crowd;
+    assert_non_null(places);
+    kd_show_places(pieces, n, places);
+    kd_show_grid(places, n, &grid);
+    assert_int_equal(kd_crowd_create(0, grid.rows, grid.columns, &crowd, NULL), KD_OK);
+    grid.nodes = crowd->debris.nodes;
+    crowd->debris = grid;
+    kd_show_share_out(pieces, places, n, worth, false, &crowd->debris);
+    free(places);
+    return crowd;
+}
+
+struct sums { double worth, r, phi; };
+static struct sums sums_of(const struct kd_crowd_debris *d)
+{
+    struct sums s = { 0 };
+    for (size_t i = 0; i < (size_t)d->rows * d->columns; i++) {
+        s.worth += d->nodes[3 * i];
+        s.r += d->nodes[3 * i + 1];
+        s.phi += d->nodes[3 * i + 2];
+    }
+    return s;
+}
+
+/* Nothing is lost or made, whatever the shape: a stream across azimuth 0, a ring, a cloud, all of the plane. */
+static void debris_is_all_there(void **state)
+{
+    (void)state;
+    enum { N = 200000 };
+    struct kd_debris_piece *pieces = calloc(N, sizeof *pieces);
+    assert_non_null(pieces);
+    for (int shape = 0; shape < 5; shape++) {
+        const size_t n = shape == 4 ? 7 : N;
+        double vr = 0, vphi = 0;
+        size_t free_ = 0;
+        for (size_t i = 0; i < n; i++) {
+            const double t = chance(), noise = chance() - 0.5, u = 0.2 * chance(), w = 0.3 - 0.6 * chance();
+            switch (shape) {
+            case 0: pieces[i] = piece(40 + 200 * t, -0.4 + 0.9 * t + 1e-3 * noise, 0.01 * noise, u, w); break;
+            case 1: pieces[i] = piece(60 + noise, 2 * M_PI * t, noise, u, w); break;
+            case 2: pieces[i] = piece(50 + noise, 3.14 + 0.01 * (t - 0.5), 0, u, w); break;
+            case 3: pieces[i] = piece(2.1 * pow(1e5, t), 2 * M_PI * chance(), 0, u, w); break;
+            default: pieces[i] = piece(1e5 * t + 3, 6 * noise, 0, u, w); break;
+            }
+            if (i % 10 == 3) {
+                pieces[i].stage = KD_DEBRIS_FREE;
+                free_++;
+                continue;
+            }
+            vr += u;
+            vphi += w;
+        }
+        struct kd_crowd *crowd = grid_of(pieces, n, 1.0 / N);
+        const struct kd_crowd_debris *d = &crowd->debris;
+        const struct sums s = sums_of(d);
+        printf("shape %d: %u rows of %u of %u a turn\n", shape, d->rows, d->columns, d->turn);
+        assert_int_equal(d->pieces, n - free_);
+        assert_int_equal(d->hidden, 0);
+        assert_true((size_t)d->rows * d->columns <= KD_SHOW_NODES && d->rows >= 2 && d->columns >= 2);
+        const double all = (double)(n - free_) / N;
+        assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
+        if (shape != 1) /* there z is not 0, and the velocity along e_r not that along the plane */
+            assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
+        kd_crowd_release(crowd);
+    }
+    free(pieces);
+}
+
+/* A single piece is where it is: the middle of its four nodes. */
+static void a_piece_is_at_its_place(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        const double r = 3 * pow(1000, chance()), phi = 2 * M_PI * (k < 20 ? 1 - 1e-4 * k : chance());
+        const struct kd_debris_piece one = piece(r, phi, 0, 0, 0);
+        struct kd_crowd *crowd = grid_of(&one, 1, 1);
+        const struct kd_crowd_debris *d = &crowd->debris;
+        const double cell = 2 * M_PI / d->turn;
+        double row = 0, x = 0, y = 0;
+        for (uint32_t i = 0; i < d->rows * d->columns; i++) {
+            const double at = cell * (d->first_column + i % d->columns);
+            row += d->nodes[3 * i] * (d->first_row + i / d->columns);
+            x += d->nodes[3 * i] * cos(at);
+            y += d->nodes[3 * i] * sin(at);
+        }
+        assert_true(fabs(cell * row - log(r)) < 1e-2 * cell);
+        assert_true(fabs(remainder(atan2(y, x) - phi, 2 * M_PI)) < 2e-2 * cell);
+        kd_crowd_release(crowd);
+    }
+}
+
+/* A torn star is all there, on as many pieces as there are; and how it is shown does not change how it moves. */
+static void a_star_is_shown(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"preset\":\"disruption\"}");
+    struct kd_playground_params looks = p->params;
+    struct kd_error error = { 0 };
+    playground_advance(p, 2600); /* some of it is left */
+    const double rate = p->rate;
+    looks.debris_depth = 3;
+    looks.debris_temperature_k = 7000;
+    assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
+    assert_true(p->rate == rate && rate > 0);
+    struct kd_crowd *crowd = shown(p);
+    const struct sums s = sums_of(&crowd->debris);
+    printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", crowd->debris.pieces, crowd->debris.rows, crowd->debris.columns, crowd->debris.turn, s.worth,
+           crowd->debris.thick);
+    assert_int_equal(crowd->debris.pieces, p->debris.alive);
+    assert_true(fabs(s.worth - p->debris.alive / 50000.0) < 1e-4 && s.worth > 0.4 && s.worth < 0.7);
+    assert_true(crowd->debris.depth == 3 && crowd->debris.temperature_k == 7000 && crowd->time == p->t);
+    kd_crowd_release(crowd);
+    kd_playground_destroy(p);
+}
+
+/* Pieces that are nowhere are told, and leave no NaN. */
+static void nowhere(void **state)
+{
+    (void)state;
+    struct kd_debris_piece pieces[6] = { piece(10, 1, 0, 0, 0), piece(20, 2, 0, 0, 0), piece(1, 0, 0, 0, 0), piece(5, 0, 0, 0, 0), piece(6, 0, 0, 0, 0), piece(7, 0, 0, 0, 0) };
+    pieces[2].x[0] = pieces[2].x[1] = 0; /* on the axis */
+    pieces[3].x[1] = NAN;
+    pieces[4].x[0] = INFINITY;
+    pieces[5].x[2] = 1e20f;
+    struct kd_crowd *crowd = grid_of(pieces, 6, 1);
+    assert_int_equal(crowd->debris.pieces + crowd->debris.hidden, 6);
+    assert_true(crowd->debris.pieces == 2 && fabs(sums_of(&crowd->debris).worth - 2) < 1e-5);
+    kd_crowd_release(crowd);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bodies), cmocka_unit_test(debris_is_all_there), cmocka_unit_test(a_piece_is_at_its_place), cmocka_unit_test(a_star_is_shown),
+        cmocka_unit_test(nowhere),
+    };
+    return cmocka_run_group_tests_name("playground_show", tests, NULL, NULL);
+}
