@@ -9,8 +9,8 @@
 static const struct {
     const char *code;
     size_t size;
-} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 }, [KD_NPY_U1] = { "|u1", 1 }, [KD_NPY_TEXT] = { "<U", 4 }, [KD_NPY_BYTES] = { "|S", 1 } };
-enum { TYPES_READ = KD_NPY_TEXT };
+} types[] = { [KD_NPY_F8] = { "<f8", 8 }, [KD_NPY_F4] = { "<f4", 4 }, [KD_NPY_U1] = { "|u1", 1 }, [KD_NPY_U4] = { "<u4", 4 }, [KD_NPY_TEXT] = { "<U", 4 }, [KD_NPY_BYTES] = { "|S", 1 } };
+enum { TYPES_READ = KD_NPY_U4 };
 
 size_t kd_npy_item_size(const struct kd_npy *array)
 {
@@ -24,7 +24,7 @@ size_t kd_npy_item_size(const struct kd_npy *array)
 
 static enum kd_status write_type(const struct kd_npy *array, struct kd_buffer *text)
 {
-    if ((int)array->fields[0].type >= TYPES_READ)
+    if (array->fields[0].type >= KD_NPY_TEXT)
         return kd_buffer_printf(text, "'%s%u'", types[array->fields[0].type].code, array->fields[0].count);
     if (!array->fields[0].name[0])
         return kd_buffer_printf(text, "'%s'", types[array->fields[0].type].code);

@@ -1,6 +1,6 @@
 /* This writes NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
  *
- * Numbers are floats of 8 and 4 bytes, and bytes; an element is one number or a record of named ones, some of them short arrays
+ * Numbers are floats of 8 and 4 bytes, whole numbers of 4, and bytes; an element is one number or a record of named ones, some of them short arrays
  * themselves. Whatever else NumPy can store is refused by name. */
 #ifndef KD_IMAGE_NPY_H
 #define KD_IMAGE_NPY_H
@@ -19,8 +19,8 @@ enum {
     KD_NPY_HEADER_MAX = 10000, /* as NumPy itself reads */
 };
 
-/* The last two are written alone, of plain elements: text of `count` characters, NULs behind it; in UTF-32, or as bytes. */
-enum kd_npy_type { KD_NPY_F8, KD_NPY_F4, KD_NPY_U1, KD_NPY_TEXT, KD_NPY_BYTES };
+/* The last three are written and not read; the last two are written alone, of plain elements: text of `count` characters, NULs behind it; in UTF-32, or as bytes. */
+enum kd_npy_type { KD_NPY_F8, KD_NPY_F4, KD_NPY_U1, KD_NPY_U4, KD_NPY_TEXT, KD_NPY_BYTES };
 
 struct kd_npy_field {
     char name[KD_NPY_NAME]; /* letters, digits and _; "" when the elements are plain numbers */

@@ -1,5 +1,6 @@
 #include "playground/debris.h"
 
+#include "image/npy.h"
 #include "playground/hole.h"
 #include "playground/random.h"
 
@@ -258,5 +259,32 @@ enum kd_status kd_debris_csv(const struct kd_playground_debris *debris, struct k
         }
     }
 done:
+    return status;
+}
+
+enum kd_status kd_debris_npy(const struct kd_playground_debris *debris, struct kd_buffer *out)
+{
+    static const char *const names[] = { "source", "t", "width", "pieces", "rate", "line" };
+    struct kd_npy array = { .n_fields = sizeof names / sizeof *names, .n_dimensions = 1 };
+    struct kd_buffer rows = { 0 };
+    enum kd_status status;
+    for (size_t i = 0; i < array.n_fields; i++) {
+        snprintf(array.fields[i].name, sizeof array.fields[i].name, "%s", names[i]);
+        array.fields[i].type = KD_NPY_F8;
+    }
+    for (int i = 0; i < KD_DEBRIS_SOURCES; i++) {
+        const struct kd_debris_source *source = &debris->sources[i];
+        for (int bin = 0; source->number && bin < KD_DEBRIS_BINS; bin++) {
+            const struct kd_debris_rate rate = kd_debris_rate(source, bin);
+            if (!rate.pieces)
+                continue;
+            KD_TRY(kd_buffer_append(&rows, (const double[]) { source->number, rate.t, rate.width, rate.pieces, rate.rate, rate.line }, 6 * sizeof(double)));
+            array.shape[0]++;
+        }
+    }
+    KD_TRY(kd_npy_write_header(&array, out));
+    KD_TRY(kd_buffer_append(out, rows.data, rows.size));
+done:
+    kd_buffer_finish(&rows);
     return status;
 }

@@ -6,7 +6,7 @@
 
 #include "base/json.h"
 
-enum { KD_PLAYGROUND_EVENTS = 1024 };
+enum { KD_PLAYGROUND_EVENTS = 4096 };
 
 /* X(NAME, word, what it is and what its energy is) */
 #define KD_PLAYGROUND_EVENT_KINDS(X) \

@@ -13,12 +13,19 @@
 
 #include "playground/playground.h"
 
+#include <cjson/cJSON.h>
+
 #define KD_PLAYGROUND_JSON_MAX ((size_t)64 << 20) /* bytes of a document */
 
 /* KD_EINVAL with a pointer; without one this is no JSON document. */
 enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error);
-/* *p is replaced, or left as it was. What the document asks the holder of a playground for, such as "rate", must be taken out before. */
+/* *p is replaced, or left as it was. */
 enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error);
+/* The same in two steps, for the holder of a playground whose documents ask for more, such as "rate": it takes that out in between. Free *tree with
+ * cJSON_Delete. */
+enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error);
+enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error);
+enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error);
 /* A setting by its name from text, as on a command line. */
 enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text, struct kd_error *error);
 

@@ -87,6 +87,19 @@ struct kd_playground_progress {
 /* Moves all on by `time` > 0, or by as many sub-steps as the budget has. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
+/* The same in pieces, for who has other things to do in between: begin, then go on until that says that it is over. The outcome is that of
+ * kd_playground_advance to the bit. A piece is at most so many sub-steps; one sub-step with a million pieces of debris takes tens of milliseconds. */
+struct kd_playground_run {
+    double begin, end;
+    double stride; /* gravity "kerr": how far the bodies are followed at once */
+    uint64_t first;
+    uint32_t left; /* sub-steps, or of gravity "kerr" steps of geodesics; whoever wants fewer may set it after kd_playground_begin */
+    bool stuck;    /* time cannot tell so little */
+};
+void kd_playground_begin(struct kd_playground *p, double time, struct kd_playground_run *run);
+bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run, uint32_t pieces); /* false: it is over */
+struct kd_playground_progress kd_playground_progress(const struct kd_playground *p, const struct kd_playground_run *run);
+
 /* Sums over the bodies as they are now. */
 struct kd_playground_totals {
     double mass, kinetic, potential, mutual; /* the last two: in the hole's field, and of the pairs */
@@ -95,6 +108,9 @@ struct kd_playground_totals {
     double separation, wave_frequency; /* of the closest bound pair of bodies, else of the innermost body and the hole; NAN: no body */
 };
 struct kd_playground_totals kd_playground_totals(struct kd_playground *p);
+
+/* What a row of `series` would hold now. */
+void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
 
 /* The sentences that are in force, as an array of strings. */
 void kd_playground_approximations(const struct kd_playground *p, struct kd_json *json, const char *name);

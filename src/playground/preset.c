@@ -158,17 +158,17 @@ static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
 }
 
 const struct kd_playground_preset kd_playground_presets[] = {
-    { "disruption", "A star on a pass so close that the tide tears it apart", disruption_settings, disruption,
+    { "disruption", "A star on a pass so close that the tide tears it apart", 100, { 0 }, 330, disruption_settings, disruption,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":60,\"field_m\":180},\"disk\":{\"outer\":22}}" },
-    { "system", "Five planets round the hole, and a moon", system_settings, planets,
+    { "system", "Five planets round the hole, and a moon", 100, { 0 }, 120, system_settings, planets,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":90},\"disk\":{\"outer\":11}}" },
-    { "binary", "Two bodies that spiral together, their loss to waves exaggerated a thousand times", binary_settings, binary,
+    { "binary", "Two bodies that spiral together, their loss to waves exaggerated a thousand times", 200, { 1000 }, 6, binary_settings, binary,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":20,\"field_m\":14,\"centre_beta\":-939},\"disk\":{\"outer\":20}}" },
-    { "emri", "A light body that spirals into the hole, its loss to waves exaggerated twenty times", emri_settings, emri,
+    { "emri", "A light body that spirals into the hole, its loss to waves exaggerated twenty times", 400, { 0 }, 16, emri_settings, emri,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"none\"}}" },
-    { "swarm", "Four hundred bodies round the hole", swarm_settings, swarm,
+    { "swarm", "Four hundred bodies round the hole", 100, { 0 }, 120, swarm_settings, swarm,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":75,\"field_m\":120},\"disk\":{\"outer\":18}}" },
-    { "figure-eight", "Three bodies that follow one another along an eight, far away", eight_settings, eight,
+    { "figure-eight", "Three bodies that follow one another along an eight, far away", 3000, { 1e5 }, 130, eight_settings, eight,
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":10,\"field_m\":400,\"centre_beta\":-98480.775},\"disk\":{\"outer\":20}}" },
 };
 const size_t kd_playground_n_presets = sizeof kd_playground_presets / sizeof *kd_playground_presets;

@@ -6,6 +6,8 @@
 
 struct kd_playground_preset {
     const char *name, *title;
+    double rate;             /* M a second, at which it is worth watching */
+    double centre[3], reach; /* M: what a view of it looks at, and half the width that it shows */
     void (*settings)(struct kd_playground_params *params);
     /* Adds its bodies to an empty playground with these settings, or others. */
     enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);

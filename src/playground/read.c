@@ -145,7 +145,7 @@ done:
     return status;
 }
 
-static enum kd_status parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
+enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
 {
     enum kd_status status = kd_tree_parse(text, length, KD_PLAYGROUND_JSON_MAX, VALUES, tree, error);
     return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is no JSON object") : status;
@@ -185,15 +185,13 @@ done:
     return status;
 }
 
-enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error)
+enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error)
 {
     static const char *const others[] = { "preset", "bodies", "state", NULL };
     struct kd_playground_params params = kd_playground_defaults();
     const struct kd_playground_preset *preset = NULL;
     struct kd_playground *p = NULL;
-    cJSON *tree = NULL;
     enum kd_status status;
-    KD_TRY(parse(text, length, &tree, error));
     KD_TRY(read_preset(tree, &preset, error));
     if (preset)
         preset->settings(&params);
@@ -209,11 +207,19 @@ enum kd_status kd_playground_read(const char *text, size_t length, struct kd_pla
     if (state)
         KD_TRY(kd_state_read(p, state, error));
 done:
-    cJSON_Delete(tree);
     if (status)
         kd_playground_destroy(p);
     else
         *out = p;
+    return status;
+}
+
+enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error)
+{
+    cJSON *tree = NULL;
+    enum kd_status status = kd_playground_parse(text, length, &tree, error);
+    status = status ? status : kd_playground_read_tree(tree, out, error);
+    cJSON_Delete(tree);
     return status;
 }
 
@@ -244,14 +250,12 @@ static enum kd_status copy(const struct kd_playground *from, struct kd_playgroun
     return KD_OK;
 }
 
-enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error)
+enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error)
 {
     static const char *const others[] = { "add", "change", "remove", NULL };
     struct kd_playground_params params = (*p)->params;
     struct kd_playground *changed = NULL;
-    cJSON *tree = NULL;
     enum kd_status status;
-    KD_TRY(parse(text, length, &tree, error));
     KD_TRY(read_settings(&params, tree, others, error));
     KD_TRY(copy(*p, &changed, error));
     if (memcmp(&params, &changed->params, sizeof params))
@@ -260,13 +264,21 @@ enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, s
     KD_TRY(do_list(changed, CHANGE, cJSON_GetObjectItemCaseSensitive(tree, "change"), "change", error));
     KD_TRY(do_list(changed, REMOVE, cJSON_GetObjectItemCaseSensitive(tree, "remove"), "remove", error));
 done:
-    cJSON_Delete(tree);
     if (status) {
         kd_playground_destroy(changed);
     } else {
         kd_playground_destroy(*p);
         *p = changed;
     }
+    return status;
+}
+
+enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error)
+{
+    cJSON *tree = NULL;
+    enum kd_status status = kd_playground_parse(text, length, &tree, error);
+    status = status ? status : kd_playground_patch_tree(p, tree, error);
+    cJSON_Delete(tree);
     return status;
 }
 

@@ -150,25 +150,33 @@ static void follow(struct kd_playground *p, double t, uint32_t *steps, bool *lat
     }
 }
 
-static void record(struct kd_playground *p)
+void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N])
 {
-    struct kd_playground_series *series = &p->series;
-    if (series->n && p->t < series->next)
-        return;
-    if (!series->n)
-        series->interval = p->params.h_max;
     const struct kd_playground_totals now = kd_playground_totals(p);
     const struct kd_playground_spent *s = &p->spent;
     double back = 0;
     for (int i = 0; i < KD_DEBRIS_SOURCES; i++)
         back += p->debris.sources[i].piece_mass * p->debris.sources[i].all_back;
-    kd_series_add(series, (const double[KD_SERIES_N]) {
+    const double now_row[KD_SERIES_N] = {
         [KD_SERIES_t] = p->t, [KD_SERIES_bodies] = (double)p->n, [KD_SERIES_energy] = now.energy,
         [KD_SERIES_energy_balance] = now.energy + s->captured_energy + s->merged + s->capped + s->radiated + s->torn_energy - s->given,
         [KD_SERIES_angular_momentum_x] = now.angular[0], [KD_SERIES_angular_momentum_y] = now.angular[1],
         [KD_SERIES_angular_momentum_z] = now.angular[2], [KD_SERIES_radiated] = s->radiated, [KD_SERIES_separation] = now.separation,
         [KD_SERIES_wave_frequency] = now.wave_frequency, [KD_SERIES_h_plus] = now.h_plus, [KD_SERIES_h_cross] = now.h_cross,
-        [KD_SERIES_debris] = p->debris.alive, [KD_SERIES_debris_back] = back });
+        [KD_SERIES_debris] = p->debris.alive, [KD_SERIES_debris_back] = back };
+    memcpy(row, now_row, sizeof now_row);
+}
+
+static void record(struct kd_playground *p)
+{
+    struct kd_playground_series *series = &p->series;
+    double row[KD_SERIES_N];
+    if (series->n && p->t < series->next)
+        return;
+    if (!series->n)
+        series->interval = p->params.h_max;
+    kd_playground_series_row(p, row);
+    kd_series_add(series, row);
 }
 
 /* Debris is where it is at debris.t, which follows t every h_max, or oftener where a piece is near the hole. */
@@ -208,28 +216,56 @@ static bool go(struct kd_playground *p)
     return true;
 }
 
+void kd_playground_begin(struct kd_playground *p, double time, struct kd_playground_run *run)
+{
+    *run = (struct kd_playground_run) { .begin = p->t, .end = p->t + time, .stride = p->params.h_max, .first = p->steps, .left = p->params.budget };
+    kd_playground_settle(p);
+}
+
+static bool is_over(const struct kd_playground *p, const struct kd_playground_run *run)
+{
+    return run->stuck || !(p->t < run->end) || !run->left || p->steps - run->first >= p->params.budget;
+}
+
+static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
+{
+    bool late = false;
+    const double t = fmin(p->t + run->stride, run->end);
+    if (!(t > p->t)) { /* less than the time can tell */
+        run->stuck = true;
+        return;
+    }
+    follow(p, t, &run->left, &late);
+    run->stuck = late;
+    p->t = late ? p->t : t;
+    p->steps++;
+    record(p);
+}
+
+bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run, uint32_t pieces)
+{
+    for (; pieces && !is_over(p, run); pieces--)
+        if (p->params.gravity == KD_GRAVITY_KERR)
+            follow_on(p, run);
+        else if (go(p))
+            run->left--;
+        else
+            run->stuck = true;
+    return !is_over(p, run);
+}
+
+struct kd_playground_progress kd_playground_progress(const struct kd_playground *p, const struct kd_playground_run *run)
+{
+    return (struct kd_playground_progress) { .asked = run->end - run->begin, .done = p->t - run->begin, .steps = (uint32_t)(p->steps - run->first),
+                                             .slowed = p->t < run->end };
+}
+
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress)
 {
-    const double begin = p->t, end = begin + time;
-    const uint64_t first = p->steps;
-    kd_playground_settle(p);
-    *progress = (struct kd_playground_progress) { .asked = time };
-    if (p->params.gravity == KD_GRAVITY_KERR) {
-        uint32_t left = p->params.budget;
-        bool late = false;
-        while (!late && p->t < end && p->steps - first < p->params.budget) {
-            const double t = fmin(p->t + p->params.h_max, end);
-            if (!(t > p->t)) /* less than the time can tell */
-                break;
-            follow(p, t, &left, &late);
-            p->t = late ? p->t : t;
-            p->steps++;
-            record(p);
-        }
-    }
-    while (p->params.gravity != KD_GRAVITY_KERR && p->t < end && p->steps - first < p->params.budget && go(p))
+    struct kd_playground_run run;
+    kd_playground_begin(p, time, &run);
+    while (kd_playground_go_on(p, &run, UINT32_MAX))
         ;
-    progress->done = p->t - begin;
-    progress->steps = (uint32_t)(p->steps - first);
-    progress->slowed = p->t < end;
+    *progress = kd_playground_progress(p, &run);
+    progress->asked = time;
 }

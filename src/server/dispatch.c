@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "orbit/request.h"
+#include "playground/json.h"
 #include "render/rays/request.h"
 #include "base/clock.h"
 #include "server/http/library.h"
@@ -12,6 +13,7 @@
 #include "server/http/reply.h"
 #include "server/render/task.h"
 #include "server/job/jobs.h"
+#include "server/playground/routes.h"
 #include "server/render/queue.h"
 #include "server/session/sessions.h"
 
@@ -22,6 +24,7 @@
 #define RAYS_TOO_LARGE "a body of rays may hold 67108864 bytes"
 #define ORBITS_TOO_LARGE "a body of orbits may hold 4194304 bytes"
 #define ASSET_TOO_LARGE "an asset may hold 33554432 bytes"
+#define PLAYGROUND_TOO_LARGE "a playground's document may hold 67108864 bytes"
 #define JOB_TOO_LARGE "a body of a job may hold 4194304 bytes"
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "as many bytes of your bodies are being received as one client may send at once"
@@ -142,6 +145,7 @@ void kd_request_close(void *cls, struct MHD_Connection *mhd, void **state,
     kd_particles_job_destroy(request->particles);
     kd_task_destroy(request->task);
     kd_live_abandon(request);
+    kd_play_abandon(request);
     kd_buffer_finish(&request->body);
     kd_target_finish(&request->target);
     free(request->raw);
@@ -156,6 +160,7 @@ static size_t body_max(const struct kd_request *request)
     case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
     case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
     case KD_TAKES_JOB: return KD_JOB_BODY_MAX;
+    case KD_TAKES_PLAYGROUND: return KD_PLAYGROUND_JSON_MAX;
     case KD_TAKES_ASSET: return KD_ASSET_BYTES;
     default: return KD_BODY_MAX;
     }
@@ -167,6 +172,7 @@ static const char *too_large(const struct kd_request *request)
     case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
     case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
     case KD_TAKES_JOB: return JOB_TOO_LARGE;
+    case KD_TAKES_PLAYGROUND: return PLAYGROUND_TOO_LARGE;
     case KD_TAKES_ASSET: return ASSET_TOO_LARGE;
     default: return BODY_TOO_LARGE;
     }

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/job/jobs.h"
+#include "server/playground/plays.h"
 #include "server/render/queue.h"
 #include "server/session/sessions.h"
 
@@ -56,6 +57,7 @@ static bool step_down(struct kd_server *server, double *since)
         return false;
     case KD_REFUSING:
         kd_sessions_close(server->sessions);
+        kd_plays_close(server->plays);
         kd_jobs_close(server->jobs);
         if (atomic_load(&server->abandon)) {
             kd_render_queue_cancel(server->renders);
@@ -63,7 +65,7 @@ static bool step_down(struct kd_server *server, double *since)
             kd_turns_cancel(server->turns);
         }
         if (kd_render_queue_unfinished(server->renders) || kd_turns_unfinished(server->rays) ||
-            kd_turns_unfinished(server->turns))
+            kd_turns_unfinished(server->turns) || kd_plays_unfinished(server->plays))
             return false;
         stop_listening(server);
         enter(server, KD_CLOSING, since);
@@ -84,6 +86,7 @@ void *kd_keeper_main(void *user)
         kd_connections_sweep(server->connections);
         kd_render_queue_sweep(server->renders);
         kd_sessions_sweep(server->sessions);
+        kd_plays_sweep(server->plays);
         kd_jobs_sweep(server->jobs);
     } while (!step_down(server, &since));
     stop_listening(server);

@@ -11,6 +11,7 @@
 #include "server/http/service.h"
 #include "server/job/jobs.h"
 #include "server/openapi/kept.h"
+#include "server/playground/plays.h"
 #include "server/render/queue.h"
 #include "server/session/sessions.h"
 #include "server/dispatch.h"
@@ -128,6 +129,17 @@ static enum kd_status start_sessions(struct kd_server *server, const struct kd_s
     return kd_sessions_create(&sessions, &server->sessions, error);
 }
 
+static enum kd_status start_plays(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
+{
+    const unsigned most = or_default(params->playgrounds, 16);
+    const size_t bytes = params->playgrounds_kib ? (size_t)params->playgrounds_kib << 10 : KD_PLAYS_BYTES;
+    const struct kd_plays_params plays = {
+        .limit = most, .client_limit = share_of(params, most), .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS),
+        .bytes = bytes, .client_bytes = (size_t)bytes_share_of(params, bytes),
+    };
+    return kd_plays_create(&plays, &server->plays, error);
+}
+
 static enum kd_status start_jobs(struct kd_server *server, const struct kd_server_params *params, struct kd_error *error)
 {
     const unsigned most = or_default(params->jobs, 16);
@@ -188,6 +200,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->rays, error));
     KD_TRY(kd_turns_create(tasks, share_of(params, tasks), &server->turns, error));
     KD_TRY(start_sessions(server, params, error));
+    KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
     if (params->state) /* behind the jobs, which lock the folder, and before they go on: they may need them */
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
@@ -266,8 +279,11 @@ void kd_server_destroy(struct kd_server *server)
     }
     if (server->sessions)
         kd_sessions_close(server->sessions);
+    if (server->plays)
+        kd_plays_close(server->plays);
     if (server->jobs)
         kd_jobs_close(server->jobs);
+    kd_plays_destroy(server->plays);
     kd_turns_destroy(server->turns);
     kd_turns_destroy(server->rays);
     kd_render_queue_destroy(server->renders);

@@ -13,11 +13,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURL = """#!/bin/bash
 exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
 """
+FENCED = re.compile(r'^```sh\n(.*?)^```$', re.M | re.S)
 
 
 def blocks(text):
     """Fenced ```sh blocks, and indented ones that call curl or kerrd."""
-    yield from re.findall(r'^```sh\n(.*?)^```$', text, re.M | re.S)
+    yield from FENCED.findall(text)
     for block in re.findall(r'(?:^    .*\n|^\n(?=    ))+', re.sub(r'^```.*?^```$', '', text, flags=re.M | re.S), re.M):
         if re.search(r'^    (curl|kerrd) (?!doctor|serve)', block, re.M):
             yield re.sub(r'^    ', '', block, flags=re.M)
@@ -42,8 +43,9 @@ class Documents(unittest.TestCase):
         cls.daemon.stop()
         cls.folder.cleanup()
 
-    def run_all(self, name, count):
-        found = list(blocks(ROOT.joinpath(name).read_text()))
+    def run_all(self, name, count, fenced=False):
+        text = ROOT.joinpath(name).read_text()
+        found = FENCED.findall(text) if fenced else list(blocks(text))
         self.assertEqual(len(found), count, name)
         for block in found:
             done = subprocess.run(['bash', '-e', '-o', 'pipefail', '-c', block], cwd=self.folder.name, env=self.environment,
@@ -73,6 +75,9 @@ class Documents(unittest.TestCase):
 
     def test_live(self):
         self.run_all('docs/live.md', 2)
+
+    def test_playground(self):
+        self.run_all('docs/playground.md', 1, fenced=True)
 
     def test_jobs(self):
         self.run_all('docs/jobs.md', 2)

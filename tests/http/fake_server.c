@@ -26,6 +26,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         { "--queue", &params->queue },
         { "--sessions", &params->sessions },
         { "--session-ms", &params->session_ms },
+        { "--playgrounds", &params->playgrounds },
+        { "--playgrounds-kib", &params->playgrounds_kib },
         { "--jobs", &params->jobs },
         { "--client-jobs", &params->client_jobs },
         { "--client-share", &params->client_share },

@@ -26,7 +26,7 @@ MODULES = {
 # Inside the large modules a folder may know those before it; what lies in none of them, the top, knows all.
 FOLDERS = {
     "render": ["view", "accuracy", "sky", "emit", "plan", "device", "rays", "lens", "frame", "output", "explain", "live", "selftest"],
-    "server": ["http", "asset", "render", "session", "job", "openapi", "answers"],
+    "server": ["http", "asset", "render", "session", "playground", "job", "openapi", "answers"],
 }
 # Headers of other projects, and who may include them.
 FOREIGN = {

@@ -3,6 +3,7 @@
 #include "server/http/reply.h"
 #include "server/render/queue.h"
 #include "server/job/jobs.h"
+#include "server/playground/plays.h"
 #include "server/session/sessions.h"
 
 static enum kd_status add(struct kd_buffer *out, const char *name, const char *type, const char *help, double value)
@@ -30,6 +31,7 @@ static enum kd_status add_jobs(struct kd_buffer *out, const struct kd_jobs_count
 struct counts {
     struct kd_sessions_counts sessions;
     struct kd_jobs_counts jobs;
+    struct kd_plays_counts plays;
 };
 
 /* This answers on the thread of the health routes, which waits for nobody: a lock that is held long, while a job is written to a
@@ -38,12 +40,15 @@ static struct counts count(struct kd_server *server)
 {
     struct counts now;
     bool sessions = kd_sessions_counts(server->sessions, &now.sessions), jobs = kd_jobs_counts(server->jobs, &now.jobs);
+    const bool plays = kd_plays_counts(server->plays, &now.plays);
     pthread_mutex_lock(&server->lock);
     if (sessions)
         server->sessions_counts = now.sessions;
     if (jobs)
         server->jobs_counts = now.jobs;
-    now = (struct counts) { server->sessions_counts, server->jobs_counts };
+    if (plays)
+        server->plays_counts = now.plays;
+    now = (struct counts) { server->sessions_counts, server->jobs_counts, server->plays_counts };
     pthread_mutex_unlock(&server->lock);
     return now;
 }
@@ -67,6 +72,11 @@ enum MHD_Result kd_handle_metrics(struct kd_request *request)
         { "session_viewers", "gauge", "Requests and streams that follow sessions.", now.sessions.viewers },
         { "session_frames_total", "counter", "Frames of sessions encoded.", (double)now.sessions.frames },
         { "session_bytes_total", "counter", "Bytes of these frames, however many took them.", (double)now.sessions.bytes },
+        { "playgrounds", "gauge", "Live playgrounds.", now.plays.plays },
+        { "playground_watchers", "gauge", "Requests and streams that follow playgrounds.", now.plays.watchers },
+        { "playground_bytes", "gauge", "Memory that they may take.", (double)now.plays.bytes },
+        { "playground_steps_total", "counter", "Sub-steps that they have gone on by themselves.", (double)now.plays.steps },
+        { "playground_events_total", "counter", "What has happened in them.", (double)now.plays.events },
         { "job_frames_total", "counter", "Frames of jobs finished.", (double)now.jobs.frames },
         { "job_bytes", "gauge", "Bytes of the frames of all jobs on disk.", (double)now.jobs.bytes },
         { "assets", "gauge", "Assets that are kept.", assets },

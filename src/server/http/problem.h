@@ -18,7 +18,7 @@
     X(METHOD, 405, "method-not-allowed", "This address does not take this method")                           \
     X(NOT_ACCEPTABLE, 406, "not-acceptable", "No offered media type is acceptable")                          \
     X(NOT_READY, 409, "not-ready", "What this asks for is not there yet")                                    \
-    X(CONFLICT, 409, "conflict", "The scene of this session does not allow it")                              \
+    X(CONFLICT, 409, "conflict", "What there is does not allow it now")                                      \
     X(TIMEOUT, 408, "timeout", "The request took too long to arrive")                                        \
     X(BODY_TOO_LARGE, 413, "body-too-large", "The body is too large")                                        \
     X(URI_TOO_LONG, 414, "uri-too-long", "The address is too long")                                          \
@@ -29,6 +29,7 @@
     X(INVALID_PARAMETERS, 422, "invalid-parameters", "A parameter is not valid")                             \
     X(INVALID_ORBIT, 422, "invalid-orbit", "The request for orbits is not valid")                            \
     X(INVALID_JOB, 422, "invalid-job", "The request for a job is not valid")                                 \
+    X(INVALID_PLAYGROUND, 422, "invalid-playground", "The request for a playground is not valid")            \
     X(INVALID_ASSET, 422, "invalid-asset", "The asset is not one that is taken")                             \
     X(TOO_LARGE, 422, "too-large", "The scene is larger than this server renders")                           \
     X(QUOTA, 429, "quota", "This client has as much as one may")                                              \

@@ -30,6 +30,7 @@ struct kd_request {
     struct kd_particles_job *particles; /* particles being listed; owned */
     struct kd_task *task;      /* what workers compute; owned */
     struct kd_viewer *viewer;  /* the wait for a session's next frame; owned */
+    struct kd_play_watcher *watcher; /* the wait for a playground's next tick; owned */
     char etag[120];
     char file[96]; /* Content-Disposition of an answer of 200, by kd_reply_file */
     size_t reply_bytes; /* of a large reply, for its deadline */

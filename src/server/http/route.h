@@ -22,6 +22,9 @@ enum kd_takes {
     KD_TAKES_STRIKE,    /* in the body, or none */
     KD_TAKES_PATH,
     KD_TAKES_PARTICLES, /* which and what of them, in the query */
+    KD_TAKES_PLAYGROUND, /* a document, or what changes one */
+    KD_TAKES_STEP,
+    KD_TAKES_TICK,     /* which and how many of its things, in the query */
     KD_TAKES_QUANTITY, /* the parameters of the quantity that the path names, in the query */
 };
 
@@ -80,6 +83,15 @@ enum MHD_Result kd_handle_session_particles(struct kd_request *request); /* sess
 enum MHD_Result kd_handle_session_frame(struct kd_request *request); /* session/live.c */
 enum MHD_Result kd_handle_session_frames(struct kd_request *request);
 enum MHD_Result kd_handle_session_events(struct kd_request *request);
+enum MHD_Result kd_handle_plays(struct kd_request *request); /* playground/routes.c */
+enum MHD_Result kd_handle_play(struct kd_request *request);
+enum MHD_Result kd_handle_play_step(struct kd_request *request);
+enum MHD_Result kd_handle_play_snapshot(struct kd_request *request);
+enum MHD_Result kd_handle_play_series(struct kd_request *request);
+enum MHD_Result kd_handle_play_fallback(struct kd_request *request);
+enum MHD_Result kd_handle_play_bodies(struct kd_request *request); /* playground/data.c */
+enum MHD_Result kd_handle_play_debris(struct kd_request *request);
+enum MHD_Result kd_handle_play_events(struct kd_request *request); /* playground/events.c */
 enum MHD_Result kd_handle_jobs(struct kd_request *request); /* job/routes.c */
 enum MHD_Result kd_handle_job(struct kd_request *request);
 enum MHD_Result kd_handle_job_events(struct kd_request *request);

@@ -27,6 +27,7 @@
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
 #define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
+#define KD_PLAYS_BYTES ((size_t)512 << 20) /* of memory, that all playgrounds may take */
 #define KD_JOBS_KEPT 64u                   /* jobs in all, finished ones too */
 #define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
 #define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */
@@ -49,6 +50,7 @@ enum kd_phase {
 struct kd_asset_store;
 struct kd_jobs;
 struct kd_kept;
+struct kd_plays;
 struct kd_render_queue;
 struct kd_sessions;
 
@@ -64,6 +66,7 @@ struct kd_server {
     struct kd_turns *rays;  /* requests for them */
     struct kd_turns *turns; /* orbits, long quantities, paths of sessions, jobs being checked */
     struct kd_sessions *sessions;
+    struct kd_plays *plays;
     struct kd_jobs *jobs;
     struct kd_job_whole *cubes; /* being fetched (job/whole.c); of the HTTP thread alone */
     struct kd_asset_store *assets;
@@ -83,6 +86,7 @@ struct kd_server {
     pthread_mutex_t lock; /* for what follows */
     struct kd_sessions_counts sessions_counts; /* as last known */
     struct kd_jobs_counts jobs_counts;
+    struct kd_plays_counts plays_counts;
     pthread_cond_t changed;
     bool stopped;
 };

@@ -1,6 +1,8 @@
 #include "server/http/turns.h"
+#include "base/clock.h"
 #include "base/cores.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -65,6 +67,34 @@ static void park(struct kd_turns *turns, struct kd_turns_job *job, bool away)
     job->away = away;
     job->next = turns->parked;
     turns->parked = job;
+    if (job->due_ms > 0)
+        pthread_cond_signal(&turns->changed); /* somebody who sleeps must wake earlier */
+}
+
+/* Ends the parks whose time has come. Returns when the next one ends; INFINITY: none does by itself. */
+static double unpark_due(struct kd_turns *turns)
+{
+    double next = INFINITY;
+    const double now = turns->parked ? kd_clock_ms() : 0;
+    for (struct kd_turns_job *job = turns->parked, *after; job; job = after) {
+        after = job->next;
+        if (!(job->due_ms > 0) || job->away)
+            continue;
+        if (job->due_ms <= now)
+            unpark(turns, job);
+        else
+            next = fmin(next, job->due_ms);
+    }
+    return next;
+}
+
+static void sleep_until(struct kd_turns *turns, double ms)
+{
+    struct timespec t = { .tv_sec = (time_t)(fmin(ms, 1e15) * 1e-3), .tv_nsec = (long)(fmod(fmin(ms, 1e15), 1e3) * 1e6) };
+    if (isinf(ms))
+        pthread_cond_wait(&turns->changed, &turns->lock);
+    else
+        pthread_cond_clockwait(&turns->changed, &turns->lock, CLOCK_MONOTONIC, &t);
 }
 
 static void accept(struct kd_turns *turns, struct kd_turns_job *job)
@@ -119,10 +149,11 @@ static void *work(void *user)
     struct kd_turns *turns = user;
     pthread_mutex_lock(&turns->lock);
     while (!turns->closing) {
+        const double next = unpark_due(turns);
         if (turns->first)
             give_turn(turns, turns->first);
         else
-            pthread_cond_wait(&turns->changed, &turns->lock);
+            sleep_until(turns, next);
     }
     pthread_mutex_unlock(&turns->lock);
     return NULL;

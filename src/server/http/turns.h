@@ -10,7 +10,7 @@
 /* How a turn of a job ended: what is left to do. */
 enum kd_turn_end {
     KD_TURN_MORE, /* there is another piece */
-    KD_TURN_PARK, /* there is, but not before kd_turns_wake, or kd_turns_cancel */
+    KD_TURN_PARK, /* there is, but not before kd_turns_wake, kd_turns_cancel or the job's due_ms */
     KD_TURN_AWAY, /* there is, but not before kd_turns_wake: somebody else has it meanwhile */
     KD_TURN_LAST, /* nothing is left to begin */
 };
@@ -18,6 +18,7 @@ enum kd_turn_end {
 struct kd_turns_job {
     enum kd_turn_end (*turn)(struct kd_turns_job *job); /* on a worker */
     void (*done)(struct kd_turns_job *job);             /* on a worker, once, when every turn has returned: may free the job */
+    double due_ms; /* on kd_clock_ms, of a park that a turn asks for: it ends then at the latest; 0: it has no such end */
     bool shared;                                        /* several workers at once from the next turn on; a turn may set it */
     char client[KD_CLIENT];                             /* whose it is: what kd_turns_admit was asked for */
     /* the queue's own */

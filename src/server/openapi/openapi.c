@@ -8,6 +8,7 @@
 #include "server/openapi/media.h"
 #include "server/openapi/orbits.h"
 #include "server/openapi/physics.h"
+#include "server/openapi/playground.h"
 #include "server/openapi/rays.h"
 #include "server/openapi/sessions.h"
 #include "server/http/request.h"
@@ -99,11 +100,18 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 }
 
 #define WHOLE "{\"type\":\"integer\",\"minimum\":0}"
+#define MOMENT "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}"
 
 /* Parameters that the query may hold besides fields of a scene; schema NULL: one of the formats of jobs. */
 static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
-    { "/v1/sessions/{id}/frame.png", "wait_ms", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":60000}", "how long to wait for a newer one" },
+    { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/playground/{id}/bodies", "after", WHOLE, "generation that the client has; without it the answer comes at once" },
+    { "/v1/playground/{id}/bodies", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/playground/{id}/debris", "after", WHOLE, "generation that the client has; without it the answer comes at once" },
+    { "/v1/playground/{id}/debris", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/playground/{id}/debris", "at_most", "{\"type\":\"integer\",\"minimum\":1,\"maximum\":1000000}", "pieces: where there are more, every k-th is given; 20000 without it" },
+    { "/v1/playground/{id}/events", "since", WHOLE, "number of the event behind which to begin, as Last-Event-ID says it; without it, all that are kept" },
     { "/v1/pixel", "at", "{\"type\":\"string\",\"pattern\":\"^[0-9.]+([eE][-+]?[0-9]+)?,[0-9.]+([eE][-+]?[0-9]+)?$\"}", "the pixel: a place X,Y in the picture, in pixels from its upper left corner; required" },
     { "/v1/jobs/{id}/result", "format", NULL,
       "json and csv are those of a light curve; fits and npz without a frame the cube of a sweep; the others of pictures, and of files of numbers" },
@@ -235,6 +243,11 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
     case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
+    case KD_TAKES_PLAYGROUND:
+        if (method == KD_POST || method == KD_PATCH)
+            kd_openapi_playground_body(json, method == KD_PATCH, KD_PATCH_TYPE);
+        break;
+    case KD_TAKES_STEP: kd_openapi_step_body(json); break;
     case KD_TAKES_PATH:
         if (method == KD_POST)
             kd_openapi_path_body(json);
@@ -296,7 +309,8 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
 static void add_responses(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     kd_json_object(json, "responses");
-    begin_response(json, method == KD_DELETE ? 204 : route->status[0] ? route->status[0] : 200, route->summary);
+    const bool makes = method == KD_POST && route->status[1] == 201;
+    begin_response(json, method == KD_DELETE ? 204 : makes ? 201 : route->status[0] ? route->status[0] : 200, route->summary);
     if (method != KD_DELETE)
         add_answer(json, route, method);
     kd_json_end(json);
@@ -319,7 +333,7 @@ static void add_operation(struct kd_json *json, const char *name, const struct k
     kd_json_object(json, name);
     kd_json_string(json, "operationId", id);
     kd_json_string(json, "summary", route->summary);
-    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH)
+    if (method == KD_PATCH || method == KD_DELETE || route->takes == KD_TAKES_STRIKE || route->takes == KD_TAKES_PATH || route->takes == KD_TAKES_STEP)
         kd_json_raw(json, "security", "[{\"token\":[]}]", strlen("[{\"token\":[]}]"));
     if (has_parameters(route))
         add_parameters(json, route, body, schema);
@@ -345,12 +359,13 @@ static void add_problem_schema(struct kd_json *json)
 
 static void add_components(struct kd_json *json, const struct kd_buffer *schema)
 {
-    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session, job or asset\"}}";
+    static const char token[] = "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token that came with the session, playground, job or asset\"}}";
     kd_json_object(json, "components");
     kd_json_raw(json, "securitySchemes", token, sizeof token - 1);
     kd_json_object(json, "schemas");
     kd_json_raw(json, "Scene", (const char *)schema->data, schema->size);
     kd_openapi_orbits_schema(json);
+    kd_openapi_playground_schemas(json);
     kd_openapi_asset_schema(json);
     add_problem_schema(json);
     kd_json_end(json);

@@ -1,0 +1,173 @@
+#include "server/playground/document.h"
+
+#include "playground/fields.h"
+#include "playground/preset.h"
+#include "scene/tree.h"
+
+#include <string.h>
+
+#define USUAL_RATE 50.
+#define STEP_VALUES 16 /* in the body of one: more would be wrong */
+#define STEP_MOST 1e18 /* M */
+
+static const struct kd_playground_setting pace_rows[] = {
+    { "rate", KD_SETTING_REAL, offsetof(struct kd_play_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, NULL, "M a second of the clock" },
+    { "paused", KD_SETTING_TRUTH, offsetof(struct kd_play_pace, paused), 0, 0, 1, NULL, "whether it stands" },
+};
+static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, NULL, "M to go on by" };
+
+enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = 0; i < sizeof pace_rows / sizeof *pace_rows; i++) {
+        char pointer[40] = "/";
+        cJSON *item = cJSON_DetachItemFromObjectCaseSensitive(tree, pace_rows[i].name);
+        if (!item)
+            continue;
+        const struct kd_value value = kd_tree_value(item);
+        status = kd_playground_put(pace, &pace_rows[i], &value, strcat(pointer, pace_rows[i].name), error);
+        cJSON_Delete(item);
+        if (status)
+            break;
+    }
+    return status;
+}
+
+double kd_play_usual_rate(const cJSON *tree)
+{
+    const cJSON *name = cJSON_GetObjectItemCaseSensitive(tree, "preset");
+    const struct kd_playground_preset *preset = cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
+    return preset ? preset->rate : USUAL_RATE;
+}
+
+enum kd_status kd_play_read_step(const char *text, size_t length, double *by, struct kd_error *error)
+{
+    cJSON *tree = NULL;
+    enum kd_status status;
+    bool given = false;
+    KD_TRY(kd_tree_parse(text, length, 4096, STEP_VALUES, &tree, error));
+    if (!cJSON_IsObject(tree))
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the body is no JSON object"));
+    for (const cJSON *item = tree->child; item; item = item->next) {
+        const struct kd_value value = kd_tree_value(item);
+        if (strcmp(item->string, "by"))
+            KD_TRY(kd_playground_unknown("", item->string, error));
+        KD_TRY(kd_playground_put(by, &step_row, &value, "/by", error));
+        given = true;
+    }
+    if (!given || !(*by > 0))
+        KD_TRY(kd_error_field(error, "/by", "by is %s, allowed are numbers above 0", given ? "0" : "missing"));
+done:
+    cJSON_Delete(tree);
+    return status;
+}
+
+static void add_added(struct kd_json *json, const struct kd_playground *p, uint32_t before)
+{
+    kd_json_array(json, "added");
+    for (size_t i = 0; i < p->n; i++)
+        if (p->bodies[i].id > before)
+            kd_json_number(json, NULL, p->bodies[i].id);
+    kd_json_end(json);
+}
+
+enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_state *state, struct kd_playground *p, const struct kd_play_told *told,
+                               struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "id", kd_play_id(play));
+    if (told->token)
+        kd_json_string(&json, "token", kd_play_token(play));
+    kd_json_number(&json, "rate", state->pace.rate);
+    kd_json_number(&json, "rate_reached", state->reached);
+    kd_json_bool(&json, "paused", state->pace.paused);
+    kd_json_bool(&json, "slowed", told->progress ? told->progress->slowed : state->slowed);
+    kd_json_bool(&json, "resting", state->resting);
+    kd_json_number(&json, "watchers", state->watchers);
+    kd_json_number(&json, "generation", (double)state->generation);
+    if (told->progress) {
+        kd_json_number(&json, "asked", told->progress->asked);
+        kd_json_number(&json, "done", told->progress->done);
+    }
+    if (told->before != UINT32_MAX)
+        add_added(&json, p, told->before);
+    kd_playground_status_json(p, &json);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+enum kd_status kd_play_series_json(const struct kd_playground_series *series, struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_object(&json, "columns");
+    for (int i = 0; i < KD_SERIES_N; i++) {
+        kd_json_array(&json, kd_series_column(i));
+        for (size_t k = 0; k < series->n; k++)
+            kd_json_number(&json, NULL, series->rows[k][i]);
+        kd_json_end(&json);
+    }
+    kd_json_end(&json);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}
+
+static void add_rows(struct kd_json *json, const char *name, const struct kd_playground_setting *rows, size_t n)
+{
+    static const char *const kinds[] = { [KD_SETTING_REAL] = "number", [KD_SETTING_WHOLE] = "integer", [KD_SETTING_TRUTH] = "boolean", [KD_SETTING_WORD] = "string" };
+    kd_json_array(json, name);
+    for (size_t i = 0; i < n; i++) {
+        const struct kd_playground_setting *row = &rows[i];
+        const bool number = row->kind == KD_SETTING_REAL || row->kind == KD_SETTING_WHOLE;
+        char word[40] = "";
+        kd_json_object(json, NULL);
+        kd_json_string(json, "name", row->name);
+        kd_json_string(json, "type", kinds[row->kind]);
+        if (number) {
+            kd_json_number(json, "default", row->value);
+            kd_json_number(json, "least", row->least);
+            kd_json_number(json, "most", row->most);
+        } else if (row->kind == KD_SETTING_TRUTH) {
+            kd_json_bool(json, "default", row->value != 0);
+        } else {
+            kd_playground_word(row->words, (int)row->value, word, sizeof word);
+            kd_json_string(json, "default", word);
+            kd_json_array(json, "words");
+            for (int k = 0; kd_playground_word(row->words, k, word, sizeof word); k++)
+                kd_json_string(json, NULL, word);
+            kd_json_end(json);
+        }
+        if (!strcmp(row->name, "gravity") || !strcmp(row->name, "spin"))
+            kd_json_bool(json, "fixed", true);
+        kd_json_string(json, "help", row->help);
+        kd_json_end(json);
+    }
+    kd_json_end(json);
+}
+
+enum kd_status kd_play_catalogue_json(struct kd_buffer *out)
+{
+    struct kd_json json = kd_json_begin(out);
+    kd_json_object(&json, NULL);
+    kd_json_array(&json, "presets");
+    for (size_t i = 0; i < kd_playground_n_presets; i++) {
+        const struct kd_playground_preset *preset = &kd_playground_presets[i];
+        kd_json_object(&json, NULL);
+        kd_json_string(&json, "name", preset->name);
+        kd_json_string(&json, "title", preset->title);
+        kd_json_number(&json, "rate", preset->rate);
+        kd_json_array(&json, "centre");
+        for (int k = 0; k < 3; k++)
+            kd_json_number(&json, NULL, preset->centre[k]);
+        kd_json_end(&json);
+        kd_json_number(&json, "reach", preset->reach);
+        kd_json_end(&json);
+    }
+    kd_json_end(&json);
+    add_rows(&json, "settings", kd_playground_settings, kd_playground_n_settings);
+    add_rows(&json, "pace", pace_rows, sizeof pace_rows / sizeof *pace_rows);
+    add_rows(&json, "body", kd_playground_body_fields, kd_playground_n_body_fields);
+    kd_json_end(&json);
+    return kd_json_finish_line(&json);
+}

@@ -1,0 +1,64 @@
+/* This is what the files of src/server/playground share. */
+#ifndef KD_SERVER_PLAYGROUND_INTERNAL_H
+#define KD_SERVER_PLAYGROUND_INTERNAL_H
+
+#include "server/http/bytes.h"
+#include "server/http/secret.h"
+#include "server/playground/plays.h"
+
+#include <pthread.h>
+
+struct kd_play {
+    struct kd_turns_job turns; /* first; from its opening to its end */
+    struct kd_plays *all;
+    char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
+    /* with all->lock */
+    struct kd_play *next;
+    unsigned references;
+    size_t bytes;
+    bool listed, stepping;
+    const char *why; /* it has ended */
+    struct kd_play_pace pace;
+    bool anew; /* its clock begins anew */
+    double used_ms; /* when it was asked for or watched last */
+    double reached, slowed_ms; /* slowed_ms: when time was let go last */
+    uint64_t generation;
+    struct kd_play_tick *tick; /* the newest; NULL: none yet */
+    uint32_t debris; double debris_ms; /* the most pieces that anybody wants, and when that was said last */
+    struct kd_playground_events log;
+    uint64_t log_begin; /* what a snapshot has told elsewhere */
+    struct kd_play_watcher *watchers;
+    /* with `work`, which is taken before all->lock */
+    pthread_mutex_t work;
+    struct kd_playground *p;
+    double looked_ms, goal, allowance; /* the clock of its turns (run.c); looked_ms 0: it stands */
+    double ticked_ms, measured_ms, measured_t;
+};
+
+struct kd_plays {
+    struct kd_plays_params params;
+    struct kd_turns *turns;
+    struct kd_bytes *bytes;
+    pthread_mutex_t lock;
+    struct kd_play *first;
+    unsigned count;
+    uint64_t steps, events;
+    bool closed;
+    double looked_ms;
+};
+
+/* Callers hold all->lock. */
+void kd_play_let_go(struct kd_play *play); /* of a reference */
+void kd_play_unlist(struct kd_play *play, const char *why);
+bool kd_play_awake(const struct kd_play *play, double now); /* somebody watches, or has asked of late */
+void kd_play_call(struct kd_play *play);                    /* its job has something to do */
+void kd_play_wake(struct kd_play *play, double now);        /* those for whom there is something. watch.c */
+bool kd_play_awaited(const struct kd_play *play);           /* whether anybody waits for a tick. watch.c */
+
+/* The play's job; run.c. */
+enum kd_turn_end kd_play_turn(struct kd_turns_job *job);
+
+/* A new tick of the playground. NULL: out of memory. tick.c */
+struct kd_play_tick *kd_play_tick_make(struct kd_playground *p, const struct kd_play_state *state, uint32_t debris);
+
+#endif

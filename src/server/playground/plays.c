@@ -1,0 +1,304 @@
+#include "server/playground/internal.h"
+
+#include "base/clock.h"
+#include "base/log.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNTS_MS 20.   /* that who only wants to know may wait for the lock */
+#define SLOWED_MS 1000. /* for which it is told */
+/* Memory of a play with so many pieces: twice the pieces, which a change copies, and the rest of it twice. */
+#define BASE_BYTES ((size_t)6 << 20)
+#define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
+
+enum kd_status kd_plays_create(const struct kd_plays_params *params, struct kd_plays **out, struct kd_error *error)
+{
+    struct kd_plays *all = calloc(1, sizeof *all);
+    if (!all)
+        return kd_error_set(error, KD_ENOMEM, "out of memory");
+    all->params = *params;
+    pthread_mutex_init(&all->lock, NULL);
+    enum kd_status status;
+    all->bytes = kd_bytes_create(&(struct kd_bytes_params) { .clients = params->limit, .max = params->bytes, .share = params->client_bytes });
+    if (!all->bytes)
+        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+    KD_TRY(kd_turns_create(params->limit, params->client_limit, &all->turns, error));
+done:
+    if (status)
+        kd_plays_destroy(all);
+    else
+        *out = all;
+    return status;
+}
+
+void kd_plays_destroy(struct kd_plays *all)
+{
+    if (!all)
+        return;
+    kd_turns_destroy(all->turns);
+    kd_bytes_destroy(all->bytes);
+    pthread_mutex_destroy(&all->lock);
+    free(all);
+}
+
+/* From here on functions run with the lock. */
+
+void kd_play_let_go(struct kd_play *play)
+{
+    if (--play->references)
+        return;
+    kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
+    kd_play_tick_release(play->tick);
+    kd_playground_destroy(play->p);
+    pthread_mutex_destroy(&play->work);
+    free(play);
+}
+
+void kd_play_call(struct kd_play *play)
+{
+    if (play->listed)
+        kd_turns_wake(play->all->turns, &play->turns);
+}
+
+void kd_play_unlist(struct kd_play *play, const char *why)
+{
+    if (!play->listed)
+        return;
+    struct kd_play **link = &play->all->first;
+    while (*link != play)
+        link = &(*link)->next;
+    *link = play->next;
+    kd_turns_wake(play->all->turns, &play->turns); /* for its last turn */
+    play->listed = false;
+    play->why = why;
+    play->all->count--;
+    kd_play_wake(play, kd_clock_ms());
+}
+
+bool kd_play_awake(const struct kd_play *play, double now) { return play->watchers || now - play->used_ms < KD_PLAY_REST_MS; }
+
+static unsigned watchers_of(const struct kd_play *play)
+{
+    unsigned n = 0;
+    for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
+        n++;
+    return n;
+}
+
+/* From here on functions take the lock themselves. */
+
+/* The job's reference. */
+static void done(struct kd_turns_job *job)
+{
+    struct kd_play *play = (struct kd_play *)job;
+    struct kd_plays *all = play->all;
+    pthread_mutex_lock(&all->lock);
+    kd_play_let_go(play);
+    pthread_mutex_unlock(&all->lock);
+}
+
+static struct kd_play *make(struct kd_plays *all, const struct kd_play_pace *pace, const char *client)
+{
+    struct kd_play *play = calloc(1, sizeof *play);
+    if (!play || !kd_secret_make(play->id, sizeof play->id) || !kd_secret_make(play->token, sizeof play->token)) {
+        free(play);
+        return NULL;
+    }
+    play->turns = (struct kd_turns_job) { .turn = kd_play_turn, .done = done };
+    snprintf(play->turns.client, sizeof play->turns.client, "%s", client);
+    play->all = all;
+    play->references = 2; /* the job's and the caller's */
+    play->pace = *pace;
+    play->used_ms = kd_clock_ms();
+    play->generation = 1;
+    pthread_mutex_init(&play->work, NULL);
+    return play;
+}
+
+/* Locked. */
+static enum kd_status admit(struct kd_plays *all, const char *client, size_t bytes, bool *quota, struct kd_error *error)
+{
+    unsigned own = 0;
+    for (const struct kd_play *other = all->first; other; other = other->next)
+        own += !strcmp(other->turns.client, client);
+    *quota = !all->closed && all->count < all->params.limit && own >= all->params.client_limit;
+    if (*quota)
+        return kd_error_set(error, KD_EBUSY, "%u of your playgrounds are open, as many as one client may have", own);
+    if (all->closed || all->count >= all->params.limit)
+        return kd_error_set(error, KD_EBUSY, "%u playgrounds are open, as many as may", all->count);
+    if (kd_bytes_take(all->bytes, client, bytes, bytes, quota))
+        return kd_error_set(error, KD_EBUSY, "this playground's debris takes %zu MiB, more than is left %s", bytes >> 20, *quota ? "of your share" : "on this server");
+    return KD_OK;
+}
+
+enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const char *client, bool *quota,
+                             struct kd_play **out, struct kd_error *error)
+{
+    const size_t bytes = BYTES((*p)->debris.capacity);
+    struct kd_play *play = make(all, pace, client);
+    *quota = false;
+    if (!play)
+        return kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a playground");
+    pthread_mutex_lock(&all->lock);
+    enum kd_status status = admit(all, client, bytes, quota, error);
+    if (!status) {
+        play->p = *p;
+        *p = NULL;
+        play->bytes = bytes;
+        play->log.last = play->log_begin = play->p->events.last;
+        play->listed = true;
+        play->next = all->first;
+        all->first = play;
+        all->count++;
+        kd_turns_push(all->turns, &play->turns);
+    }
+    pthread_mutex_unlock(&all->lock);
+    if (status) {
+        pthread_mutex_destroy(&play->work);
+        free(play);
+        return status;
+    }
+    *out = play;
+    return KD_OK;
+}
+
+struct kd_play *kd_plays_find(struct kd_plays *all, const char *id)
+{
+    pthread_mutex_lock(&all->lock);
+    struct kd_play *play = all->first;
+    while (play && strcmp(play->id, id))
+        play = play->next;
+    if (play) {
+        const double now = kd_clock_ms();
+        const bool rested = !kd_play_awake(play, now);
+        play->references++;
+        play->used_ms = now;
+        if (rested)
+            kd_play_call(play);
+    }
+    pthread_mutex_unlock(&all->lock);
+    return play;
+}
+
+void kd_play_release(struct kd_play *play)
+{
+    if (!play)
+        return;
+    struct kd_plays *all = play->all;
+    pthread_mutex_lock(&all->lock);
+    kd_play_let_go(play);
+    pthread_mutex_unlock(&all->lock);
+}
+
+const char *kd_play_id(const struct kd_play *play) { return play->id; }
+const char *kd_play_token(const struct kd_play *play) { return play->token; }
+bool kd_play_owned(const struct kd_play *play, const char *token) { return kd_secret_equal(play->token, token); }
+
+void kd_play_end(struct kd_play *play, const char *why)
+{
+    pthread_mutex_lock(&play->all->lock);
+    kd_play_unlist(play, why);
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+struct kd_playground *kd_play_take(struct kd_play *play)
+{
+    pthread_mutex_lock(&play->work);
+    return play->p;
+}
+
+void kd_play_give(struct kd_play *play, struct kd_playground *p)
+{
+    play->p = p;
+    pthread_mutex_unlock(&play->work);
+}
+
+void kd_play_moved(struct kd_play *play)
+{
+    pthread_mutex_lock(&play->all->lock);
+    play->generation++;
+    kd_play_call(play);
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota, struct kd_error *error)
+{
+    struct kd_plays *all = play->all;
+    const size_t bytes = BYTES(capacity);
+    enum kd_status status = KD_OK;
+    *quota = false;
+    pthread_mutex_lock(&all->lock);
+    if (bytes > play->bytes && kd_bytes_take(all->bytes, play->turns.client, bytes - play->bytes, bytes - play->bytes, quota))
+        status = kd_error_field(error, "/debris_capacity", "so many pieces take %zu MiB, more than is left %s", bytes >> 20, *quota ? "of your share" : "on this server");
+    else if (bytes < play->bytes)
+        kd_bytes_give(all->bytes, play->turns.client, play->bytes - bytes);
+    if (!status)
+        play->bytes = bytes;
+    else
+        error->status = status = KD_EBUSY;
+    pthread_mutex_unlock(&all->lock);
+    return status;
+}
+
+struct kd_play_state kd_play_state(struct kd_play *play)
+{
+    const double now = kd_clock_ms();
+    pthread_mutex_lock(&play->all->lock);
+    const bool resting = !kd_play_awake(play, now);
+    const struct kd_play_state state = { .pace = play->pace, .reached = play->reached, .slowed = play->slowed_ms > 0 && now - play->slowed_ms < SLOWED_MS,
+                                         .resting = resting, .stepping = play->stepping, .over = !play->listed, .watchers = watchers_of(play),
+                                         .generation = play->generation };
+    pthread_mutex_unlock(&play->all->lock);
+    return state;
+}
+
+void kd_play_set_pace(struct kd_play *play, const struct kd_play_pace *pace)
+{
+    pthread_mutex_lock(&play->all->lock);
+    play->pace = *pace;
+    play->anew = true;
+    play->slowed_ms = 0;
+    play->generation++;
+    kd_play_call(play);
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+bool kd_play_step(struct kd_play *play)
+{
+    pthread_mutex_lock(&play->all->lock);
+    const bool may = play->pace.paused && !play->stepping;
+    play->stepping |= may;
+    pthread_mutex_unlock(&play->all->lock);
+    return may;
+}
+
+void kd_play_stepped(struct kd_play *play)
+{
+    pthread_mutex_lock(&play->all->lock);
+    play->stepping = false;
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+void kd_plays_close(struct kd_plays *all)
+{
+    pthread_mutex_lock(&all->lock);
+    all->closed = true;
+    while (all->first)
+        kd_play_unlist(all->first, "stopping");
+    pthread_mutex_unlock(&all->lock);
+}
+
+unsigned kd_plays_unfinished(struct kd_plays *all) { return kd_turns_unfinished(all->turns); }
+
+bool kd_plays_counts(struct kd_plays *all, struct kd_plays_counts *out)
+{
+    if (!kd_clock_lock(&all->lock, COUNTS_MS))
+        return false;
+    *out = (struct kd_plays_counts) { .plays = all->count, .bytes = kd_bytes_held(all->bytes), .steps = all->steps, .events = all->events };
+    for (const struct kd_play *play = all->first; play; play = play->next)
+        out->watchers += watchers_of(play);
+    pthread_mutex_unlock(&all->lock);
+    return true;
+}

@@ -1,0 +1,125 @@
+/* A play is a playground that lives on the server: it goes on by itself, at so many M a second, and its owner changes it meanwhile.
+ *
+ * It goes on while somebody watches or asks, and rests KD_PLAY_REST_MS after the last one; when nobody has come for params.idle_ms it ends. Each play has one
+ * job that takes turns with those of the others (http/turns.h), of some 10 ms: a sub-step is not divided, and takes tens of milliseconds where there are
+ * 4096 bodies or a million pieces of debris. What a second asks for and does not get is let go: simulated time slows, which is told.
+ *
+ * A playground belongs to one thread at a time: whoever holds the play's `work`, a worker always. The HTTP thread reads what the workers have published, a tick.
+ * Any thread; the functions on watchers belong to the HTTP thread. */
+#ifndef KD_SERVER_PLAYGROUND_PLAYS_H
+#define KD_SERVER_PLAYGROUND_PLAYS_H
+
+#include "playground/playground.h"
+#include "server/http/counts.h"
+#include "server/http/turns.h"
+
+#include <microhttpd.h>
+#include <stdatomic.h>
+
+#define KD_PLAY_REST_MS 5000.
+#define KD_PLAY_RATE_MAX 1e9 /* M a second */
+#define KD_PLAY_DEBRIS 20000u /* pieces that are sent where nothing is said */
+
+struct kd_plays;
+struct kd_play;
+
+struct kd_plays_params {
+    unsigned limit, client_limit; /* at once; of one client */
+    unsigned idle_ms;
+    size_t bytes, client_bytes; /* of memory, of all; of one client */
+};
+enum kd_status kd_plays_create(const struct kd_plays_params *params, struct kd_plays **out, struct kd_error *error);
+/* After kd_plays_close, when kd_plays_unfinished is 0 and nobody has a reference. Accepts NULL. */
+void kd_plays_destroy(struct kd_plays *all);
+
+/* How a play goes on besides its playground. */
+struct kd_play_pace {
+    double rate; /* M a second, 0 to KD_PLAY_RATE_MAX */
+    bool paused;
+};
+
+/* Opens a play, which owns *p from then on and sets it to NULL. The caller holds a reference. KD_EBUSY: there are as many as may be, or as many bytes; *quota: of
+ * this client. */
+enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const char *client, bool *quota,
+                             struct kd_play **out, struct kd_error *error);
+/* The play of this id: a reference, or NULL. It counts as asked for. */
+struct kd_play *kd_plays_find(struct kd_plays *all, const char *id);
+void kd_play_release(struct kd_play *play); /* accepts NULL */
+const char *kd_play_id(const struct kd_play *play);
+const char *kd_play_token(const struct kd_play *play);
+bool kd_play_owned(const struct kd_play *play, const char *token); /* in constant time; token may be NULL */
+/* Ends the play, and tells all who watch why: a word. */
+void kd_play_end(struct kd_play *play, const char *why);
+
+/* Takes the playground, which is the caller's until it is given back, itself or another one in its place: workers only, and for a moment. */
+struct kd_playground *kd_play_take(struct kd_play *play);
+void kd_play_give(struct kd_play *play, struct kd_playground *p);
+/* In between: what has happened in it is told; it has changed, or gone on; how many sub-steps it may be moved on between two looks at the clock. */
+void kd_play_log(struct kd_play *play, const struct kd_playground *p);
+void kd_play_moved(struct kd_play *play);
+uint32_t kd_play_pieces(const struct kd_playground *p);
+/* Counts the bytes that a capacity of debris takes instead of the present one. KD_EBUSY, and nothing has changed, where they are too many. */
+enum kd_status kd_play_room(struct kd_play *play, uint32_t capacity, bool *quota, struct kd_error *error);
+
+struct kd_play_state {
+    struct kd_play_pace pace;
+    double reached; /* M a second, of late */
+    bool slowed, resting, stepping, over;
+    unsigned watchers;
+    uint64_t generation;
+};
+struct kd_play_state kd_play_state(struct kd_play *play);
+void kd_play_set_pace(struct kd_play *play, const struct kd_play_pace *pace);
+/* Whether the play may be stepped by hand from now on, which it may while it is paused and nobody else does: then nothing else changes it until kd_play_stepped. */
+bool kd_play_step(struct kd_play *play);
+void kd_play_stepped(struct kd_play *play);
+
+/* A tick is how a play stood at a time. Shared and constant once made; the last reference frees it. */
+struct kd_play_tick {
+    _Atomic unsigned references;
+    uint64_t generation;
+    double t;
+    struct kd_buffer event;          /* JSON in one line */
+    struct kd_buffer bodies, debris; /* rows: KD_PLAY_BODY_WORDS and KD_PLAY_DEBRIS_WORDS words each */
+    size_t n_bodies, n_debris, all_debris;
+    bool has_debris;
+    uint32_t most; /* that there may be in `debris` */
+};
+enum { KD_PLAY_HEAD_WORDS = 8, KD_PLAY_BODY_WORDS = 10, KD_PLAY_DEBRIS_WORDS = 4 };
+void kd_play_tick_release(struct kd_play_tick *tick); /* accepts NULL */
+
+/* Who watches is a request that waits for one tick, or a stream that takes each and all events. */
+struct kd_play_watcher {
+    struct kd_play *play; /* a reference */
+    struct MHD_Connection *mhd;
+    int socket;
+    bool stream;
+    uint64_t least;     /* the generation that a tick must have at least */
+    uint32_t debris;    /* pieces that it must have room for; 0: none */
+    uint64_t event;     /* number of the last event that was taken */
+    double deadline_ms; /* on kd_clock_ms, of waiting */
+    bool waiting;       /* suspended */
+    struct kd_play_watcher *previous, *next;
+};
+/* Takes over the reference in watcher->play. after: the generation that it has; NULL: none. */
+void kd_play_watch(struct kd_play_watcher *watcher, const uint64_t *after);
+void kd_play_unwatch(struct kd_play_watcher *watcher);
+enum kd_play_news {
+    KD_PLAY_TICK,  /* *tick, a reference */
+    KD_PLAY_EVENT, /* *event; or, where event->number is not the next one, those in between are no longer kept */
+    KD_PLAY_OVER,  /* *why, a word */
+    KD_PLAY_GONE,  /* the client has hung up */
+    KD_PLAY_LATE,  /* the deadline has passed, which the caller may set anew */
+    KD_PLAY_LATER, /* the connection has been suspended, and is resumed for one of these */
+};
+enum kd_play_news kd_play_await(struct kd_play_watcher *watcher, struct kd_play_tick **tick, struct kd_playground_event *event, const char **why);
+
+/* Looks after deadlines, clients that have gone and plays that nobody watches. One thread calls it, ten times a second. */
+void kd_plays_sweep(struct kd_plays *all);
+/* Takes no more plays, and ends all. */
+void kd_plays_close(struct kd_plays *all);
+unsigned kd_plays_unfinished(struct kd_plays *all); /* that workers have not let go of */
+/* False, with nothing known, where that takes more than a moment. */
+bool kd_plays_counts(struct kd_plays *all, struct kd_plays_counts *out);
+
+#endif

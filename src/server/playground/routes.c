@@ -1,0 +1,337 @@
+/* These routes open, tell, change, step and end a play, and give its files. All that needs the playground itself is a task of the workers. */
+#include "server/playground/routes.h"
+
+#include "base/clock.h"
+#include "server/http/negotiate.h"
+#include "server/http/reply.h"
+#include "server/playground/document.h"
+#include "server/render/task.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define JSON_TYPE "application/json"
+#define CSV_TYPE "text/csv"
+
+enum what { OPEN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
+
+struct play_task {
+    struct kd_task task; /* first */
+    enum what what;
+    const char *type;     /* of the answer */
+    struct kd_play *play; /* a reference; of OPEN what has been opened */
+    struct kd_buffer out;
+    bool conflict, steps, begun, told; /* steps: the play is stepped by this; told: who has opened it knows */
+    double by;
+    struct kd_playground_run run;
+};
+
+struct kd_play *kd_play_of(struct kd_request *request, enum MHD_Result *refused)
+{
+    struct kd_play *play = kd_plays_find(request->server->plays, request->rest);
+    if (!play)
+        *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "there is no such playground, or it has ended" });
+    return play;
+}
+
+enum MHD_Result kd_play_ended(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the playground has ended" });
+}
+
+static void destroy(struct kd_task *task)
+{
+    struct play_task *t = (struct play_task *)task;
+    if (t->steps)
+        kd_play_stepped(t->play);
+    if (t->what == OPEN && t->play && !t->told)
+        kd_play_end(t->play, "failed");
+    kd_play_release(t->play);
+    kd_buffer_finish(&t->out);
+    free(t);
+}
+
+/* These run on a worker. */
+
+static const char *body_of(const struct kd_task *task) { return task->request->body.data ? (const char *)task->request->body.data : ""; }
+
+static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_play_told *told, struct kd_error *error)
+{
+    const struct kd_play_state state = kd_play_state(t->play);
+    return kd_play_to_json(t->play, &state, p, told, &t->out) ? kd_error_set(error, KD_ENOMEM, "out of memory for the answer") : KD_OK;
+}
+
+static enum kd_status open_play(struct play_task *t, struct kd_error *error)
+{
+    struct kd_server *server = t->task.request->server;
+    struct kd_play_pace pace = { 0 };
+    struct kd_playground *p = NULL;
+    cJSON *tree = NULL;
+    enum kd_status status;
+    KD_TRY(kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error));
+    pace.rate = kd_play_usual_rate(tree);
+    KD_TRY(kd_play_read_pace(tree, &pace, error));
+    KD_TRY(kd_playground_read_tree(tree, &p, error));
+    KD_TRY(kd_plays_open(server->plays, &p, &pace, t->task.request->client, &t->task.quota, &t->play, error));
+    struct kd_playground *opened = kd_play_take(t->play);
+    status = tell(t, opened, &(struct kd_play_told) { .token = true, .before = UINT32_MAX }, error);
+    kd_play_give(t->play, opened);
+done:
+    kd_playground_destroy(p);
+    cJSON_Delete(tree);
+    kd_task_drop_body(t->task.request);
+    return status;
+}
+
+/* Counts the debris that the patch makes room for. */
+static enum kd_status make_room(struct play_task *t, const cJSON *tree, struct kd_error *error)
+{
+    const cJSON *capacity = cJSON_GetObjectItemCaseSensitive(tree, "debris_capacity");
+    if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
+        return KD_OK; /* the reader of settings refuses it */
+    return kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error);
+}
+
+static enum kd_status change_taken(struct play_task *t, struct kd_playground **p, cJSON *tree, struct kd_error *error)
+{
+    const struct kd_play_state state = kd_play_state(t->play);
+    struct kd_play_pace pace = state.pace;
+    const uint32_t before = (*p)->last_id;
+    bool quota;
+    enum kd_status status;
+    t->conflict = state.stepping;
+    if (t->conflict)
+        return kd_error_set(error, KD_EINVAL, "the playground is being stepped: it is changed before or after that");
+    KD_TRY(kd_play_read_pace(tree, &pace, error));
+    if (tree->child) {
+        KD_TRY(make_room(t, tree, error));
+        status = kd_playground_patch_tree(p, tree, error);
+        kd_play_room(t->play, (*p)->params.debris_capacity, &quota, &(struct kd_error) { 0 }); /* as it has come out: never more than was counted */
+        KD_TRY(status);
+        kd_play_moved(t->play);
+    }
+    if (pace.rate != state.pace.rate || pace.paused != state.pace.paused)
+        kd_play_set_pace(t->play, &pace);
+    KD_TRY(tell(t, *p, &(struct kd_play_told) { .before = before }, error));
+done:
+    return status;
+}
+
+static enum kd_status change(struct play_task *t, struct kd_error *error)
+{
+    cJSON *tree = NULL;
+    enum kd_status status = kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error);
+    if (!status) {
+        struct kd_playground *p = kd_play_take(t->play);
+        status = change_taken(t, &p, tree, error);
+        kd_play_give(t->play, p);
+    }
+    cJSON_Delete(tree);
+    kd_task_drop_body(t->task.request);
+    return status;
+}
+
+static enum kd_turn_end step(struct play_task *t, double until_ms, struct kd_error *error)
+{
+    if (!t->begun) {
+        if (kd_play_read_step(body_of(&t->task), t->task.request->body.size, &t->by, error))
+            return KD_TURN_LAST;
+        t->steps = kd_play_step(t->play);
+        t->conflict = !t->steps;
+        if (t->conflict) {
+            kd_error_set(error, KD_EINVAL, "a playground is stepped while it is paused, and by one request at a time");
+            return KD_TURN_LAST;
+        }
+    }
+    struct kd_playground *p = kd_play_take(t->play);
+    bool more = true;
+    if (!t->begun)
+        kd_playground_begin(p, t->by, &t->run);
+    t->begun = true;
+    while (more && kd_clock_ms() < until_ms) {
+        more = kd_playground_go_on(p, &t->run, kd_play_pieces(p));
+        kd_play_log(t->play, p);
+    }
+    kd_play_moved(t->play);
+    if (!more) {
+        struct kd_playground_progress progress = kd_playground_progress(p, &t->run);
+        progress.asked = t->by;
+        tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX, .progress = &progress }, error);
+    }
+    kd_play_give(t->play, p);
+    return more && !kd_play_state(t->play).over ? KD_TURN_MORE : KD_TURN_LAST;
+}
+
+static enum kd_status write_file(struct play_task *t, struct kd_error *error)
+{
+    struct kd_playground *p = kd_play_take(t->play);
+    const bool npy = !strcmp(t->type, KD_NPY_TYPE);
+    enum kd_status status = KD_OK;
+    switch (t->what) {
+    case SNAPSHOT: status = kd_playground_write(p, true, &t->out); break;
+    case SERIES:
+        status = npy ? kd_series_npy(&p->series, &t->out) : strcmp(t->type, CSV_TYPE) ? kd_play_series_json(&p->series, &t->out) : kd_series_csv(&p->series, &t->out);
+        break;
+    case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
+    default: status = tell(t, p, &(struct kd_play_told) { .before = UINT32_MAX }, error);
+    }
+    kd_play_give(t->play, p);
+    return status ? kd_error_set(error, status, "out of memory for the answer") : KD_OK;
+}
+
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
+{
+    struct play_task *t = (struct play_task *)task;
+    struct kd_error error = { 0 };
+    enum kd_turn_end end = KD_TURN_LAST;
+    switch (t->what) {
+    case OPEN: open_play(t, &error); break;
+    case CHANGE: change(t, &error); break;
+    case STEP: end = step(t, until_ms, &error); break;
+    default: write_file(t, &error);
+    }
+    kd_task_fail(task, error.status, &error);
+    if (!error.status)
+        kd_task_fail(task, kd_task_hold(task->request->server, task->turns.client, t->out.size, &task->held, &task->quota, &error), &error);
+    return end;
+}
+
+/* These run on the HTTP thread. */
+
+static enum MHD_Result refuse(struct kd_request *request, const struct play_task *t)
+{
+    struct kd_problem problem = kd_problem_from(&t->task.error);
+    if (t->conflict)
+        problem.type = KD_PROBLEM_CONFLICT;
+    else if ((t->task.error.status == KD_EINVAL || t->task.error.status == KD_ETOOBIG) && *t->task.error.pointer)
+        problem.type = KD_PROBLEM_INVALID_PLAYGROUND;
+    else if (t->task.error.status == KD_EINVAL)
+        problem.type = KD_PROBLEM_MALFORMED_JSON;
+    else if (t->task.quota)
+        problem.type = KD_PROBLEM_QUOTA;
+    if (t->task.error.status == KD_EBUSY)
+        problem.retry_after = 10;
+    return kd_reply_problem(request, &problem);
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    struct play_task *t = (struct play_task *)request->task;
+    if (t->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    if (t->task.status)
+        return refuse(request, t);
+    if (!t->out.size)
+        return kd_play_ended(request);
+    struct MHD_Response *response = kd_reply_text(request, &t->out, t->type);
+    char location[60];
+    snprintf(location, sizeof location, "/v1/playground/%s", kd_play_id(t->play));
+    if (response && t->what == OPEN)
+        MHD_add_response_header(response, "Location", location);
+    if (response && t->what == SNAPSHOT)
+        kd_reply_file(request, KD_ATTACHMENT, "playground.json");
+    const enum MHD_Result result = kd_reply_send(request, t->what == OPEN ? MHD_HTTP_CREATED : MHD_HTTP_OK, response);
+    t->told = request->status == MHD_HTTP_CREATED;
+    return result;
+}
+
+/* play: a reference, which it takes over. */
+static enum MHD_Result begin(struct kd_request *request, struct kd_play *play, enum what what, const char *type)
+{
+    enum MHD_Result refused;
+    struct play_task *t = kd_task_admit(request, request->server->turns, "playgrounds", &refused) ? calloc(1, sizeof *t) : NULL;
+    if (!t) {
+        kd_play_release(play);
+        return request->status ? refused : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    }
+    kd_task_init(&t->task, request, request->server->turns);
+    t->task.work = work;
+    t->task.free = destroy;
+    t->play = play;
+    t->what = what;
+    t->type = type;
+    request->task = &t->task;
+    return kd_task_submit(&t->task);
+}
+
+static enum MHD_Result forbid(struct kd_request *request)
+{
+    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_FORBIDDEN, .detail = "changing a playground takes its token: Authorization: Bearer TOKEN" });
+}
+
+enum MHD_Result kd_handle_plays(struct kd_request *request)
+{
+    struct kd_buffer json = { 0 };
+    if (strcmp(request->method, "POST")) {
+        const enum kd_status status = kd_play_catalogue_json(&json);
+        return kd_reply_json(request, status, &json, JSON_TYPE);
+    }
+    return request->task ? deliver(request) : begin(request, NULL, OPEN, JSON_TYPE);
+}
+
+static enum MHD_Result end(struct kd_request *request, struct kd_play *play)
+{
+    kd_play_end(play, "deleted");
+    kd_play_release(play);
+    return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, JSON_TYPE));
+}
+
+/* One that is changed by its owner alone. */
+static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
+{
+    enum MHD_Result refused;
+    struct kd_play *play = kd_play_of(request, &refused);
+    if (!play)
+        return refused;
+    if (!kd_play_owned(play, kd_token_of(request))) {
+        kd_play_release(play);
+        return forbid(request);
+    }
+    return !strcmp(request->method, "DELETE") ? end(request, play) : begin(request, play, what, JSON_TYPE);
+}
+
+static enum MHD_Result begin_reading(struct kd_request *request, enum what what, const char *type)
+{
+    enum MHD_Result refused;
+    struct kd_play *play = kd_play_of(request, &refused);
+    return play ? begin(request, play, what, type) : refused;
+}
+
+enum MHD_Result kd_handle_play(struct kd_request *request)
+{
+    if (request->task)
+        return deliver(request);
+    const bool reads = !strcmp(request->method, "GET") || request->head;
+    return reads ? begin_reading(request, STATE, JSON_TYPE) : begin_owned(request, CHANGE);
+}
+
+enum MHD_Result kd_handle_play_step(struct kd_request *request) { return request->task ? deliver(request) : begin_owned(request, STEP); }
+
+enum MHD_Result kd_handle_play_snapshot(struct kd_request *request)
+{
+    return request->task ? deliver(request) : begin_reading(request, SNAPSHOT, JSON_TYPE);
+}
+
+static enum MHD_Result table(struct kd_request *request, enum what what, const char *const *types, size_t n)
+{
+    if (request->task)
+        return deliver(request);
+    const size_t i = kd_reply_accepted(request, n, kd_accept_string, types);
+    if (i == n)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " JSON_TYPE : CSV_TYPE ", " KD_NPY_TYPE,
+                                                                .detail = "a table is given as one of the types that are offered" });
+    return begin_reading(request, what, types[i]);
+}
+
+enum MHD_Result kd_handle_play_series(struct kd_request *request)
+{
+    static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE, JSON_TYPE };
+    return table(request, SERIES, types, 3);
+}
+
+enum MHD_Result kd_handle_play_fallback(struct kd_request *request)
+{
+    static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE };
+    return table(request, FALLBACK, types, 2);
+}

@@ -1,0 +1,161 @@
+/* A play goes on in turns.
+ *
+ * Its goal goes on with the clock, at the rate that is asked, and the bodies follow in sub-steps until they are past it. They may be behind by LAG_S of the rate, which a
+ * crowded machine makes up for later; what is more is let go. A beat, a thirtieth of a second, has room for as many sub-steps as the setting `budget` says. */
+#include "base/clock.h"
+#include "server/playground/internal.h"
+
+#include <math.h>
+
+#define TURN_MS 10.
+#define TICK_MS 33.  /* from one tick to the next */
+#define LEAST_MS 8.  /* from one turn to the next */
+#define MOST_MS 100.
+#define LAG_S 0.1
+#define BEATS 30.    /* a second */
+#define RATE_MS 500. /* over which the rate that is reached is measured */
+#define FEW 64       /* bodies, whose sub-step takes a microsecond or two */
+#define PIECES 16    /* of them at once, between two looks at the clock */
+
+/* What a turn is to do, as of its begin. */
+struct order {
+    bool over, goes, anew, awaited;
+    double rate;
+    uint32_t debris; /* pieces that somebody wants */
+};
+
+static struct order look(struct kd_play *play, double now)
+{
+    pthread_mutex_lock(&play->all->lock);
+    const struct order order = { .over = !play->listed, .anew = play->anew, .rate = play->pace.rate, .awaited = kd_play_awaited(play),
+                                 .goes = !play->pace.paused && !play->stepping && play->pace.rate > 0 && kd_play_awake(play, now),
+                                 .debris = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0 };
+    play->anew = false;
+    if (!order.goes)
+        play->reached = 0;
+    pthread_mutex_unlock(&play->all->lock);
+    return order;
+}
+
+void kd_play_log(struct kd_play *play, const struct kd_playground *p)
+{
+    struct kd_playground_events *log = &play->log;
+    if (p->events.last == log->last) /* only who has `work` changes either */
+        return;
+    pthread_mutex_lock(&play->all->lock);
+    play->all->events += p->events.last - log->last;
+    while (log->last < p->events.last) {
+        const struct kd_playground_event *event = kd_playground_event_at(&p->events, ++log->last);
+        if (event)
+            log->kept[log->last % KD_PLAYGROUND_EVENTS] = *event;
+    }
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+uint32_t kd_play_pieces(const struct kd_playground *p)
+{
+    return p->n <= FEW && p->debris.alive <= FEW && p->params.gravity != KD_GRAVITY_KERR ? PIECES : 1;
+}
+
+static void start_clock(struct kd_play *play, double now)
+{
+    play->looked_ms = play->measured_ms = now;
+    play->goal = play->measured_t = play->p->t;
+    play->allowance = play->p->params.budget;
+}
+
+/* Sub-steps until the goal is reached, the allowance spent, or the turn over. */
+static void follow(struct kd_play *play, double until)
+{
+    struct kd_playground *p = play->p;
+    struct kd_playground_run run;
+    if (!(play->goal > p->t) || play->allowance < 1)
+        return;
+    kd_playground_begin(p, play->goal - p->t, &run);
+    const uint32_t most = run.left = (uint32_t)fmin(play->allowance, run.left);
+    bool more = true;
+    while (more && kd_clock_ms() < until) {
+        more = kd_playground_go_on(p, &run, kd_play_pieces(p));
+        kd_play_log(play, p);
+    }
+    play->allowance -= most - run.left;
+    if (run.stuck)
+        play->allowance = 0;
+}
+
+/* Moves the playground on. Returns true if it is behind. */
+static bool advance(struct kd_play *play, double rate, double now)
+{
+    struct kd_playground *p = play->p;
+    const double seconds = 1e-3 * (now - play->looked_ms), begin = p->t;
+    const uint64_t steps = p->steps;
+    play->looked_ms = now;
+    play->goal += rate * seconds;
+    play->allowance = fmin(play->allowance + p->params.budget * seconds * BEATS, p->params.budget);
+    follow(play, now + TURN_MS);
+    const bool spent = play->allowance < 1, slowed = play->goal - p->t > (spent ? 0 : rate * LAG_S);
+    if (slowed)
+        play->goal = p->t + (spent ? 0 : rate * LAG_S);
+    const double end = kd_clock_ms();
+    pthread_mutex_lock(&play->all->lock);
+    if (slowed)
+        play->slowed_ms = end;
+    if (end - play->measured_ms > RATE_MS) {
+        play->reached = 1e3 * (p->t - play->measured_t) / (end - play->measured_ms);
+        play->measured_ms = end;
+        play->measured_t = p->t;
+    }
+    play->generation += p->t > begin;
+    play->all->steps += p->steps - steps;
+    pthread_mutex_unlock(&play->all->lock);
+    return play->goal > p->t;
+}
+
+static bool has_debris(const struct kd_play_tick *tick, uint32_t wanted) { return !wanted || (tick->has_debris && tick->most >= wanted); }
+
+/* Publishes how it stands, if anybody waits for it. Returns when that is to be done instead, at the latest; 0: it is done. */
+static double publish(struct kd_play *play, const struct order *order, double now)
+{
+    const struct kd_play_state state = kd_play_state(play);
+    pthread_mutex_lock(&play->all->lock);
+    const bool fresh = play->tick && play->tick->generation == state.generation && has_debris(play->tick, order->debris);
+    const bool first = !play->tick;
+    pthread_mutex_unlock(&play->all->lock);
+    if (fresh || (!order->awaited && !first))
+        return 0;
+    if (order->goes && now - play->ticked_ms < TICK_MS)
+        return play->ticked_ms + TICK_MS;
+    struct kd_play_tick *tick = kd_play_tick_make(play->p, &state, order->debris);
+    if (!tick)
+        return now + MOST_MS; /* there may be memory then */
+    play->ticked_ms = now;
+    pthread_mutex_lock(&play->all->lock);
+    kd_play_tick_release(play->tick);
+    play->tick = tick;
+    kd_play_wake(play, now);
+    pthread_mutex_unlock(&play->all->lock);
+    return 0;
+}
+
+enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
+{
+    struct kd_play *play = (struct kd_play *)job;
+    double now = kd_clock_ms();
+    const struct order order = look(play, now);
+    bool behind = false;
+    if (order.over)
+        return KD_TURN_LAST;
+    pthread_mutex_lock(&play->work);
+    if (!order.goes)
+        play->looked_ms = 0;
+    else if (order.anew || !(play->looked_ms > 0))
+        start_clock(play, now);
+    else
+        behind = advance(play, order.rate, now);
+    now = kd_clock_ms();
+    const double ahead = play->p->t - play->goal, due = publish(play, &order, now);
+    const double next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
+    job->due_ms = due > 0 && (!order.goes || due < next) ? due : next;
+    pthread_mutex_unlock(&play->work);
+    return behind ? KD_TURN_MORE : KD_TURN_PARK;
+}

@@ -1,0 +1,148 @@
+/* This knows who watches a play, and what happens to plays as time goes by. */
+#include "base/clock.h"
+#include "base/log.h"
+#include "server/http/connections.h"
+#include "server/playground/internal.h"
+
+#include <math.h>
+
+#define LOOK_MS 1000. /* how late a client that has hung up may be noticed */
+
+/* These run with the lock. */
+
+static bool has_tick(const struct kd_play_watcher *w)
+{
+    const struct kd_play_tick *tick = w->play->tick;
+    return tick && tick->generation >= w->least && (!w->debris || (tick->has_debris && tick->most >= w->debris));
+}
+
+static enum kd_play_news news(const struct kd_play_watcher *w, double now)
+{
+    const struct kd_play *play = w->play;
+    if (w->stream && w->event < play->log.last)
+        return KD_PLAY_EVENT;
+    if (!play->listed)
+        return KD_PLAY_OVER;
+    if (has_tick(w))
+        return KD_PLAY_TICK;
+    return now > w->deadline_ms ? KD_PLAY_LATE : KD_PLAY_LATER;
+}
+
+static void resume(struct kd_play_watcher *w)
+{
+    w->waiting = false;
+    MHD_resume_connection(w->mhd);
+}
+
+void kd_play_wake(struct kd_play *play, double now)
+{
+    for (struct kd_play_watcher *w = play->watchers; w; w = w->next)
+        if (w->waiting && news(w, now) != KD_PLAY_LATER)
+            resume(w);
+}
+
+bool kd_play_awaited(const struct kd_play *play)
+{
+    for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
+        if (w->waiting)
+            return true;
+    return false;
+}
+
+/* The event behind the last one that was taken; those that are no longer kept are passed over, and *event says how far. */
+static void take_event(struct kd_play_watcher *w, struct kd_playground_event *event)
+{
+    const struct kd_playground_event *found = NULL;
+    while (!found && w->event < w->play->log.last)
+        found = kd_playground_event_at(&w->play->log, ++w->event);
+    *event = found ? *found : (struct kd_playground_event) { .number = 0 };
+}
+
+/* These take the lock themselves. */
+
+void kd_play_watch(struct kd_play_watcher *w, const uint64_t *after)
+{
+    struct kd_play *play = w->play;
+    pthread_mutex_lock(&play->all->lock);
+    w->least = after && *after <= play->generation ? *after + 1 : play->generation;
+    if (w->event > play->log.last || w->event < play->log_begin) /* a number that none has had counts as none */
+        w->event = play->log_begin;
+    if (w->debris) {
+        const double now = kd_clock_ms();
+        if (w->debris >= play->debris || now - play->debris_ms > KD_PLAY_REST_MS) {
+            play->debris = w->debris;
+            play->debris_ms = now;
+        }
+    }
+    w->previous = NULL;
+    w->next = play->watchers;
+    if (w->next)
+        w->next->previous = w;
+    play->watchers = w;
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+void kd_play_unwatch(struct kd_play_watcher *w)
+{
+    struct kd_play *play = w->play;
+    struct kd_plays *all = play->all;
+    pthread_mutex_lock(&all->lock);
+    if (w->previous)
+        w->previous->next = w->next;
+    else
+        play->watchers = w->next;
+    if (w->next)
+        w->next->previous = w->previous;
+    play->used_ms = kd_clock_ms();
+    kd_play_let_go(play);
+    pthread_mutex_unlock(&all->lock);
+    w->play = NULL;
+}
+
+enum kd_play_news kd_play_await(struct kd_play_watcher *w, struct kd_play_tick **tick, struct kd_playground_event *event, const char **why)
+{
+    struct kd_play *play = w->play;
+    const double now = kd_clock_ms();
+    pthread_mutex_lock(&play->all->lock);
+    enum kd_play_news what = news(w, now);
+    if (what == KD_PLAY_TICK) {
+        *tick = play->tick;
+        atomic_fetch_add(&play->tick->references, 1);
+        w->least = play->tick->generation + 1;
+    } else if (what == KD_PLAY_EVENT) {
+        take_event(w, event);
+    } else if (what == KD_PLAY_OVER) {
+        *why = play->why;
+    } else if (what == KD_PLAY_LATER && kd_socket_abandoned(w->socket)) {
+        what = KD_PLAY_GONE;
+    } else if (what == KD_PLAY_LATER) {
+        w->waiting = true;
+        MHD_suspend_connection(w->mhd); /* before anybody can wake it: that takes the lock */
+        kd_play_call(play);
+    }
+    pthread_mutex_unlock(&play->all->lock);
+    return what;
+}
+
+void kd_plays_sweep(struct kd_plays *all)
+{
+    const double now = kd_clock_ms();
+    pthread_mutex_lock(&all->lock);
+    const bool look = now - all->looked_ms > LOOK_MS;
+    if (look)
+        all->looked_ms = now;
+    for (struct kd_play *play = all->first, *next; play; play = next) {
+        next = play->next;
+        if (play->watchers)
+            play->used_ms = now;
+        kd_play_wake(play, now);
+        for (struct kd_play_watcher *w = look ? play->watchers : NULL; w; w = w->next)
+            if (w->waiting && kd_socket_abandoned(w->socket))
+                resume(w); /* kd_play_await finds that out again */
+        if (now - play->used_ms > all->params.idle_ms) {
+            kd_log(KD_LOG_INFO, "playground %.4s... ends: nobody watches", play->id);
+            kd_play_unlist(play, "idle");
+        }
+    }
+    pthread_mutex_unlock(&all->lock);
+}
