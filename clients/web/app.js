@@ -27,6 +27,7 @@ const views = {
   lensing: null,
   orbits: async () => (await load(import('./orbits.js'))).openOrbits(),
   physics: async () => (await load(import('./physics.js'))).openPhysics(),
+  playground: async () => (await load(import('./playground.js'))).openPlayground(),
   scale: async () => (await load(import('./scale.js'))).openScale(),
 };
 const opened = new Set();

@@ -6,6 +6,7 @@ const views = {
   lensing: t('Lensing', 'Lente'),
   orbits: t('Orbits', 'Orbite'),
   physics: t('Physics', 'Fisica'),
+  playground: t('Playground', 'Laboratorio'),
   scale: t('Real scale', 'Scala reale'),
 };
 const seen = {}; // what a view shows, by its name

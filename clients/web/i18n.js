@@ -14,6 +14,14 @@ export const t = (en, it) => (lang === 'it' ? it : en);
 
 const words = lang === 'it' ? await import('./it.js') : null;
 
+// What a view adds to it.js when it is opened: it-playground.js, say.
+export function learn({ sentences, values, presets, refusals }) {
+  Object.assign(words.sentences, sentences);
+  Object.assign(words.values, values);
+  Object.assign(words.presets, presets);
+  words.learn(refusals);
+}
+
 // A sentence of the server: translated if it is known, else marked as English for those who have it read aloud.
 export function said(text) {
   const known = words?.sentences[text] ?? words?.refusal(text);
@@ -107,7 +115,8 @@ export function named(path, help) {
   };
 }
 
-function helpOf(help) {
+// A help text of the server as a sentence.
+export function helpOf(help) {
   const { text, lang: marked } = said(help ?? '');
   return { help: text && text[0].toUpperCase() + text.slice(1), helpLang: marked };
 }

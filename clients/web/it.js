@@ -465,17 +465,21 @@ const refusals = [
   ['Hot spots going round at {…}.', 'Macchie calde in orbita a {…}.'],
   ['A body at {…}.', 'Un corpo a {…}.'],
   ['Bodies at {…}.', 'Corpi a {…}.'],
-  ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un campo giochi, a {…} M del suo tempo.'],
-  ['{…} body of a playground at {…} M of its time.', '{…} corpo di un campo giochi, a {…} M del suo tempo.'],
+  ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un laboratorio, a {…} M del suo tempo.'],
+  ['{…} body of a playground at {…} M of its time.', '{…} corpo di un laboratorio, a {…} M del suo tempo.'],
   ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
-].map(([english, italian]) => {
+].map(shape);
+
+function shape([english, italian]) {
   const escaped = english.replace(/[.*+()]/g, '\\$&');
   const value = '("[^"]*"|[^ ,;:]+(?: (?:M|[A-Z]?[a-z]+ rates|solar masses|solar radii|pixels|degrees(?: per second)?|decades|bits|stops|days|pc|microarcseconds|GiB|s))?)';
   return [
     new RegExp(`^${escaped.replaceAll('{}', value).replace('{…}', '(.+)').replace('{?}', '(, a string where a number is wanted| where a number is wanted|)')}$`),
     italian.replace('{?}', '{}').replace('{…}', '{}'),
   ];
-});
+}
+
+export const learn = more => refusals.push(...more.map(shape));
 
 const amounts = {
   ', a string where a number is wanted': ', un testo dove ci vuole un numero',
@@ -570,9 +574,9 @@ export const sentences = {
   'bodies: one that is smaller than a pixel may lie between its rays':
     'corpi: uno più piccolo di un pixel può stare tra i suoi raggi',
   'bodies: those of a playground are where they are at its time, and move past an observer of zero angular momentum':
-    'corpi: quelli di un campo giochi sono dove sono al suo tempo, e si muovono rispetto a un osservatore di momento angolare nullo',
+    'corpi: quelli di un laboratorio sono dove sono al suo tempo, e si muovono rispetto a un osservatore di momento angolare nullo',
   "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v":
-    'corpi: quelli di un campo giochi si muovono in un potenziale: il suo r sta per quello di Boyer e Lindquist, la sua velocità per gamma v',
+    'corpi: quelli di un laboratorio si muovono in un potenziale: il suo r sta per quello di Boyer e Lindquist, la sua velocità per gamma v',
   'debris: put on the plane of the disk at its r and azimuth, as a density of its pieces on a grid: streams are as wide as a cell at least':
     'detriti: messi sul piano del disco al loro r e azimut, come densità dei pezzi su una griglia: le correnti sono larghe almeno una cella',
   'debris: it moves off that plane, by more than a fiftieth of r in the mean: its height is not shown':

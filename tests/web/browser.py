@@ -19,8 +19,8 @@ except ImportError:
 
 AT_REST = '#stage[data-final=true]'
 FINE = '#stage[data-final=true][data-samples="2"]'
-VIEWS = ('lensing', 'orbits', 'physics', 'scale')
-READY = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
+VIEWS = ('lensing', 'orbits', 'playground', 'physics', 'scale')
+READY = {'lensing': AT_REST, 'orbits': '#orbit-picture .front', 'playground': '#play-plane[data-bodies]', 'physics': '#curves .card:last-child canvas', 'scale': '#scale-rows tr'}
 KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / 'screenshots'
 CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
 # No GPU and no WebGL: the page must need neither.

@@ -1,0 +1,86 @@
+// The waves of the closest pair, for ears. Their frequency is in units of 1/M: heard with a hole of so few suns that it begins at a pitch
+// of its own, which is said. The course of the tone is that of the screen, not of such a hole.
+import { number, t } from './i18n.js';
+
+const key = 'kerrd.playground.sound';
+const begins_hz = 110;
+const highest_hz = 16000;
+const sun_s = 4.925490947e-6; // G M / c^3 of the Sun
+const loudest = 0.5;
+const glide_s = 0.04;
+
+// button: switches it; words: are told what is heard. Returns { follow(tick), begin() }.
+export function chirp(button, words) {
+  let on = localStorage.getItem(key) === 'on',
+    gesture = false,
+    context = null,
+    tone = null,
+    gain = null,
+    first = null; // { frequency, strain, hertz: of a frequency of 1/M }
+
+  function open() {
+    if (context) return context.resume();
+    context = new AudioContext();
+    tone = new OscillatorNode(context, { frequency: begins_hz });
+    gain = new GainNode(context, { gain: 0 });
+    tone.connect(gain).connect(context.destination);
+    tone.start();
+  }
+
+  function say() {
+    button.setAttribute('aria-pressed', on);
+    button.textContent = on ? t('Sound on', 'Suono acceso') : t('Sound off', 'Suono spento');
+    words.textContent = !on
+      ? ''
+      : !first
+        ? t('There is no pair whose waves could be heard.', 'Non c’è una coppia di cui ascoltare le onde.')
+        : t(
+            `Heard as with a hole of ${number(1 / (sun_s * first.hertz), 3)} suns, whose M lasts ${number(1e6 / first.hertz, 3)} µs; its rise is as slow as on the screen. As loud as the strain grows.`,
+            `Si sente come con un buco di ${number(1 / (sun_s * first.hertz), 3)} soli, in cui M dura ${number(1e6 / first.hertz, 3)} µs; sale lento come sullo schermo. Il volume cresce con l’ampiezza delle onde.`,
+          );
+  }
+
+  function hush() {
+    gain?.gain.setTargetAtTime(0, context.currentTime, glide_s);
+    delete button.dataset.hz;
+  }
+
+  button.addEventListener('click', () => {
+    on = !on;
+    localStorage.setItem(key, on ? 'on' : 'off');
+    gesture = true;
+    if (on) open();
+    else hush();
+    say();
+  });
+  // What was switched on last time is heard from the first gesture on.
+  for (const event of ['pointerdown', 'keydown']) addEventListener(event, () => (gesture = true), { once: true });
+  for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, hush);
+  say();
+
+  return {
+    begin() {
+      first = null;
+      hush();
+      say();
+    },
+    follow(tick) {
+      const strain = Math.hypot(tick.h_plus ?? 0, tick.h_cross ?? 0),
+        frequency = tick.wave_frequency;
+      if (!(frequency > 0) || !(strain > 0)) {
+        if (first) this.begin();
+        return;
+      }
+      if (!first) {
+        first = { frequency, strain, hertz: begins_hz / frequency };
+        say();
+      }
+      if (!on || !gesture || document.hidden || document.body.dataset.view !== 'playground') return hush();
+      open();
+      const hertz = Math.min(frequency * first.hertz, highest_hz);
+      button.dataset.hz = hertz.toFixed(1);
+      tone.frequency.setTargetAtTime(hertz, context.currentTime, glide_s);
+      gain.gain.setTargetAtTime(tick.paused || tick.resting ? 0 : loudest * Math.tanh((0.3 * strain) / first.strain), context.currentTime, glide_s);
+    },
+  };
+}

@@ -1,0 +1,96 @@
+// The playground as light shows it: pictures of the server's, one after the other as they come.
+import { again_ms } from './again.js';
+import { el, latest } from './dom.js';
+import { t, tell } from './i18n.js';
+import { ask } from './server.js';
+
+const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
+const even = x => Math.max(16, 2 * Math.round(x / 2));
+const widest = 960; // device pixels
+
+// box: where pictures go; running: running.js. Returns { show(yes) }.
+export function lensed(box, running) {
+  let picture = el('img', { alt: t('The playground as light shows it', 'Il laboratorio come lo mostra la luce'), draggable: false }),
+    wanted = false,
+    at_work = false,
+    url = '',
+    frame = 0,
+    camera = null;
+  const words = el('p', { class: 'help', role: 'status' });
+  box.append(picture, words);
+
+  const send = latest(async patch => {
+    try {
+      await running.change({ scene: patch });
+    } catch (error) {
+      tell(words, error.message);
+    }
+  });
+
+  // As large as it is shown; a session begins with a size of its own.
+  function fit() {
+    const ratio = Math.min(devicePixelRatio || 1, widest / Math.max(box.clientWidth, 1)),
+      [width, height] = [even(box.clientWidth * ratio), even(box.clientHeight * ratio)],
+      now = running.state?.scene?.image;
+    if (wanted && box.clientWidth && now && (now.width !== width || now.height !== height)) send({ image: { width, height } });
+  }
+  new ResizeObserver(fit).observe(box);
+
+  async function next() {
+    const answer = await ask(running.address(`frame.png?after=${frame}&wait_ms=5000`));
+    if (answer.status === 204) return;
+    frame = Number(answer.headers.get('Kerrd-Frame'));
+    const fresh = URL.createObjectURL(await answer.blob()),
+      image = picture.cloneNode();
+    image.src = fresh;
+    await image.decode();
+    picture.replaceWith(image);
+    picture = image;
+    URL.revokeObjectURL(url);
+    url = fresh;
+    words.textContent = '';
+  }
+
+  async function pull() {
+    if (at_work) return;
+    at_work = true;
+    while (wanted && !document.hidden && document.body.dataset.view === 'playground')
+      try {
+        if (running.address('')) await next();
+        else await pause(again_ms);
+      } catch (error) {
+        if (error.status !== 404) tell(words, error.message);
+        await pause(again_ms);
+      }
+    at_work = false;
+  }
+  for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => wanted && pull());
+  running.addEventListener('begun', () => ((frame = 0), (camera = null), fit()));
+
+  // Dragged, the camera goes round the hole.
+  let from = null;
+  box.addEventListener('pointerdown', event => {
+    const { inclination_deg, azimuth_deg } = running.state.scene.camera;
+    camera ??= { inclination_deg, azimuth_deg };
+    from = { x: event.clientX, y: event.clientY, ...camera };
+    box.setPointerCapture(event.pointerId);
+  });
+  box.addEventListener('pointermove', event => {
+    if (!from) return;
+    const azimuth = from.azimuth_deg - (event.clientX - from.x) * 0.4;
+    camera = {
+      inclination_deg: Math.min(Math.max(from.inclination_deg - (event.clientY - from.y) * 0.4, 1), 179),
+      azimuth_deg: azimuth - 360 * Math.round(azimuth / 360),
+    };
+    send({ camera });
+  });
+  for (const end of ['pointerup', 'pointercancel']) box.addEventListener(end, () => (from = null));
+
+  return {
+    show(yes) {
+      wanted = yes;
+      fit();
+      pull();
+    },
+  };
+}

@@ -1,0 +1,249 @@
+// The plane of the playground from above, or tilted: the hole and its circles, bodies with their trails, debris, and what somebody aims.
+import { aim, bar, circles } from './marks.js';
+import { physics } from './server.js';
+
+const turns = { past: 160, few: 400, none: 1500 }; // points of a trail; up to how many bodies there are trails of full length, and any
+const least_px = 2.5;
+const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, of the table of colours
+const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+export class Plane {
+  cx = 0;
+  cy = 0;
+  scale = 4; // pixels of the page a M
+  tilt = 0;
+  follows = null; // what stays in the middle: "all", "chosen"
+  chosen = null; // id of the body that is marked
+  aim = null; // { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
+  bodies = null;
+  debris = null;
+  names = new Map();
+  radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
+
+  #canvas;
+  #asked = false;
+  #trails = new Map();
+  #index = new Map(); // of ids, their rows
+  #table = null;
+  #colours;
+
+  constructor(canvas) {
+    this.#canvas = canvas;
+    this.#colours = Object.fromEntries(['ink', 'dim', 'edge', 'rule', 'glow', 'blue', 'green', 'rose', 'violet'].map(name => [name, style('--' + name)]));
+    new ResizeObserver(() => this.redraw()).observe(canvas);
+    physics('blackbody', { temperature_k: `${hot.least}:${hot.most}:${hot.n}`, digits: 3 }).then(({ values }) => {
+      this.#table = values.srgb_r.map((_, i) => `rgb(${[values.srgb_r[i], values.srgb_g[i], values.srgb_b[i]].map(c => Math.round(255 * c)).join(' ')})`);
+      this.redraw();
+    }, () => {}); // grey, then
+  }
+
+  get size() {
+    return [this.#canvas.clientWidth, this.#canvas.clientHeight];
+  }
+
+  project([x, y, z]) {
+    const [w, h] = this.size;
+    return [w / 2 + (x - this.cx) * this.scale, h / 2 - ((y - this.cy) * Math.cos(this.tilt) + z * Math.sin(this.tilt)) * this.scale];
+  }
+
+  // The place of the plane z = 0 under a pixel.
+  place(px, py) {
+    const [w, h] = this.size;
+    return [this.cx + (px - w / 2) / this.scale, this.cy + (h / 2 - py) / (this.scale * Math.cos(this.tilt)), 0];
+  }
+
+  // So that `reach` M are seen from the middle to the nearer edge.
+  fit([x, y], reach) {
+    const [w, h] = this.size;
+    [this.cx, this.cy] = [x, y];
+    this.scale = Math.max(Math.min(w, h), 50) / 2 / reach;
+    this.redraw();
+  }
+
+  zoom(factor, px = this.size[0] / 2, py = this.size[1] / 2) {
+    const at = this.place(px, py);
+    this.scale = Math.min(Math.max(this.scale * factor, 1e-5), 2000);
+    const now = this.place(px, py);
+    this.pan(at[0] - now[0], at[1] - now[1]);
+  }
+
+  pan(x, y) {
+    this.cx += x;
+    this.cy += y;
+    this.redraw();
+  }
+
+  body(id) {
+    const i = this.#index.get(id);
+    return i == null ? null : this.row(i);
+  }
+
+  row(i) {
+    const { words, f, u } = this.bodies,
+      at = i * words;
+    return { id: u[at], x: [...f.slice(at + 1, at + 4)], v: [...f.slice(at + 4, at + 7)], mass: f[at + 7], radius: f[at + 8], temperature_k: f[at + 9] };
+  }
+
+  all() {
+    return this.bodies ? [...Array(this.bodies.n).keys()].map(i => this.row(i)) : [];
+  }
+
+  // Of all bodies, by their masses.
+  #middle() {
+    const all = this.all(),
+      mass = all.reduce((sum, body) => sum + body.mass, 0);
+    return mass > 0 && [0, 1, 2].map(k => all.reduce((sum, body) => sum + body.mass * body.x[k], 0) / mass);
+  }
+
+  // The body nearest to a pixel, if one is near.
+  near(px, py, within) {
+    let best = null;
+    for (const body of this.all()) {
+      const [x, y] = this.project(body.x),
+        d = Math.hypot(x - px, y - py) - body.radius * this.scale;
+      if (d < within && !(best?.d <= d)) best = { d, id: body.id };
+    }
+    return best?.id ?? null;
+  }
+
+  moved(bodies) {
+    this.bodies = bodies;
+    const { n, words, f, u } = bodies,
+      keep = n > turns.none ? 0 : n > turns.few ? 12 : turns.past,
+      trails = new Map();
+    this.#index = new Map([...Array(n).keys()].map(i => [u[i * words], i]));
+    for (let i = 0; keep && i < n; i++) {
+      const id = u[i * words],
+        trail = this.#trails.get(id) ?? [];
+      trail.push([...f.slice(i * words + 1, i * words + 7), bodies.t]);
+      if (trail.length > keep) trail.splice(0, trail.length - keep);
+      trails.set(id, trail);
+    }
+    this.#trails = trails;
+    const middle = this.follows === 'all' ? this.#middle() : this.follows === 'chosen' && this.body(this.chosen)?.x;
+    if (middle) [this.cx, this.cy] = middle;
+    this.redraw();
+  }
+
+  forget() {
+    this.bodies = null;
+    this.#index = new Map();
+    this.#trails = new Map();
+    this.debris = null;
+    this.redraw();
+  }
+
+  redraw() {
+    if (this.#asked) return;
+    this.#asked = true;
+    requestAnimationFrame(() => {
+      this.#asked = false;
+      this.#draw();
+    });
+  }
+
+  #colour(kelvin) {
+    if (!(kelvin > 0) || !this.#table) return this.#colours.edge;
+    const at = ((kelvin - hot.least) / (hot.most - hot.least)) * (hot.n - 1);
+    return this.#table[Math.round(Math.min(Math.max(at, 0), hot.n - 1))];
+  }
+
+  #draw() {
+    const [w, h] = this.size,
+      ratio = Math.min(devicePixelRatio || 1, 2),
+      canvas = this.#canvas;
+    if (!w || !h) return;
+    if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) [canvas.width, canvas.height] = [Math.round(w * ratio), Math.round(h * ratio)];
+    const c = canvas.getContext('2d', { alpha: false });
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    c.fillStyle = '#050404';
+    c.fillRect(0, 0, w, h);
+    c.font = '12px system-ui, sans-serif';
+    circles(c, this, this.#colours);
+    const all = this.all(),
+      behind = body => body.x[2] * Math.cos(this.tilt) - body.x[1] * Math.sin(this.tilt) < 0 && Math.hypot(...body.x) < 1e4;
+    this.#drawTrails(c);
+    this.#drawDebris(c, w, h);
+    for (const body of all.filter(behind)) this.#drawBody(c, body, w, h);
+    this.#hole(c);
+    for (const body of all.filter(body => !behind(body))) this.#drawBody(c, body, w, h);
+    if (this.aim) aim(c, this, this.#colours);
+    bar(c, this, this.#colours);
+  }
+
+  #hole(c) {
+    const [x, y] = this.project([0, 0, 0]);
+    c.beginPath();
+    c.arc(x, y, Math.max(this.radii.horizon * this.scale, least_px), 0, 2 * Math.PI);
+    c.fillStyle = '#000';
+    c.fill();
+    c.strokeStyle = this.#colours.edge;
+    c.stroke();
+  }
+
+  #drawTrails(c) {
+    c.strokeStyle = this.#colours.dim;
+    c.lineWidth = 1;
+    for (const [id, trail] of this.#trails) {
+      const own = this.body(id);
+      c.strokeStyle = own ? this.#colour(own.temperature_k) : this.#colours.dim;
+      // Older parts are fainter: four lengths, each with its own strength.
+      for (let part = 0; part < 4; part++) {
+        const from = Math.floor((trail.length * part) / 4),
+          to = Math.min(Math.floor((trail.length * (part + 1)) / 4) + 1, trail.length);
+        c.globalAlpha = 0.12 + 0.16 * part;
+        c.beginPath();
+        for (let i = from; i < to; i++) this.#stretch(c, trail[i - 1], trail[i], i > from);
+        c.stroke();
+      }
+    }
+    c.globalAlpha = 1;
+  }
+
+  // From one place to the next as the velocities at both say (Hermite, as a Bezier curve). Where it has gone round too far meanwhile nobody knows how.
+  #stretch(c, before, now, on) {
+    const there = this.project(now);
+    if (!on) return c.moveTo(...there);
+    const third = (now[6] - before[6]) / 3,
+      chord = Math.hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]),
+      way = 1.5 * third * (Math.hypot(before[3], before[4], before[5]) + Math.hypot(now[3], now[4], now[5]));
+    if (way > 2 * chord) return c.moveTo(...there);
+    const at = (from, sign) => this.project([0, 1, 2].map(k => from[k] + sign * third * from[k + 3]));
+    c.bezierCurveTo(...at(before, 1), ...at(now, -1), ...there);
+  }
+
+  #drawDebris(c, w, h) {
+    if (!this.debris) return;
+    const { n, words, f, u } = this.debris,
+      colours = ['dim', 'violet', 'glow', 'green'];
+    for (const stage of [1, 2, 3]) {
+      c.fillStyle = this.#colours[colours[stage]];
+      for (let i = 0, at = 0; i < n; i++, at += words) {
+        if (u[at + 3] >>> 16 !== stage) continue;
+        const [x, y] = this.project([f[at], f[at + 1], f[at + 2]]);
+        if (x >= 0 && y >= 0 && x < w && y < h) c.fillRect(x, y, 1.3, 1.3);
+      }
+    }
+  }
+
+  #drawBody(c, body, w, h) {
+    const [x, y] = this.project(body.x),
+      size = Math.max(body.radius * this.scale, least_px);
+    if (x < -size || y < -size || x > w + size || y > h + size) return;
+    c.beginPath();
+    c.arc(x, y, size, 0, 2 * Math.PI);
+    c.fillStyle = body.temperature_k > 0 ? this.#colour(body.temperature_k) : '#000';
+    c.fill();
+    if (!(body.temperature_k > 0)) ((c.strokeStyle = this.#colours.edge), c.stroke());
+    if (body.id === this.chosen) {
+      c.beginPath();
+      c.arc(x, y, size + 5, 0, 2 * Math.PI);
+      c.strokeStyle = this.#colours.ink;
+      c.stroke();
+    }
+    if (this.bodies.n > 12 && body.id !== this.chosen) return;
+    c.fillStyle = this.#colours.ink;
+    c.textAlign = 'left';
+    c.fillText(this.names.get(body.id) ?? '', x + size + 6, y + 4);
+  }
+}

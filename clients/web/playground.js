@@ -1,0 +1,281 @@
+// The playground: bodies thrown round the hole, computed by the server, seen from above and as light shows them.
+import { persistent } from './again.js';
+import { chirp } from './chirp.js';
+import { course } from './course.js';
+import { entitle } from './describe.js';
+import { byId, el, latest } from './dom.js';
+import { hands } from './hands.js';
+import { eventList } from './happened.js';
+import { lang, learn, number, preset as titled, said, t, tell } from './i18n.js';
+import { lensed } from './lensed.js';
+import * as link from './link.js';
+import { Plane } from './plane.js';
+import { parts } from './playground-parts.js';
+import { ask_kerr, heavy, predict, reference } from './predict.js';
+import { rules } from './rules.js';
+import { Running } from './running.js';
+import { ask, getJson, physics } from './server.js';
+import { scale } from './slider.js';
+import { thrown } from './thrown.js';
+
+const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
+const arrow_px = 90; // of the reference speed, as in hands.js
+const beyond = 8; // times what is seen: farther out a predicted path ends
+const first = 'disruption';
+
+async function take(address, name, type) {
+  const blob = await (await ask(address, type ? { headers: { Accept: type } } : {})).blob(),
+    url = URL.createObjectURL(blob);
+  el('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+export async function openPlayground() {
+  if (lang === 'it') learn(await import('./it-playground.js'));
+  const known = await getJson('v1/playground');
+  // What is fitted into the window needs its size.
+  await new Promise((done, fail) =>
+    document.head.append(el('link', { rel: 'stylesheet', href: new URL('playground.css', import.meta.url), onload: done, onerror: () => fail(new Error(t('The server does not answer', 'Il server non risponde'))) })),
+  );
+  const root = byId('playground'),
+    part = parts(root, known),
+    plane = new Plane(part.canvas),
+    running = new Running(),
+    sound = chirp(part.sound, part.heard),
+    charts = course(part.charts),
+    say = text => (part.said.textContent = text),
+    events = eventList(part.events, say),
+    picture = lensed(part.lensed, running);
+  let chosen = null,
+    given = null; // a snapshot that was loaded
+
+  const wrong = error => tell(part.fault, error.message);
+  const act = async task => {
+    try {
+      const answer = await task();
+      part.fault.textContent = '';
+      return answer;
+    } catch (error) {
+      wrong(error);
+    }
+  };
+  const patch = change => act(() => running.change(change));
+
+  // What is aimed at, drawn and foretold.
+  const soften = () => running.state?.settings.softening ?? 0.05;
+  const speed = place => reference(place, heavy(plane.all()), soften());
+  const foretell = latest(async () => {
+    const { settings } = running.state ?? {},
+      { from, velocity, body, armed } = hand.aims;
+    if (!armed || !settings || !plane.aim) return;
+    const mass = body == null ? form.fields().mass : plane.body(body)?.mass,
+      what = { x: from, v: velocity, mass: mass ?? 0 },
+      far = (beyond * Math.max(...plane.size)) / plane.scale + Math.hypot(...from);
+    const others = settings.gravity === 'kerr' ? [] : plane.all().filter(({ id }) => id !== body);
+    const path = settings.gravity === 'kerr' ? await ask_kerr(what, settings.spin, far).catch(() => ({ points: [] })) : predict(what, others, settings, far);
+    if (!plane.aim || hand.aims.from !== from || hand.aims.velocity !== velocity) return;
+    Object.assign(plane.aim, { path: path.points, captured: path.captured });
+    part.canvas.dataset.path = path.points.length;
+    plane.redraw();
+  });
+  function showAim(aims) {
+    const ref = speed(aims.from),
+      v = Math.hypot(...aims.velocity),
+      long = arrow_px / plane.scale / ref;
+    plane.aim = {
+      ...plane.aim,
+      ...aims,
+      to: aims.from.map((x, k) => x + (k < 2 ? aims.velocity[k] * long : 0)),
+      text: `${number(v, 3)} c · ${number(v / ref, 2)} × ${t('circular', 'circolare')}`,
+    };
+    if (!aims.armed) Object.assign(plane.aim, { path: null });
+    form.aims(aims);
+    plane.redraw();
+    foretell();
+  }
+
+  async function release() {
+    const { from, velocity, body } = hand.aims;
+    const fields = form.fields(),
+      v = velocity.map(x => Number(x.toPrecision(9)));
+    const state = await patch(body == null ? { add: [{ ...fields, position: from, velocity: v }] } : { change: [{ id: body, velocity: v }] });
+    if (!state) return;
+    hand.aim({ armed: false, body: null });
+    const id = body ?? state.added?.[0];
+    choose(id ?? null);
+    const name = plane.names.get(id) ?? '';
+    say(t(`${name} goes at ${number(Math.hypot(...v), 3)} c.`, `${name} va a ${number(Math.hypot(...v), 3)} c.`));
+  }
+
+  function choose(id) {
+    chosen = plane.chosen = id;
+    const body = id == null ? null : plane.body(id);
+    form.choose(body);
+    if (body) hand.aim({ from: body.x, velocity: body.v, body: id, armed: false });
+    plane.redraw();
+  }
+
+  const remove = () => chosen != null && patch({ remove: [chosen] }).then(state => state && choose(null));
+  const pause = () => patch({ paused: !running.state.paused });
+  const step = () => running.state.paused && act(() => running.step(Math.max(running.state.rate / 20, 1e-6)));
+  function next(by) {
+    const ids = plane.all().map(({ id }) => id);
+    if (ids.length) choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
+    if (chosen != null) say(plane.names.get(chosen) ?? '');
+  }
+  function fit() {
+    const { centre = [0, 0, 0], reach } = known.presets.find(one => !given && one.name === part.preset.value) ?? {},
+      all = plane.all(),
+      middle = given && all.length ? all[0].x : centre;
+    plane.follows = Math.hypot(...middle) > 0 ? 'all' : null;
+    part.middle.value = plane.follows ?? '';
+    const wide = reach ?? Math.max(...all.map(({ x }) => Math.hypot(...x.map((q, k) => q - middle[k]))), all.length ? 20 : 400);
+    plane.fit(middle, 1.1 * wide);
+    if (!hand.aims.armed) hand.aim({ from: [middle[0] + 0.6 * wide, middle[1], 0], body: null });
+  }
+
+  const form = thrown(part.body, known.body, {
+    aim: change => hand.aim(change),
+    release,
+    choose,
+    change: (id, fields) => patch({ change: [{ id, ...fields }] }),
+    remove,
+  });
+  const hand = hands(part.stage, plane, { aim: showAim, release, choose, pause, step, remove, fit, next, speed });
+  const begin = persistent(part.fault, 'playground', () => {
+    const rate = link.get('play.rate');
+    return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate ? { rate: Number(rate) } : {}) });
+  });
+  let hole = {}; // gravity and spin, where somebody has chosen them
+  const showRules = rules(
+    part.rules,
+    known.settings,
+    (name, value) => patch({ [name]: value }),
+    (name, value) => ((hole = { ...hole, [name]: value }), (given = null), begin()),
+  );
+
+  // What is shown.
+  const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
+  function show(name) {
+    const [plan, light] = views[name] ?? views.plan;
+    for (const button of part.views) button.setAttribute('aria-pressed', button.value === name);
+    part.stage.hidden = !plan;
+    part.lensed.hidden = !light;
+    part.pictures.dataset.both = plan && light;
+    link.set('play.show', name === 'plan' ? null : name);
+    picture.show(light);
+    plane.redraw();
+  }
+  for (const button of part.views) button.addEventListener('click', () => show(button.value));
+
+  // Time.
+  const pace = scale(paces),
+    setRate = latest(async rate => {
+      link.set('play.rate', rate);
+      await patch({ rate });
+    });
+  part.pace.addEventListener('input', () => setRate((part.rate.value = pace.from(part.pace.valueAsNumber))));
+  part.rate.addEventListener('change', () => (part.rate.validity.valid ? setRate(part.rate.valueAsNumber) : part.rate.reportValidity()));
+  part.pause.addEventListener('click', pause);
+  part.step.addEventListener('click', step);
+  part.nearer.addEventListener('click', () => plane.zoom(1.25));
+  part.farther.addEventListener('click', () => plane.zoom(0.8));
+  part.fit.addEventListener('click', fit);
+  part.tilt.addEventListener('input', () => ((plane.tilt = (part.tilt.valueAsNumber * Math.PI) / 180), plane.redraw()));
+  part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
+  part.preset.addEventListener('change', () => {
+    given = null;
+    hole = {};
+    link.set('play.rate', null);
+    link.set('play.preset', part.preset.value === first ? null : part.preset.value);
+    begin();
+  });
+  part.again.addEventListener('click', () => begin());
+  for (const [button, what, name, type] of part.takes) button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
+  part.load.addEventListener('change', async () => {
+    const [file] = part.load.files;
+    if (!file) return;
+    await act(async () => {
+      const document = JSON.parse(await file.text());
+      given = { rate: running.state?.rate, ...document };
+      part.preset.value = '';
+      await running.begin(given);
+    });
+    part.load.value = ''; // the same file may be chosen once more
+  });
+
+  running.addEventListener('begun', ({ detail: state }) => {
+    events.clear();
+    charts.clear();
+    sound.begin();
+    plane.forget();
+    hand.aim({ armed: false, body: null });
+    choose(null);
+    fit();
+    entitle('playground', given ? t('a snapshot', 'un’istantanea') : titled(part.preset.value, known.presets.find(one => one.name === part.preset.value)?.title));
+    part.help.textContent = '';
+    if (!given) tell(part.help, known.presets.find(one => one.name === part.preset.value)?.title ?? '');
+    if (state.settings.gravity === 'kerr')
+      physics('kerr', { spin: state.settings.spin }).then(({ values: v }) => {
+        plane.radii = { horizon: v.horizon, photons: v.photon_prograde, bound: v.marginally_bound, isco: v.isco };
+        plane.redraw();
+      });
+    else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
+  });
+  running.addEventListener('state', ({ detail: state }) => {
+    showRules(state.settings);
+    part.views[0].parentNode.hidden = !state.scene; // there are no pictures where the server has no scene for it
+    plane.names = new Map(state.bodies.map(({ id, name }) => [id, said(name).text]));
+    form.bodies(state.bodies.map(({ id, name }) => ({ id, name: said(name).text })));
+    part.paused(state.paused);
+    if (document.activeElement !== part.rate) part.rate.value = state.rate;
+    part.pace.value = pace.to(state.rate);
+    part.foretold.textContent =
+      state.settings.gravity === 'kerr'
+        ? t('The dashed path is the server’s: a geodesic.', 'Il percorso tratteggiato è del server: una geodetica.')
+        : t(
+            'The dashed path is reckoned by this page with the server’s law of motion; waves, tides and mergers are left out, and the pulls of bodies below a hundred-thousandth of the hole’s mass.',
+            'Il percorso tratteggiato lo calcola questa pagina con la legge di moto del server; senza onde, maree e fusioni, e senza l’attrazione dei corpi sotto un centomillesimo della massa del buco.',
+          );
+    const sentences = state.approximations.map(text => el('li', {}, tell(el('span'), text)));
+    part.approximations.replaceChildren(...sentences);
+    part.waves.replaceChildren(...state.approximations.filter(text => /\bwaves\b/.test(text)).flatMap(text => [tell(el('span'), text), ' ']));
+    part.waves.hidden = !state.settings.waves;
+  });
+  running.addEventListener('moved', ({ detail }) => {
+    const first_seen = !plane.bodies;
+    plane.moved(detail);
+    if (given && first_seen) fit();
+    part.canvas.dataset.bodies = detail.n;
+    if (chosen != null) {
+      const body = plane.body(chosen);
+      body ? form.choose(body) : choose(null);
+    }
+    if (hand.aims.body != null && plane.body(hand.aims.body)) Object.assign(hand.aims, { from: plane.body(hand.aims.body).x });
+    if (hand.aims.armed) showAim(hand.aims);
+  });
+  running.addEventListener('debris', ({ detail }) => {
+    plane.debris = detail;
+    part.canvas.dataset.debris = detail.n;
+    plane.redraw();
+  });
+  const kinetic = () => plane.all().reduce((sum, { mass, v }) => sum + 0.5 * mass * (v[0] ** 2 + v[1] ** 2 + v[2] ** 2), 0);
+  running.addEventListener('tick', ({ detail: tick }) => {
+    charts.follow(tick, kinetic(), running.address('fallback'));
+    sound.follow(tick);
+    part.clock(tick);
+  });
+  running.addEventListener('happened', ({ detail }) => events.happened(detail));
+  running.addEventListener('lost', ({ detail }) => events.lost(detail));
+  running.addEventListener('ended', ({ detail }) => say(detail));
+  running.addEventListener('fault', ({ detail: error }) => {
+    if (!error) return (part.fault.textContent = '');
+    wrong(error);
+    part.fault.append(t(' – trying again', ' – si riprova'));
+  });
+
+  const wanted = link.get('play.preset');
+  part.preset.value = known.presets.some(({ name }) => name === wanted) ? wanted : first;
+  show(link.get('play.show') ?? 'plan');
+  await begin();
+}

@@ -1,0 +1,192 @@
+// A playground of the server's: told what to do, and followed as it goes. Where bodies are comes packed, as often as somebody
+// draws; what happens comes as events. One that has ended, with the server or for want of anybody who watched, is begun anew.
+import { again_ms } from './again.js';
+import { seen } from './dom.js';
+import { t } from './i18n.js';
+import { ask, passes } from './server.js';
+
+const view = 'playground';
+const pieces = 12000; // as many as a window's pixels can show apart
+const debris_ms = 120; // between two asks for them
+const names_ms = 400;
+const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
+const seenNow = () => !document.hidden && document.body.dataset.view === view;
+
+// Rows of numbers behind a header of eight words: 32 bits each, the first byte the least.
+function unpack(buffer) {
+  const head = new DataView(buffer);
+  return {
+    n: head.getUint32(0, true),
+    words: head.getUint32(4, true),
+    generation: head.getUint32(8, true),
+    all: head.getUint32(12, true),
+    t: head.getFloat64(16, true),
+    f: new Float32Array(buffer, 32),
+    u: new Uint32Array(buffer, 32),
+  };
+}
+
+// Tells of: begun (state), state, moved (bodies), debris, tick, happened (event), lost (numbers of events), ended (sentence), fault (error or null).
+export class Running extends EventTarget {
+  #session = null;
+  #document = {};
+  #polls = new AbortController();
+  #events = null;
+  #last = 0; // number of the newest event that came
+  #named = 0;
+  #tries = 0;
+
+  state = null;
+  tick = null;
+  bodies = null;
+  debris = null;
+
+  constructor() {
+    super();
+    for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => (seenNow() ? this.#listen() : this.#hush()));
+    addEventListener('pagehide', () => {
+      this.#hush();
+      this.#end();
+    });
+    addEventListener('pageshow', event => event.persisted && this.begin(this.#document));
+  }
+
+  #tell(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+
+  #headers() {
+    return { 'Content-Type': 'application/json', ...(this.#session ? { Authorization: `Bearer ${this.#session.token}` } : {}) };
+  }
+
+  #end() {
+    if (this.#session) fetch(this.#session.url, { method: 'DELETE', headers: this.#headers(), keepalive: true }).catch(() => {});
+    this.#session = null;
+  }
+
+  #hush() {
+    this.#polls.abort();
+    this.#polls = new AbortController();
+    this.#events?.close();
+    this.#events = null;
+  }
+
+  // A document of docs/playground.md. What the server refuses is thrown.
+  async begin(given) {
+    const answer = await ask('v1/playground', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(given) }),
+      { token, ...state } = await answer.json();
+    this.#hush();
+    this.#end();
+    this.#document = given;
+    this.#session = { url: 'v1/playground/' + state.id, token };
+    Object.assign(this, { bodies: null, debris: null, tick: null });
+    this.#last = 0;
+    this.#take(state);
+    this.#tell('begun', state);
+    this.#listen();
+    this.#follow(this.#session, 'bodies', () => true);
+    this.#follow(this.#session, 'debris', () => this.tick?.debris > 0 || this.debris?.n > 0);
+  }
+
+  #take(state) {
+    this.state = state;
+    this.#tell('state', state);
+    return state;
+  }
+
+  address(part) {
+    return this.#session && `${this.#session.url}/${part}`;
+  }
+
+  // The state, with names: asked for where bodies have come or gone.
+  async #name(session) {
+    if (performance.now() < this.#named) return;
+    this.#named = performance.now() + names_ms;
+    const answer = await ask(session.url);
+    if (session === this.#session) this.#take(await answer.json());
+  }
+
+  async #send(url, method, body) {
+    const session = this.#session;
+    try {
+      return this.#take(await (await ask(url, { method, headers: this.#headers(), body: JSON.stringify(body) })).json());
+    } catch (error) {
+      if (error.status === 404 && session === this.#session) this.#anew();
+      throw error;
+    }
+  }
+
+  change(patch) {
+    return this.#send(this.#session.url, 'PATCH', patch);
+  }
+
+  step(by) {
+    return this.#send(this.address('step'), 'POST', { by });
+  }
+
+  // It is no more: the same document once again.
+  async #anew() {
+    this.#hush();
+    this.#session = null;
+    this.#tell('ended', t('The server has ended this playground: it begins again.', 'Il server ha chiuso questo laboratorio: si ricomincia.'));
+    for (;;)
+      try {
+        await seen(view);
+        if (!this.#session) await this.begin(this.#document);
+        return;
+      } catch (error) {
+        this.#tell('fault', error);
+        if (!passes(error)) return;
+        await pause(again_ms);
+      }
+  }
+
+  async #follow(session, what, wanted) {
+    while (session === this.#session) {
+      await seen(view);
+      if (!wanted()) {
+        await pause(debris_ms);
+        continue;
+      }
+      try {
+        await this.#next(session, what);
+        if (what === 'debris') await pause(debris_ms);
+        if (this.#tries) this.#tell('fault', null);
+        this.#tries = 0;
+      } catch (error) {
+        if (session !== this.#session) return;
+        if (error.status === 404) return what === 'bodies' && this.#anew();
+        if (!seenNow()) continue;
+        this.#tries++;
+        this.#tell('fault', error);
+        await pause(again_ms);
+      }
+    }
+  }
+
+  async #next(session, what) {
+    const had = this[what]?.generation,
+      query = (had == null ? '' : `&after=${had}`) + (what === 'debris' ? `&at_most=${pieces}` : '');
+    const answer = await ask(`${session.url}/${what}?wait_ms=20000${query}`, { signal: this.#polls.signal });
+    if (answer.status === 204 || session !== this.#session) return;
+    const got = unpack(await answer.arrayBuffer());
+    if (session !== this.#session) return;
+    this[what] = got;
+    this.#tell(what === 'bodies' ? 'moved' : 'debris', got);
+    if (what === 'bodies' && got.all !== this.state.bodies.length) await this.#name(session);
+  }
+
+  #listen() {
+    if (!this.#session || this.#events || !seenNow()) return;
+    const events = (this.#events = new EventSource(`${this.#session.url}/events?since=${this.#last}`)),
+      told = message => JSON.parse(message.data);
+    events.addEventListener('tick', message => this.#tell('tick', (this.tick = told(message))));
+    events.addEventListener('happened', message => {
+      const happened = told(message);
+      this.#last = Math.max(this.#last, happened.number);
+      this.#tell('happened', happened);
+    });
+    events.addEventListener('lost', message => this.#tell('lost', told(message)));
+    events.addEventListener('end', () => events.close()); // who asks for its bodies learns that it is no more
+  }
+}
