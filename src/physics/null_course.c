@@ -21,6 +21,7 @@ struct course {
     double psi;          /* azimuth so far, without frame dragging, not reduced to a turn */
     double last_x, last_y; /* n in the plane when it was last looked at */
     double way;          /* 1: time is counted as on the way in, -1: as on the way out */
+    double ingoing;      /* sign of the energy in ingoing coordinates; 0: in those of Boyer and Lindquist */
     double edge;         /* what was taken out of the time, at the start */
     double first;        /* 1/r from where on there are places */
     struct state now;
@@ -30,18 +31,28 @@ struct course {
     struct kd_null_course *to;
 };
 
+/* G of the header, by the form that does not cancel. */
+static double gone(const struct course *c, double w, double dw, double d)
+{
+    const struct kd_null_motion *m = &c->m;
+    const double all = 1 + m->a * (m->a - m->lambda) * w * w, along = all + c->ingoing * dw, against = all - c->ingoing * dw;
+    return fabs(against) >= fabs(along) ? m->k * w * w / against : along / d;
+}
+
 static struct state rates(const struct course *c, const struct state *s)
 {
     const struct kd_null_motion *m = &c->m;
     const double w = s->y[W], dw = s->y[DW], u = s->y[NZ], a = m->a, a2 = a * a, d = 1 - 2 * w + a2 * w * w;
     const double pull = m->eta + m->lambda * m->lambda + 2 * a2 * u * u;
+    const double g = c->ingoing != 0 && w != 0 ? gone(c, w, dw, d) : 0;
     return (struct state) { {
         [W] = dw,
         [DW] = w * (m->quadratic + w * (3 * m->k + 2 * m->constant * w)),
         [NX] = s->y[VX], [NY] = s->y[VY], [NZ] = s->y[VZ],
         [VX] = -pull * s->y[NX], [VY] = -pull * s->y[NY], [VZ] = (a2 - pull) * u,
-        [CHI] = a * w * (2 - a * m->lambda * w) / d,
-        [T] = w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + 4 +
+        [CHI] = c->ingoing != 0 ? a * (g - 1) : a * w * (2 - a * m->lambda * w) / d,
+        [T] = c->ingoing != 0 ? w * (m->k + m->constant * w) + a2 * u * u + (w != 0 ? 2 * g / w : 0) :
+              w * (m->k + m->constant * w) * (1 + 2 * w / (1 + c->way * dw)) + 4 +
               ((8 - 2 * a * m->lambda) * w - 4 * a2 * w * w) / d + a2 * u * u,
     } };
 }
@@ -71,6 +82,8 @@ static double edge(const struct course *c, const struct state *s)
     const double w = s->y[W], dw = s->y[DW];
     if (!(w > 0))
         return 0;
+    if (c->ingoing != 0)
+        return -dw / w;
     return -dw / w - 2 * c->way * log(0.5 * (1 + c->way * dw) / w);
 }
 
@@ -108,7 +121,7 @@ static void turn(struct course *c, const struct state *s)
 static void take_way(struct course *c, struct state *s)
 {
     const double way = s->y[DW] < 0 ? -1 : 1, before = edge(c, s);
-    if (way == c->way || !(s->y[W] > 0))
+    if (c->ingoing != 0 || way == c->way || !(s->y[W] > 0))
         return;
     c->way = way;
     s->y[T] += before - edge(c, s);
@@ -166,19 +179,26 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
     return true;
 }
 
-/* The next step is no longer than this, to the next place. */
+/* The next step is no longer than this, to the next place. Deep in the hole w changes by itself at the rate sqrt(6 k w). */
 static double length_of(const struct course *c)
 {
     const struct kd_null_motion *m = &c->m;
-    const double turning = sqrt(fabs(m->eta) + m->lambda * m->lambda + m->a * m->a) + 1e-300;
+    const double deep = c->ingoing != 0 ? 6 * m->k * fmax(c->now.y[W], 0) : 0;
+    const double turning = sqrt(fabs(m->eta) + m->lambda * m->lambda + m->a * m->a + deep) + 1e-300;
     return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
 }
+
+/* Says that a ray in ingoing coordinates comes from no outside: it is bound for the horizon of the past from within. */
+static bool is_dark(const struct course *c) { return c->ingoing * (1 + c->m.a * (c->m.a - c->m.lambda) * c->horizon * c->horizon) <= 0; }
+
+/* Says that chi and t have a pole where the ray would come to the horizon next. */
+static bool has_pole(const struct course *c) { return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c)); }
 
 /* A step of at most h; at a crossing it ends there, which is a place. False: no room is left. */
 static bool go(struct course *c, double h)
 {
-    const double *y = c->now.y, left = c->horizon - y[W], speed = fabs(y[DW]);
-    if (speed * h > POLE * left)
+    const double *y = c->now.y, left = fabs(c->horizon - y[W]), speed = fabs(y[DW]);
+    if (has_pole(c) && speed * h > POLE * left)
         h = POLE * left / speed;
     struct state next = step(c, &c->now, h);
     const bool crosses = y[NZ] != 0 && (next.y[NZ] == 0 || (next.y[NZ] < 0) != (y[NZ] < 0));
@@ -197,46 +217,70 @@ static bool go(struct course *c, double h)
     return room;
 }
 
-struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near, struct kd_null_place *out, size_t most)
+/* Next to the horizon: on the way into it, or from within on the way to that of the past. */
+static bool is_captured(const struct course *c, double near)
+{
+    const double w = c->now.y[W], dw = c->now.y[DW];
+    if (c->ingoing == 0 || (dw > 0 && w < c->horizon))
+        return w >= 1 / (1 / c->horizon + near);
+    return dw < 0 && is_dark(c) && w <= 1 / fmax(1 / c->horizon - near, 1e-300);
+}
+
+static void run(struct course *c, double near)
+{
+    const double begun = c->now.y[W];
+    struct kd_null_course *to = c->to;
+    bool room = begun > 0 ? put(c, &c->now, -1) : true;
+    for (size_t i = 1; room; i++) {
+        const struct state before = c->now;
+        const double way = c->way, h = length_of(c);
+        room = go(c, h);
+        to->steps = i;
+        const double w = c->now.y[W], dw = c->now.y[DW];
+        if (!isfinite(w)) { /* of numbers without measure: nothing would end it */
+            to->end = KD_COURSE_NONE;
+            return;
+        }
+        if (w < c->first && dw < 0) { /* far enough: the place is where it was passed */
+            to->end = KD_COURSE_ESCAPED;
+            if (before.y[W] > c->first && room) {
+                c->way = way;
+                c->now = step(c, &before, part_of(c, &before, h, W, c->first));
+                turn(c, &c->now);
+                put(c, &c->now, -1);
+            }
+            return;
+        }
+        if (is_captured(c, near)) {
+            to->end = KD_COURSE_CAPTURED;
+            put(c, &c->now, -1);
+            return;
+        }
+        if (w >= c->first && room && (i % SUBSTEPS == 0 || before.y[W] < c->first))
+            room = put(c, &c->now, -1);
+    }
+    to->end = KD_COURSE_LONG;
+}
+
+static struct kd_null_course follow(const struct kd_null_ray *ray, double ingoing, double far, double near, struct kd_null_place *out, size_t most)
 {
     struct kd_null_course course = { .least_r = INFINITY };
-    const double r_plus = kd_kerr_horizon(ray->spin), begun = isinf(ray->radius) ? 0 : 1 / ray->radius;
-    const double last = 1 / (r_plus + near), first = fmin(1 / far, begun > 0 ? begun : INFINITY);
+    const double begun = isinf(ray->radius) ? 0 : 1 / ray->radius;
     struct course c = {
-        .m = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta), .horizon = 1 / r_plus, .first = first, .out = out, .most = most, .to = &course,
+        .m = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta), .horizon = 1 / kd_kerr_horizon(ray->spin), .ingoing = ingoing,
+        .first = fmin(1 / far, begun > 0 ? begun : INFINITY), .out = out, .most = most, .to = &course,
     };
-    if (!set_out(&c, ray))
-        return course;
-    const double h = length_of(&c);
-    bool room = begun > 0 ? put(&c, &c.now, -1) : true;
-    for (size_t i = 1; room; i++) {
-        const struct state before = c.now;
-        const double way = c.way;
-        room = go(&c, h);
-        course.steps = i;
-        const double w = c.now.y[W], dw = c.now.y[DW];
-        if (!isfinite(w)) { /* of numbers without measure: nothing would end it */
-            course.end = KD_COURSE_NONE;
-            return course;
-        }
-        if (w < first && dw < 0) { /* far enough: the place is where it was passed */
-            course.end = KD_COURSE_ESCAPED;
-            if (before.y[W] > first && room) {
-                c.way = way;
-                c.now = step(&c, &before, part_of(&c, &before, h, W, first));
-                turn(&c, &c.now);
-                put(&c, &c.now, -1);
-            }
-            return course;
-        }
-        if (w >= last) {
-            course.end = KD_COURSE_CAPTURED;
-            put(&c, &c.now, -1);
-            return course;
-        }
-        if (w >= first && room && (i % SUBSTEPS == 0 || before.y[W] < first))
-            room = put(&c, &c.now, -1);
-    }
-    course.end = KD_COURSE_LONG;
+    if (set_out(&c, ray))
+        run(&c, near);
     return course;
+}
+
+struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near, struct kd_null_place *out, size_t most)
+{
+    return follow(ray, 0, far, near, out, most);
+}
+
+struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near, struct kd_null_place *out, size_t most)
+{
+    return follow(ray, reversed ? -1 : 1, far, near, out, most);
 }

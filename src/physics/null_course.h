@@ -9,7 +9,14 @@
  *
  * (Carter 1968; A, K, C of null_quartic.h): regular on the axis and at infinity. The time t' = 1/w^2 + 2/w + 4 + ((8 - 2a lambda) w -
  * 4a^2 w^2)/D + a^2 n_z^2 (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8) is integrated without its first two terms, by
- *   1/w^2 = (-w'/w)' + K w + C w^2,   1/w = -s (ln((1 + s w')/w))' + w^2 (K + C w)/(1 + s w'),   s = 1 on the way in, -1 on the way out. */
+ *   1/w^2 = (-w'/w)' + K w + C w^2,   1/w = -s (ln((1 + s w')/w))' + w^2 (K + C w)/(1 + s w'),   s = 1 on the way in, -1 on the way out.
+ *
+ * A ray that is followed back out of the horizon has no azimuth and time of Boyer and Lindquist there, but those of ingoing coordinates, phi + Int a/Delta dr
+ * and t + Int 2r/Delta dr. By W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D k w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
+ *
+ *   chi' = a (G - 1),   t' = 1/w^2 + a^2 n_z^2 + 2 G/w,   G = (W + s w')/D = k w^2/(W - s w'):
+ *
+ * regular at the horizon for light that comes from outside, s W > 0 there. */
 #ifndef KD_PHYSICS_NULL_COURSE_H
 #define KD_PHYSICS_NULL_COURSE_H
 
@@ -34,5 +41,10 @@ struct kd_null_course {
  * observer, or within `near` of the horizon, M. Neighbours are 0.03 rad or less
  * apart in direction, and every crossing is a place. out: room for `most`. */
 struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near, struct kd_null_place *out, size_t most);
+
+/* The same in ingoing azimuth and time, of an observer anywhere outside the inner horizon, and of the labels of a ray whose energy at infinity is below 0
+ * (`reversed`), whose azimuth and time run the other way as if it were above. A ray that ends at the horizon from within, coming from no outside, is
+ * CAPTURED. far may be INFINITY: then the last place of one that escapes is there, and has its direction. */
+struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near, struct kd_null_place *out, size_t most);
 
 #endif

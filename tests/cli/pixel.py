@@ -33,7 +33,7 @@ class Pixel(Case):
     def test_refused(self):
         self.bad(2, "--at", *PIXEL)
         self.bad(2, "(at /at)", *PIXEL, "--at", "64,2")
-        self.bad(2, "(at /camera/r)", *PIXEL, "--at", "1,2", "--set", "camera.r=1.3", "--set", "camera.observer=infall")
+        self.bad(2, "(at /camera/r)", *PIXEL, "--at", "1,2", "--set", "camera.r=1.3")
         self.bad(2, "text or json", *PIXEL, "--at", "1,2", "--format", "npy")
 
 

@@ -374,6 +374,59 @@ static void many_rays(void **state)
     }
 }
 
+/* From within the horizon: what double precision finds by steps, judged by unit/physics_course.c, is what the picture's own kernel has: crossings with their azimuths and
+ * frequencies, the fate, and the direction in the sky; and the light adds up. */
+static void from_within(void **state)
+{
+    const struct { const char *spin, *r, *yaw, *projection; } cases[] = {
+        { "0.9", "1.3", "0", "pinhole" }, { "0.9", "1.3", "180", "pinhole" }, { "0", "1.2", "60", "pinhole" }, { "-0.6", "1.5", "0", "equirectangular" }, { "0.5", "0.9", "0", "fulldome" },
+    };
+    int crossed = 0, gas = 0, sky = 0, dark = 0;
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct kd_scene scene = scene_of("smooth", (const char *const[]) { "sky.model", "grid", "disk.opacity", "0.5", "spacetime.spin", cases[i].spin, "camera.observer", "infall",
+            "camera.r", cases[i].r, "camera.yaw_deg", cases[i].yaw, "camera.projection", cases[i].projection, "camera.fov_deg", "120", "image.critical_factor", "1",
+            "camera.azimuth_deg", "40", NULL });
+        for (uint32_t n = 0; n < 10; n++) {
+            const uint32_t at_x = (7 + 13 * n) % WIDTH, at_y = (3 + 11 * n) % HEIGHT;
+            struct kd_plan plan;
+            struct kd_frame frame = told_at(&scene, at_x, at_y, &plan);
+            const struct kd_picture picture = { &frame, &scene, &plan, "", 0 };
+            struct kd_explained x;
+            judge_sum(&frame, at_x, at_y);
+            OK(kd_explain(&picture, &x, &error));
+            assert_true(x.motion.within && x.path.course.n > 1);
+            near("first place of the path", x.path.places[0].r, scene.camera.r, 1e-12);
+            if (x.told->ended && x.end.fate != KD_RAY_UNDECIDED) {
+                assert_int_equal(x.end.fate, KD_RAY_ESCAPED);
+                near("theta of the sky", (double)x.told->end_u, cos(x.end.theta), 1e-4);
+                near("phi of the sky", remainder((double)x.told->end_phi - x.end.phi, 2 * M_PI) * sin(x.end.theta), 0, 3e-4);
+                sky++;
+            }
+            dark += x.end.fate == KD_RAY_CAPTURED;
+            for (size_t k = 0; k < x.told->n_places; k++) {
+                const struct kd_told_place *p = &x.told->places[k];
+                const struct kd_ray_crossing *c = &x.crossings[p->order];
+                assert_true(p->order < x.end.n_crossings);
+                if (p->order > 1 || c->r > 100)
+                    continue;
+                near("r of the picture over r", 1 / ((double)p->w * c->r), 1, 2e-4);
+                if (p->phi != 0)
+                    near("phi of the picture", remainder((double)p->phi - c->phi, 2 * M_PI), 0, 5e-4);
+                crossed++;
+                if (kd_explained_has_gas(p) && c->r > 1.05 * kd_kerr_isco(scene.spacetime.spin)) {
+                    near("g of the picture over g", (double)p->g / c->g, 1, 3e-4);
+                    gas++;
+                }
+            }
+            kd_explained_finish(&x);
+            kd_frame_finish(&frame);
+        }
+    }
+    printf("from within: %d crossings, %d on the disk, %d to the sky, %d to the horizon\n", crossed, gas, sky, dark);
+    assert_true(crossed > 8 && gas > 2 && sky > 10 && dark > 2);
+}
+
 static void places(void **state)
 {
     struct kd_plan plan = { .width = 64, .height = 36 };
@@ -457,7 +510,7 @@ static void volumes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(sums), cmocka_unit_test(many_rays), cmocka_unit_test(volumes), cmocka_unit_test(layers), cmocka_unit_test(other_pictures),
-        cmocka_unit_test(negative_energies), cmocka_unit_test(places) };
+        cmocka_unit_test(negative_energies), cmocka_unit_test(from_within), cmocka_unit_test(places) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));
 }

@@ -44,7 +44,7 @@ class Pixel(daemon.Case):
 
     def test_refused(self):
         for query, pointer in (('', '/at'), ('at=64,1', '/at'), ('at=1,36', '/at'), ('at=1', '/at'), ('at=1,2,3', '/at'), ('at=a,b', '/at'), ('at=-1,0', '/at'),
-                               ('at=1,nan', '/at'), ('at=1,1&at=2,2', '/at'), ('at=1,1&camera.r=1.2&camera.observer=infall', '/camera/r'),
+                               ('at=1,nan', '/at'), ('at=1,1&at=2,2', '/at'), ('at=1,1&camera.r=1.2', '/camera/r'),
                                ('at=1,1&nothing=2', '/nothing'), ('at=1,1&spacetime.spin=2', '/spacetime/spin'), ('at=1,1&image.width=9999999', '/image/width')):
             with self.subTest(query):
                 self.assertProblem(self.daemon.get('/v1/pixel?' + '&'.join(filter(None, (query, '' if 'width' in query else daemon.SMALL)))), 422, pointer=pointer)
@@ -52,6 +52,11 @@ class Pixel(daemon.Case):
         self.assertProblem(self.daemon.post('/v1/pixel?at=1,1', '{'), 400)
         self.assertProblem(self.daemon.post('/v1/render?at=1,1', SCENE), 422, pointer='/at')
         self.assertProblem(self.daemon.request('DELETE', PIXEL), 405)
+
+    def test_from_within_the_horizon(self):
+        found = self.daemon.get(PIXEL + '&camera.r=1.2&camera.observer=infall&spacetime.spin=0.7').json()
+        self.assertEqual((found['path']['coordinates'], found['path']['points'][0][3]), ('ingoing', 1.2))
+        self.assertEqual(self.daemon.get(PIXEL).json()['path']['coordinates'], 'Boyer-Lindquist')
 
     def test_mishaps(self):
         self.assertProblem(self.daemon.get(PIXEL + '&time=-2'), 503)

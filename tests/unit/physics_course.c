@@ -202,10 +202,115 @@ static void without_a_course(void **state)
     assert_int_equal(course.n, 10);
 }
 
+/* The place of that crossing; NULL: it has none. */
+static const struct kd_null_place *crossing_of(const struct kd_null_course *course, const struct kd_null_place *places, int n)
+{
+    for (size_t i = 0; i < course->n; i++)
+        if (places[i].crossing == n)
+            return &places[i];
+    return NULL;
+}
+
+/* Light that comes to who falls, within the horizon, with its energy at infinity above and below 0: crossings, fate and direction by the oracle, whose
+ * coordinates know no horizon. */
+static void from_within(void **state)
+{
+    static struct kd_null_place places[MOST], others[MOST];
+    uint64_t seed = 5;
+    int met = 0, escaped = 0, captured = 0, below = 0;
+    (void)state;
+    for (int i = 0; i < 600; i++) {
+        const double a = spins[(int)(8 * random_unit(&seed))], root = sqrt((1 - a) * (1 + a)), up = 2 * random_unit(&seed) - 1, round = 2 * M_PI * random_unit(&seed);
+        const struct ks_place at = { a, 1 + root * (2 * (0.1 + 0.9 * random_unit(&seed)) - 1), acos(0.95 * (2 * random_unit(&seed) - 1)) };
+        const double k[3] = { up, sqrt((1 - up) * (1 + up)) * cos(round), sqrt((1 - up) * (1 + up)) * sin(round) };
+        const struct ks_frame rain = ks_rain(&at);
+        double p[4], c[4];
+        ks_seen(&rain, k, p);
+        ks_constants(&at, p, c);
+        if (fabs(c[0]) < 0.02)
+            continue;
+        const struct kd_null_ray ray = { .spin = a, .radius = at.r, .cos_theta = cos(at.theta), .sin_theta = sin(at.theta), .alpha = -c[1] / sin(at.theta) / c[0],
+                                         .beta = c[2] / fabs(c[0]), .outward = true, .orders = ORDERS };
+        const struct ks_path oracle = ks_follow(&at, p, ORDERS);
+        const struct kd_null_course course = kd_null_course_ingoing(&ray, c[0] < 0, INFINITY, 1e-3 * horizon(a), places, MOST);
+        struct kd_null_ray moved = ray; /* by 1e-8: how much the ray amplifies */
+        moved.alpha *= 1 + 1e-8, moved.beta *= 1 + 1e-8;
+        const struct kd_null_course beside = kd_null_course_ingoing(&moved, c[0] < 0, INFINITY, 1e-3 * horizon(a), others, MOST);
+        const double sign = c[0] < 0 ? -1 : 1;
+        if (course.end != KD_COURSE_CAPTURED && course.end != KD_COURSE_ESCAPED)
+            say(&ray, "end", 0, course.end, KD_COURSE_ESCAPED, 0);
+        if (!(course.drift < 1e-7))
+            say(&ray, "drift of the first integrals", 0, course.drift, 0, 1e-7);
+        if (oracle.fate != KS_UNDECIDED && (course.end == KD_COURSE_ESCAPED) != (oracle.fate == KS_ESCAPED))
+            say(&ray, "fate", 0, course.end, oracle.fate, 0);
+        for (size_t n = 0; n < course.n; n++) {
+            const struct kd_null_place *q = &places[n];
+            if (q->crossing < 0 || q->crossing >= oracle.crossings)
+                continue;
+            const struct kd_null_place *other = crossing_of(&beside, others, q->crossing);
+            if (!other)
+                continue;
+            const double r = oracle.r[q->crossing], allowed = 1e-8 + fabs(other->r / q->r - 1) + fabs(other->phi - q->phi);
+            if (!(fabs(q->r / r - 1) <= allowed))
+                say(&ray, "r of crossing", q->crossing, q->r, r, allowed * r);
+            if (r < 1.02 * horizon(a)) /* no Boyer-Lindquist azimuth within, and one that turns ever faster next to it */
+                continue;
+            const double twist = root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : 0, phi = sign * q->phi + twist;
+            if (!(fabs(remainder(phi - oracle.phi[q->crossing], 2 * M_PI)) <= 10 * allowed))
+                say(&ray, "phi of crossing", q->crossing, phi, oracle.phi[q->crossing], 10 * allowed);
+            met++;
+        }
+        below += c[0] < 0;
+        captured += course.end == KD_COURSE_CAPTURED;
+        if (course.end == KD_COURSE_ESCAPED) {
+            const struct kd_null_place *last = &places[course.n - 1];
+            if (!(fabs(last->u - oracle.u) < 1e-5) || !(fabs(remainder(sign * last->phi - oracle.sky_phi, 2 * M_PI)) * sqrt(1 - oracle.u * oracle.u) < 1e-5))
+                say(&ray, "direction", 0, sign * last->phi, oracle.sky_phi, 1e-5);
+            escaped++;
+        }
+    }
+    print_message("from within: %d crossings, %d escaped, %d captured, %d of negative energy\n", met, escaped, captured, below);
+    assert_true(met > 150 && escaped > 100 && captured > 50 && below > 20);
+}
+
+/* Outside the horizon ingoing azimuth and time are those of the closed form and the integrals of a/Delta and 2r/Delta. */
+static void ingoing_time(void **state)
+{
+    static struct kd_null_place places[MOST];
+    uint64_t seed = 6;
+    int judged = 0;
+    (void)state;
+    for (int i = 0; i < 900; i++) {
+        struct kd_null_ray ray = random_ray(&seed, 6);
+        const double a = ray.spin, root = sqrt((1 - a) * (1 + a)), inner = a * a / (1 + root);
+        ray.radius = 1.05 * horizon(a) + 20 * random_unit(&seed);
+        ray.outward = i & 1;
+        const struct kd_null_path closed = kd_null_trace(&ray);
+        const struct kd_null_course course = kd_null_course_ingoing(&ray, false, 200, 0.01 * horizon(a), places, MOST);
+        for (size_t n = 0; n < course.n && (closed.status == KD_NULL_OK || closed.status == KD_NULL_IN_PLANE); n++) {
+            const struct kd_null_place *q = &places[n];
+            if (q->crossing < 0 || q->crossing >= closed.crossings || q->r < 1.1 * horizon(a))
+                continue;
+            const struct kd_null_crossing *c = &closed.crossing[q->crossing];
+            const double by = 1e-7 + 1e6 * fmin(fmax(c->error_r, fmax(c->error_phi, c->error_delay)), 1), r_o = ray.radius, r_c = c->r;
+            const double twist = 0.5 * a / root * (log((r_c - inner) / (r_c - 1 - root)) - log((r_o - inner) / (r_o - 1 - root)));
+            const double time = ((1 + root) * log((r_o - 1 - root) / (r_c - 1 - root)) - inner * log((r_o - inner) / (r_c - inner))) / root;
+            if (!(fabs(q->phi + twist - c->phi) <= 10 * by))
+                say(&ray, "phi of crossing", q->crossing, q->phi + twist, c->phi, 10 * by);
+            if (!(fabs(q->delay - time - c->delay) <= 10 * by * (1 + c->r)))
+                say(&ray, "delay of crossing", q->crossing, q->delay - time, c->delay, 10 * by * (1 + c->r));
+            judged++;
+        }
+    }
+    print_message("ingoing time: %d crossings\n", judged);
+    assert_true(judged > 300);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(from_infinity), cmocka_unit_test(from_nearby), cmocka_unit_test(between_crossings), cmocka_unit_test(without_a_course),
+        cmocka_unit_test(from_within), cmocka_unit_test(ingoing_time),
     };
     return cmocka_run_group_tests_name("physics_course", tests, NULL, NULL);
 }

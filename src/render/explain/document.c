@@ -117,7 +117,7 @@ static void put_crossing(struct kd_json *json, const struct kd_explained *x, uin
     kd_json_number(json, "order", n);
     kd_json_number(json, "r", has ? c->r : NAN);
     kd_json_number(json, "phi", has ? c->phi : NAN);
-    kd_json_number(json, "azimuth", has ? kd_explained_azimuth(x, c->phi) : NAN);
+    kd_json_number(json, "azimuth", has && c->r > x->motion.horizon ? kd_explained_azimuth(x, c->phi) : NAN);
     kd_json_number(json, "delay", has ? c->delay : NAN);
     kd_json_number(json, "g", has ? c->g : NAN);
     kd_json_bool(json, "seen", p != NULL);
@@ -332,12 +332,10 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     return status;
 }
 
-/* Wants the picture alone, of an observer that closed forms know. */
+/* Wants the picture alone. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
-    const double horizon = 1 + sqrt((1 - scene->spacetime.spin) * (1 + scene->spacetime.spin));
-    if (!(scene->camera.r > horizon))
-        return kd_error_field(error, "/camera/r", "camera.r is %.9g, where rays are not explained: allowed is outside of the horizon, above %.9g", scene->camera.r, horizon);
+    (void)error;
     if (scene->image.layers.count > 1)
         scene->image.layers = (struct kd_words) { 1, { { KD_LAYER_rgb, -1 } } };
     return KD_OK;

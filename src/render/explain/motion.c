@@ -47,20 +47,36 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
 {
     struct kd_ray_motion m = { .ray = *ray, .horizon = kd_kerr_horizon(ray->spin), .turning_r = NAN };
     const struct kd_null_motion constants = kd_null_motion_of(ray->spin, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
-    const struct kd_null_path path = kd_null_trace_fast(ray);
+    m.within = !(ray->radius > m.horizon);
     m.lambda = constants.lambda, m.eta = constants.eta;
     m.roots = kd_null_roots_of(&constants);
     name_roots(&m);
     name_polar(&m, &constants);
+    if (m.within) { /* from next to the horizon it can turn at r3 alone, if that is outside */
+        m.turning_r = m.roots.kind == KD_NULL_FOUR_REAL && m.roots.r3 > m.horizon ? m.roots.r3 : NAN;
+        return m;
+    }
+    const struct kd_null_path path = kd_null_trace_fast(ray);
     if (path.turned)
         m.turning_r = path.fate == KD_NULL_ESCAPED ? m.roots.r4 : m.roots.r3;
     return m;
+}
+
+static int why_from_within(const struct kd_ray_motion *m, enum kd_ray_fate fate, char *out, size_t size)
+{
+    if (fate == KD_RAY_ESCAPED)
+        return snprintf(out, size, "Followed back it leaves the hole through the horizon, as it came in, and escapes to the sky.");
+    if (isfinite(m->turning_r))
+        return snprintf(out, size, "Followed back it leaves the hole through the horizon, rises to r = %.6g M, turns, and falls to the horizon of the hole's past.", m->turning_r);
+    return snprintf(out, size, "Followed back it stays within up to the horizon of the hole's past: nothing outside has sent it.");
 }
 
 int kd_ray_motion_why(const struct kd_ray_motion *m, enum kd_ray_fate fate, char *out, size_t size)
 {
     if (fate == KD_RAY_UNDECIDED)
         return snprintf(out, size, "Followed back it is so close to the critical curve that double precision does not tell whether it escapes.");
+    if (m->within)
+        return why_from_within(m, fate, out, size);
     if (fate == KD_RAY_ESCAPED && isfinite(m->turning_r))
         return snprintf(out, size, "Followed back it turns at r = %.6g M and escapes to the sky.", m->turning_r);
     if (fate == KD_RAY_ESCAPED)
@@ -78,13 +94,15 @@ enum kd_status kd_ray_path_draw(const struct kd_ray_motion *m, const struct kd_r
     double far = isfinite(m->ray.radius) ? fmax(FAR, 2 * m->ray.radius) : FAR, near = NEAR * m->horizon;
     for (size_t i = 0; i < n; i++) {
         far = fmax(far, fmin(1.25 * crossings[i].r, FARTHEST));
-        near = fmin(near, 0.5 * (crossings[i].r - m->horizon));
+        if (crossings[i].r > m->horizon)
+            near = fmin(near, 0.5 * (crossings[i].r - m->horizon));
     }
-    *path = (struct kd_ray_path) { .frame = *frame, .spin = m->ray.spin, .error = NAN };
+    *path = (struct kd_ray_path) { .frame = *frame, .spin = m->ray.spin, .ingoing = m->within, .error = NAN };
     if (!(path->places = malloc(KD_PATH_PLACES * sizeof *path->places)))
         return kd_error_set(error, KD_ENOMEM, "out of memory for the path of a ray");
-    path->course = kd_null_course_of(&m->ray, far, near, path->places, KD_PATH_PLACES);
-    for (size_t i = 0; i < path->course.n; i++) {
+    path->course = m->within ? kd_null_course_ingoing(&m->ray, frame->reversed, far, near, path->places, KD_PATH_PLACES)
+                             : kd_null_course_of(&m->ray, far, near, path->places, KD_PATH_PLACES);
+    for (size_t i = 0; i < path->course.n && !m->within; i++) {
         const struct kd_null_place *p = &path->places[i];
         if (p->crossing >= 0 && p->crossing < (int)n)
             path->error = fmax(path->error, fabs(p->r / crossings[p->crossing].r - 1));
@@ -158,6 +176,7 @@ void kd_ray_path_json(struct kd_json *json, const struct kd_ray_path *path)
     kd_json_object(json, "path");
     kd_json_number(json, "steps", (double)path->course.steps);
     kd_json_number(json, "least_r", path->course.least_r);
+    kd_json_string(json, "coordinates", path->ingoing ? "ingoing" : "Boyer-Lindquist");
     kd_json_bool(json, "whole", path->course.end == KD_COURSE_CAPTURED || path->course.end == KD_COURSE_ESCAPED);
     kd_json_array(json, "columns");
     for (size_t i = 0; i < KD_PATH_COLUMNS; i++)

@@ -12,6 +12,7 @@
 
 struct kd_ray_motion {
     struct kd_null_ray ray;
+    bool within;              /* the observer is not outside the horizon: azimuths and times of the path are ingoing (null_course.h) */
     double lambda, eta;       /* L/E, Q/E^2 */
     struct kd_null_roots roots;
     const char *radial_case;  /* "I" to "IV" */
@@ -26,6 +27,10 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
 /* Why a ray of that fate ends as it does, in a sentence. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);
 
+/* Crossings, as many as the ray wants, and the end of a ray from within, as kd_rays_closed has those from outside: phi is Boyer-Lindquist of places outside the
+ * horizon less the observer's ingoing one, delay in ingoing time, no error is known. KD_ENOMEM. */
+enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, struct kd_ray_crossing *crossings, struct kd_ray_end *end, struct kd_error *error);
+
 /* What azimuths and times of a ray are counted by: those of the observer, and whether its energy at infinity is below 0, so that it goes round the
  * other way (view/camera.h). */
 struct kd_ray_path_frame { double azimuth, twist; bool reversed; };
@@ -35,7 +40,8 @@ struct kd_ray_path {
     struct kd_null_place *places; /* malloc'd */
     struct kd_ray_path_frame frame;
     double spin;
-    double error;                 /* of its crossings, relative in r, at worst; NAN: it has none */
+    bool ingoing;                 /* azimuth and delay are */
+    double error;                 /* of its crossings, relative in r, at worst; NAN: it has none, or nothing to be held against */
 };
 
 /* The path, as far as it is worth drawing, with its crossings held against the n that are given. KD_ENOMEM. Finish *out in any case. */
