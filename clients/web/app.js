@@ -133,6 +133,7 @@ async function watch(scene) {
     old = url;
     const { complain, drawOverlays } = await parts;
     fall?.then(({ shown }) => shown(frame));
+    stars?.then(named => named?.shown(frame));
     say(caption(frame), frame.final && !scene.goesOn());
     if (frame.final && stage.dataset.final !== 'true') drawOverlays();
     stage.dataset.final = frame.final;

@@ -168,6 +168,7 @@ export function openSource(scene, size, shown, failed) {
       approximations: sentences(get('Kerrd-Approximations')),
       passes: passes(get('Server-Timing')),
       clock,
+      azimuth: Number(get('Kerrd-Azimuth')),
     });
   }
 

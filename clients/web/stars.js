@@ -7,22 +7,23 @@ import { ask } from './server.js';
 const near_px = 16;
 const rest_ms = 250; // that a camera has been still
 const hidden = 0.02; // through which part of a disk a star shows
+const stale_deg = 0.5; // places are told on to where they are after less
 
 export const hasNames = scene => scene.get('sky.model') === 'catalogue' && scene.get('camera.projection') !== 'ring' && scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
 
-// What decides where they are, as a key; the clock does not.
-function sceneOf(scene, { clientWidth: width, clientHeight: height }) {
-  const { time, motion, style, ...document } = scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1 });
+// What decides where they are, as a key; the clock does not. moved: fields that the server has moved on.
+function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
+  const { time, motion, style, ...document } = scene.document({ 'image.width': width, 'image.height': height, 'image.samples': 1, ...moved });
   return JSON.stringify(document);
 }
 
 let kept = { key: '', answer: null };
 
-// { width, height, images: [{ name, designation, magnitude, x, y, magnification, g, through, seen_magnitude, mirrored }] } of the stage as it is, the
+// { width, height, azimuth_deg, images: [{ name, designation, magnitude, x, y, x_by_azimuth, y_by_azimuth, magnification, g, through, seen_magnitude, mirrored }] } of the stage as it is, the
 // brightest first.
-export function starsIn(scene, stage) {
-  const key = sceneOf(scene, stage);
+export function starsIn(scene, stage, moved) {
+  const key = sceneOf(scene, stage, moved);
   if (kept.key !== key) {
     const answer = ask('v1/render', { method: 'POST', headers: { 'Content-Type': 'application/json', Accept: 'application/vnd.kerrd.stars+json' }, body: key }).then(async reply => {
       const list = await reply.json();
@@ -55,7 +56,12 @@ export function buildStars(stage, scene) {
   const label = byId('star'),
     marks = byId('star-marks');
   let timer = 0,
-    pointer = null;
+    pointer = null,
+    azimuth = null, // of the latest picture
+    last = null; // the list of one that turns
+
+  const turns = () => azimuth != null && scene.goesOn() && scene.get('motion.azimuth_rate_deg') !== 0;
+  const gone = list => (turns() ? ((azimuth - list.azimuth_deg + 540) % 360) - 180 : 0);
 
   function clear() {
     label.hidden = true;
@@ -64,10 +70,12 @@ export function buildStars(stage, scene) {
 
   function name(list) {
     const { x, y } = pointer,
-      image = list.images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
+      by = gone(list),
+      images = list.images.map(one => ({ ...one, x: one.x + by * one.x_by_azimuth, y: one.y + by * one.y_by_azimuth })),
+      image = images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
     clear();
     if (!image) return;
-    const all = list.images.filter(one => one.name === image.name && one.designation === image.designation);
+    const all = images.filter(one => one.name === image.name && one.designation === image.designation);
     marks.setAttribute('viewBox', `0 0 ${list.width} ${list.height}`);
     marks.replaceChildren(...all.map(one => svg('circle', { cx: one.x, cy: one.y, r: one === image ? 9 : 6, class: one === image ? 'this' : '' })));
     label.replaceChildren(el('b', {}, nameOf(image)), el('span', {}, told(image, all.length - 1)));
@@ -78,8 +86,9 @@ export function buildStars(stage, scene) {
   }
 
   const look = latest(async () => {
-    if (!pointer || !hasNames(scene) || (scene.goesOn() && (scene.get('motion.azimuth_rate_deg') || scene.get('motion.proper_time_rate')))) return clear();
-    const list = await starsIn(scene, stage).catch(() => null); // without them the picture is as good
+    if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.proper_time_rate'))) return clear();
+    const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null); // without them the picture is as good
+    last = turns() ? list : null;
     if (list && pointer) name(list);
   });
 
@@ -88,7 +97,7 @@ export function buildStars(stage, scene) {
     pointer = event.target.closest('button, a, input') ? null : { x: event.clientX - box.left, y: event.clientY - box.top };
     clearTimeout(timer);
     if (!pointer || event.buttons) return clear();
-    timer = setTimeout(look, kept.key === sceneOf(scene, stage) ? 0 : rest_ms);
+    timer = setTimeout(look, turns() ? rest_ms : kept.key === sceneOf(scene, stage) ? 0 : rest_ms);
   }
   stage.addEventListener('pointermove', point);
   stage.addEventListener('pointerup', point);
@@ -96,6 +105,17 @@ export function buildStars(stage, scene) {
   scene.addEventListener('change', () => {
     clear();
     clearTimeout(timer);
+    last = null;
     if (pointer) timer = setTimeout(look, 2 * rest_ms);
   });
+
+  return {
+    // Names go with a picture that turns; a new list is asked for now and then.
+    shown(frame) {
+      azimuth = frame.azimuth;
+      if (!last || !pointer || !turns()) return;
+      name(last);
+      if (Math.abs(gone(last)) > stale_deg) look();
+    },
+  };
 }

@@ -415,6 +415,27 @@ class Kerrd(unittest.TestCase):
             judged += 1
         self.assertGreater(judged, 20)
 
+    def test_named_stars_next_to_the_critical_curve_and_while_the_picture_turns(self):
+        """Images that have gone round are listed where the picture has their light; a list tells where each star will be when the azimuth has gone on."""
+        ask = 'application/vnd.kerrd.stars+json'
+        scene = lambda azimuth: {'camera': {'r': 30, 'fov_deg': 40, 'inclination_deg': 80, 'azimuth_deg': azimuth}, 'spacetime': {'spin': 0.5}, 'disk': {'model': 'none'},
+                                 'sky': {'model': 'catalogue', 'milky_way': 0, 'limit_mag': 1}, 'image': {'width': 320, 'height': 180}}
+        lists = [self.daemon.post('/v1/render', scene(azimuth), Accept=ask).json() for azimuth in (30, 30.5)]
+        self.assertEqual([told['azimuth_deg'] for told in lists], [30, 30.5])
+        key = lambda s: (s['designation'], s['mirrored'], round(math.log10(s['magnification']) / 2))
+        before, after = ({key(s): s for s in told['images']} for told in lists)
+        moved, off = 0, []
+        for name in before.keys() & after.keys():
+            a, b = before[name], after[name]
+            mean = [(a[way] + b[way]) / 4 for way in ('x_by_azimuth', 'y_by_azimuth')]
+            off.append(math.hypot(a['x'] + mean[0] - b['x'], a['y'] + mean[1] - b['y']))
+            moved += math.hypot(*mean) > 0.1
+        self.assertGreater(moved, 5)
+        self.assertLess(sorted(off)[len(off) * 9 // 10], 0.03)
+        near = [s for s in lists[0]['images'] if s['magnification'] < 0.01]
+        self.assertGreater(len(near), 8, 'images that have gone round once more')
+        self.assertEqual(len(lists[0]['images']), len({(s['designation'], s['x'], s['y']) for s in lists[0]['images']}))
+
     def test_stars_behind_a_disk_and_from_far(self):
         sky, ask = {'model': 'catalogue', 'limit_mag': 4}, 'application/vnd.kerrd.stars+json'
         near = lambda disk: self.daemon.post('/v1/render', {'camera': {'r': 60, 'inclination_deg': 40}, 'sky': sky, 'disk': disk, 'image': {'width': 200, 'height': 120}}, Accept=ask).json()

@@ -147,6 +147,24 @@ class Falling(Browser):
         self.assertTrue(words.startswith(images[0]['name']) and at['designation'] in words, words)
         self.shot(page, 'stars')
 
+    def test_a_name_stays_while_the_picture_turns(self):
+        """The pointer rests where a star comes by: its mark goes with it, at the pace of the picture."""
+        page = self.open(SKY + '&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5', wait='#stage[data-final]', viewport={'width': 640, 'height': 480})
+        page.hover('#stage')
+        with page.expect_response(lambda r: r.url.endswith('/v1/render')) as answer:
+            page.mouse.move(120, 120)
+        told = answer.value.json()
+        wide, high = page.evaluate('[document.getElementById("stage").clientWidth, document.getElementById("stage").clientHeight]')
+        at = next(i for i in told['images'] if 60 < i['x'] < wide - 60 and 60 < i['y'] < high - 60 and math.hypot(i['x_by_azimuth'], i['y_by_azimuth']) > 3)
+        box = page.locator('#stage').bounding_box()
+        page.mouse.move(box['x'] + at['x'], box['y'] + at['y'])
+        page.wait_for_selector('#star:not([hidden])')
+        mark = lambda: page.evaluate("(n => n && [+n.getAttribute('cx'), +n.getAttribute('cy'), document.getElementById('star').innerText])(document.querySelector('#star-marks .this'))")
+        first = mark()
+        self.assertTrue(daemon.eventually(lambda: mark() and mark()[:2] != first[:2]), 'it goes on')
+        self.assertTrue(page.is_visible('#star'))
+        self.shot(page, 'stars-turn')
+
 
 if __name__ == '__main__':
     main()

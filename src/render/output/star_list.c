@@ -1,17 +1,22 @@
 /* This writes which stars are where in a picture: kd_format_stars, a JSON document of the images of stars that have names, the one that gives its
- * pixels most light first (docs/physics/sky.md). Places come from the lens map, one ray a pixel; brightness is of one star's image alone. */
+ * pixels most light first (docs/physics/sky.md). They are sought between the rays of the lens map, one a pixel, and in the rim of the shadow; their places are those of the rays that end at
+ * stars; brightness is of one star's image alone. */
 #include "render/output/format.h"
 
 #include "base/json.h"
 #include "render/plan/layer_kinds.h"
-#include "render/sky/star_images.h"
+#include "render/sky/rim_images.h"
 #include "render/sky/star_names.h"
 #include "render/sky/star.h"
-#include "render/view/camera.h"
+#include "render/view/sky_ray.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+#define COARSE 0.15  /* rad: neighbouring rays of the picture that lead further apart, next to the critical curve, tell nothing */
+#define INNER 0.9    /* of the rim's width: what is nearer to the curve is the rim's alone */
+#define APART 0.05  /* in pixels: an image of both grids is there once */
 
 enum { MOST = 400 }; /* images in a file: those beyond give less light */
 
@@ -20,12 +25,13 @@ struct image { struct kd_star_image at; double magnification, g, through, light;
 
 struct list {
     const struct kd_picture *picture;
-    struct kd_camera_exact camera;
+    struct kd_sky_rays rays;
     struct kd_star_name names[KD_STAR_NAMES];
+    double most[KD_STAR_NAMES];          /* of the sky that a pixel may be, sr, for them to be seen */
     struct kd_vec places[KD_STAR_NAMES]; /* directions from which their light comes to the hole, in the frame of the lens map */
     size_t n_stars;
     struct image *images;
-    size_t n, room;
+    size_t n, room, n_rim; /* images; those of the rim come first */
 };
 
 /* Wants the places in the sky where rays end, and how deep the disk is before them. */
@@ -64,6 +70,7 @@ static void name_stars(struct list *list)
             break;
         const struct kd_vec n = kd_rotate(&galactic, kd_sky_direction(star.ra, star.dec));
         list->places[list->n_stars] = kd_rotate(&back, n);
+        list->most[list->n_stars] = kd_star_flux(star.magnitude) / KD_STAR_LEAST;
         if (++list->n_stars == KD_STAR_NAMES)
             break;
     }
@@ -95,11 +102,25 @@ static double through(const struct kd_picture *picture, size_t pixel)
     return exp(-depth);
 }
 
+static bool is_there(const struct list *list, const struct kd_star_image *image)
+{
+    for (size_t i = 0; i < list->n_rim; i++) {
+        const struct kd_star_image *o = &list->images[i].at;
+        if (o->star == image->star && o->mirrored == image->mirrored && hypot(o->x - image->x, o->y - image->y) < APART)
+            return true;
+    }
+    return false;
+}
+
+/* Adds an image, but for those that pictures leave out. */
 static enum kd_status add(void *user, const struct kd_star_image *found)
 {
     struct list *list = user;
     const uint32_t width = list->picture->frame->width, height = list->picture->frame->height;
-    const uint32_t x = (uint32_t)fmin(found->x, width - 1), y = (uint32_t)fmin(found->y, height - 1);
+    const double flux = kd_star_flux(kd_catalogue_star(list->names[found->star].place).magnitude), edge = 0.5;
+    if (!(found->x >= -edge && found->x < width - edge && found->y >= -edge && found->y < height - edge) || found->solid_angle > list->most[found->star] || is_there(list, found))
+        return KD_OK;
+    const uint32_t x = (uint32_t)(found->x + edge), y = (uint32_t)(found->y + edge);
     struct kd_camera_label label;
     if (list->n == list->room) {
         size_t room = list->room ? 2 * list->room : 256;
@@ -109,13 +130,13 @@ static enum kd_status add(void *user, const struct kd_star_image *found)
         list->images = images;
         list->room = room;
     }
-    kd_camera_label(&list->camera, x, y, &label);
+    kd_camera_label(&list->rays.camera, x, y, &label);
     struct image image = {
-        .at = *found, .magnification = pixel_angle(&list->camera, found->x - 0.5, found->y - 0.5) / found->solid_angle, .g = 1 / label.energy,
+        .at = *found, .magnification = pixel_angle(&list->rays.camera, found->x, found->y) / found->solid_angle, .g = 1 / label.energy,
         .through = through(list->picture, (size_t)y * width + x),
     };
     const double g2 = image.g * image.g;
-    image.light = kd_star_flux(kd_catalogue_star(list->names[found->star].place).magnitude) * g2 * g2 * image.through / found->solid_angle;
+    image.light = flux * g2 * g2 * image.through / found->solid_angle;
     list->images[list->n++] = image;
     return KD_OK;
 }
@@ -124,6 +145,57 @@ static int brighter(const void *a, const void *b)
 {
     double p = ((const struct image *)a)->light, q = ((const struct image *)b)->light;
     return (p < q) - (p > q);
+}
+
+/* The rays of the picture, one a pixel. */
+struct picture_map { const float *theta, *phi; double azimuth; uint32_t width; const struct kd_sky_rays *rays; const struct kd_rim *rim; };
+
+static bool is_rims(const struct picture_map *m, uint32_t x, uint32_t y)
+{
+    double look[3];
+    kd_camera_look(&m->rays->camera, x, y, look);
+    return m->rim->rows && kd_rim_off(m->rim, look, isinf(m->rays->at.r)) < INNER * m->rim->full;
+}
+
+static void row_of(const void *of, uint32_t y, struct kd_vec *out)
+{
+    const struct picture_map *m = of;
+    for (uint32_t x = 0; x < m->width; x++) {
+        const size_t o = (size_t)y * m->width + x;
+        const double theta = m->theta[o], phi = m->phi[o] - m->azimuth;
+        out[x] = (struct kd_vec) { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
+        if (is_rims(m, x, y))
+            out[x].x = out[x].y = out[x].z = NAN;
+    }
+}
+
+static bool exact(const void *of, double x, double y, struct kd_vec *out)
+{
+    const struct picture_map *m = of;
+    double look[3], n[3];
+    kd_camera_look(&m->rays->camera, x, y, look);
+    if (!kd_sky_ray(m->rays, look, n))
+        return false;
+    *out = (struct kd_vec) { n[0], n[1], n[2] };
+    return true;
+}
+
+static enum kd_status find(struct list *list, const struct kd_layer *theta, const struct kd_layer *phi, struct kd_error *error)
+{
+    const struct kd_scene *scene = list->picture->scene;
+    const struct kd_frame *frame = list->picture->frame;
+    struct kd_rim rim;
+    const struct picture_map rays = { theta->data, phi->data, scene->camera.azimuth_deg * (M_PI / 180), frame->width, &list->rays, &rim };
+    const struct kd_sky_map map = { .width = frame->width, .height = frame->height, .coarse = COARSE, .most = list->most, .of = &rays, .row = row_of, .exact = exact };
+    enum kd_status status;
+    kd_rim_of(scene, &rim);
+    KD_TRY(kd_rim_images(scene, &rim, list->places, list->most, list->n_stars, add, list, error));
+    list->n_rim = list->n;
+    KD_TRY(kd_star_images(&map, list->places, list->n_stars, add, list));
+    if (list->n)
+        qsort(list->images, list->n, sizeof *list->images, brighter);
+done:
+    return status;
 }
 
 /* To four digits. */
@@ -142,8 +214,10 @@ static void write_image(struct kd_json *json, const struct list *list, const str
     kd_json_string(json, "name", name->name);
     kd_json_string(json, "designation", name->designation);
     kd_json_number(json, "magnitude", magnitude);
-    kd_json_number(json, "x", round(100 * image->at.x) / 100);
-    kd_json_number(json, "y", round(100 * image->at.y) / 100);
+    kd_json_number(json, "x", round(100 * (image->at.x + 0.5)) / 100);
+    kd_json_number(json, "y", round(100 * (image->at.y + 0.5)) / 100);
+    write_number(json, "x_by_azimuth", image->at.x_by_azimuth * (M_PI / 180));
+    write_number(json, "y_by_azimuth", image->at.y_by_azimuth * (M_PI / 180));
     write_number(json, "magnification", image->magnification);
     write_number(json, "g", image->g);
     write_number(json, "through", image->through);
@@ -158,6 +232,7 @@ static enum kd_status write_list(const struct list *list, struct kd_buffer *out)
     kd_json_object(&json, NULL);
     kd_json_number(&json, "width", list->picture->frame->width);
     kd_json_number(&json, "height", list->picture->frame->height);
+    kd_json_number(&json, "azimuth_deg", list->picture->scene->camera.azimuth_deg);
     kd_json_number(&json, "found", (double)list->n);
     kd_json_array(&json, "images");
     for (size_t i = 0; i < list->n && i < MOST; i++)
@@ -179,12 +254,9 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
         KD_TRY(kd_error_set(error, KD_EINVAL, "the frame does not say where in the sky its rays end"));
     KD_TRY(status);
     list->picture = picture;
-    list->camera = kd_camera_exact(picture->scene);
+    list->rays = kd_sky_rays_of(picture->scene);
     name_stars(list);
-    const struct kd_sky_places map = { frame->width, frame->height, theta->data, phi->data, picture->scene->camera.azimuth_deg * (M_PI / 180) };
-    KD_TRY(kd_star_images(&map, list->places, list->n_stars, add, list));
-    if (list->n)
-        qsort(list->images, list->n, sizeof *list->images, brighter);
+    KD_TRY(find(list, theta, phi, error));
     KD_TRY(write_list(list, out));
 done:
     if (list)

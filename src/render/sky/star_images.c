@@ -1,15 +1,30 @@
 #include "render/sky/star_images.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
-struct ray { struct kd_vec n; bool there; };
+#define SAME 1e-3    /* in rays: two roots of one star nearer than this are one, unless only one is mirrored */
+#define NEAR 1.5     /* in rays: no further from where triangles have it is an image */
+#define FOLDED 0.2   /* rad: cells no larger than this are looked through for folds */
+#define REACH 0.5    /* of a cell's size: stars so near to a corner or the middle of one where the map folds are looked for */
+#define BESIDE 0.35  /* in rays: so far from where the map folds, on both sides, they are looked for */
+#define MARGIN 3.0   /* an image may be so much brighter than triangles tell, but for folds */
+#define NUDGE 1e-3   /* in rays: of differences for the derivative */
+#define EXACT 1e-7   /* in rays: the next step would be 1e-10 */
+
+/* The map about a place: n + dx * across + dy * down. */
+struct tangent { struct kd_vec n, across, down; double area; };
+
 struct listed { struct kd_vec n; size_t star; };
+struct told { double x, y; bool mirrored; size_t before; /* of this star, 1 more; 0: none */ };
 
 struct search {
-    const struct listed *stars; /* by z, upwards */
+    const struct kd_sky_map *map;
+    struct listed *stars; /* by z, upwards */
     size_t n;
+    size_t *last;      /* that was told of each star, 1 more */
+    struct told *told;
+    size_t n_told, room;
     enum kd_status (*found)(void *user, const struct kd_star_image *image);
     void *user;
 };
@@ -21,11 +36,13 @@ static int by_z(const void *a, const void *b)
 }
 
 static double dot(struct kd_vec a, struct kd_vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static struct kd_vec less(struct kd_vec a, struct kd_vec b) { return (struct kd_vec) { a.x - b.x, a.y - b.y, a.z - b.z }; }
+static struct kd_vec times(double by, struct kd_vec a) { return (struct kd_vec) { by * a.x, by * a.y, by * a.z }; }
 static double volume(struct kd_vec a, struct kd_vec b, struct kd_vec c)
 {
     return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
-static double apart(struct kd_vec a, struct kd_vec b) { return sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z)); }
+static double apart(struct kd_vec a, struct kd_vec b) { return sqrt(dot(less(a, b), less(a, b))); }
 
 /* The first star whose z is at least so much. */
 static size_t first_from(const struct search *s, double z)
@@ -41,77 +58,253 @@ static size_t first_from(const struct search *s, double z)
     return low;
 }
 
-static void row_of(const struct kd_sky_places *map, uint32_t y, struct ray *out)
+/* A direction v is n + dx across + dy down, times some number (Cramer's rule). */
+static void steps_to(const struct tangent *t, struct kd_vec v, double *dx, double *dy)
 {
-    for (uint32_t x = 0; x < map->width; x++) {
-        size_t o = (size_t)y * map->width + x;
-        double theta = map->theta[o], phi = map->phi[o] - map->azimuth;
-        out[x].there = isfinite(theta) && isfinite(phi);
-        out[x].n = (struct kd_vec) { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
+    *dx = volume(t->n, v, t->down) / t->area;
+    *dy = volume(t->n, t->across, v) / t->area;
+}
+
+/* As the ray at a place itself has it: by differences to one side, and to both where `both`. */
+static bool tangent_at(const struct kd_sky_map *map, double x, double y, bool both, struct tangent *out)
+{
+    struct kd_vec across, down, left, up;
+    if (!map->exact || !map->exact(map->of, x, y, &out->n) || !map->exact(map->of, x + NUDGE, y, &across) || !map->exact(map->of, x, y + NUDGE, &down))
+        return false;
+    left = up = out->n;
+    if (both && (!map->exact(map->of, x - NUDGE, y, &left) || !map->exact(map->of, x, y - NUDGE, &up)))
+        return false;
+    out->across = times((both ? 0.5 : 1) / NUDGE, less(across, left));
+    out->down = times((both ? 0.5 : 1) / NUDGE, less(down, up));
+    out->area = volume(out->n, out->across, out->down);
+    return true;
+}
+
+enum root { NONE, FOUND, UNKNOWN };
+
+/* Newton's method, by steps of half a ray at most, and no further than NEAR. UNKNOWN: the first ray cannot be followed. */
+static enum root root_from(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y, struct tangent *at)
+{
+    const double x0 = *x, y0 = *y;
+    for (int k = 0; k < 30 && hypot(*x - x0, *y - y0) < NEAR; k++) {
+        double dx, dy;
+        if (!tangent_at(map, *x, *y, false, at))
+            return k ? NONE : UNKNOWN;
+        steps_to(at, star, &dx, &dy);
+        const double far = hypot(dx, dy), by = far > 0.5 ? 0.5 / far : 1;
+        if (!isfinite(far))
+            return NONE;
+        *x += by * dx, *y += by * dy;
+        if (far < EXACT)
+            return dot(star, at->n) > 0 && tangent_at(map, *x, *y, true, at) ? FOUND : NONE;
     }
+    return NONE;
+}
+
+/* Tells an image, but for one that was told before. */
+static enum kd_status tell(struct search *s, const struct listed *star, double x, double y, const struct tangent *t)
+{
+    const double width = s->map->width;
+    struct kd_star_image image = { .star = star->star, .x = s->map->round ? x - width * floor(x / width) : x, .y = y, .solid_angle = fabs(t->area), .mirrored = t->area < 0 };
+    for (size_t i = s->last[image.star]; i; i = s->told[i - 1].before) {
+        const struct told *o = &s->told[i - 1];
+        const double off = fabs(o->x - image.x), across = s->map->round ? fmin(off, width - off) : off;
+        if (o->mirrored == image.mirrored && across < SAME && fabs(o->y - y) < SAME)
+            return KD_OK;
+    }
+    if (s->n_told == s->room) {
+        const size_t room = s->room ? 2 * s->room : 256;
+        struct told *more = realloc(s->told, room * sizeof *more);
+        if (!more)
+            return KD_ENOMEM;
+        s->told = more;
+        s->room = room;
+    }
+    s->told[s->n_told++] = (struct told) { image.x, y, image.mirrored, s->last[image.star] };
+    s->last[image.star] = s->n_told;
+    steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth, &image.y_by_azimuth); /* the sky goes the other way */
+    return s->found(s->user, &image);
 }
 
 /* Corners of a triangle in turn clockwise, as the picture is seen; the first has the right angle, the second lies along `across`, the third
  * along `down`, +1 or -1. A star s is w0 a + w1 b + w2 c with all w above 0 (Cramer's rule), and two triangles of a pixel's area have twice
  * the solid angle of one: the volume of a, b, c. */
-struct corner { double x, y; struct ray ray; };
+struct corner { double x, y; struct kd_vec n; };
 
-static enum kd_status triangle(const struct search *s, const struct corner *a, const struct corner *b, const struct corner *c)
+static struct tangent tangent_of(const struct corner *a, const struct corner *b, const struct corner *c)
 {
-    if (!a->ray.there || !b->ray.there || !c->ray.there)
+    struct tangent t = { a->n, times(b->x - a->x, less(b->n, a->n)), times(c->y - a->y, less(c->n, a->n)), 0 };
+    t.area = volume(t.n, t.across, t.down);
+    return t;
+}
+
+/* Four rays, in turn clockwise; the stars that may be in it; whether the map folds there. */
+struct cell { struct corner c[4]; double side[4], across, size, pixels; size_t first, end; bool folds; double area, beside[2][2]; /* if it does: how large it is where it is largest, and places on both sides */ };
+
+/* Whether a star may be bright enough where the map takes a cell to so much of the sky. */
+static bool is_seen(const struct search *s, const struct cell *cell, const struct listed *star, double area)
+{
+    return !s->map->most || fabs(area) < MARGIN * cell->pixels * s->map->most[star->star];
+}
+
+static enum kd_status triangle(struct search *s, const struct cell *cell, int first, int second, int third)
+{
+    const struct corner *a = &cell->c[first], *b = &cell->c[second], *c = &cell->c[third];
+    const struct kd_vec p = a->n, q = b->n, r = c->n;
+    const double all = volume(p, q, r), size = cell->side[first] + cell->side[third] + cell->across; /* a NAN: a ray does not escape */
+    enum kd_status status = KD_OK;
+    if (!isfinite(size) || fmax(cell->across, fmax(cell->side[first], cell->side[third])) > s->map->coarse || all == 0)
         return KD_OK;
-    const struct kd_vec p = a->ray.n, q = b->ray.n, r = c->ray.n;
-    const double size = fmax(apart(p, q), fmax(apart(q, r), apart(r, p))), all = volume(p, q, r);
-    if (size > KD_IMAGES_COARSE || all == 0)
-        return KD_OK;
-    for (size_t i = first_from(s, p.z - size); i < s->n && s->stars[i].n.z <= p.z + size; i++) {
+    for (size_t i = cell->first; i < cell->end; i++) {
         const struct kd_vec n = s->stars[i].n;
         const double w0 = volume(n, q, r) / all, w1 = volume(p, n, r) / all, w2 = volume(p, q, n) / all, sum = w0 + w1 + w2;
         if (w0 < 0 || w1 < 0 || w2 < 0 || dot(n, p) <= 0)
             continue;
-        const struct kd_star_image image = {
-            .star = s->stars[i].star, .x = (w0 * a->x + w1 * b->x + w2 * c->x) / sum, .y = (w0 * a->y + w1 * b->y + w2 * c->y) / sum,
-            .solid_angle = fabs(all), .mirrored = all < 0,
-        };
-        enum kd_status status = s->found(s->user, &image);
-        if (status)
-            return status;
-    }
-    return KD_OK;
-}
-
-static enum kd_status between(const struct search *s, uint32_t y, const struct ray *upper, const struct ray *lower, uint32_t width)
-{
-    enum kd_status status = KD_OK;
-    for (uint32_t x = 0; x + 1 < width && !status; x++) {
-        const double left = x + 0.5, top = y + 0.5;
-        const struct corner c[4] = { { left, top, upper[x] }, { left + 1, top, upper[x + 1] }, { left + 1, top + 1, lower[x + 1] }, { left, top + 1, lower[x] } };
-        KD_TRY(triangle(s, &c[0], &c[1], &c[3]));
-        KD_TRY(triangle(s, &c[2], &c[3], &c[1]));
+        if (!is_seen(s, cell, &s->stars[i], all))
+            continue;
+        const double fx = (w0 * a->x + w1 * b->x + w2 * c->x) / sum, fy = (w0 * a->y + w1 * b->y + w2 * c->y) / sum;
+        double x = fx, y = fy;
+        struct tangent t = { 0 };
+        const enum root root = root_from(s->map, n, &x, &y, &t);
+        if (root == FOUND) {
+            KD_TRY(tell(s, &s->stars[i], x, y, &t));
+        } else if (root == UNKNOWN || !cell->folds) {
+            t = tangent_of(a, b, c);
+            KD_TRY(tell(s, &s->stars[i], fx, fy, &t));
+        }
     }
 done:
     return status;
 }
 
-enum kd_status kd_star_images(const struct kd_sky_places *map, const struct kd_vec *stars, size_t n,
+static bool is_near(const struct cell *cell, struct kd_vec star)
+{
+    const struct kd_vec a = cell->c[0].n, b = cell->c[2].n;
+    double nearest = apart(star, (struct kd_vec) { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z) });
+    for (int i = 0; i < 4; i++)
+        nearest = fmin(nearest, apart(star, cell->c[i].n));
+    return nearest < REACH * cell->size;
+}
+
+/* Stars near to where the map folds, from both sides of that. */
+static enum kd_status fold(struct search *s, const struct cell *cell)
+{
+    enum kd_status status = KD_OK;
+    for (size_t i = cell->first; i < cell->end; i++)
+        for (int k = 0; k < 2 && is_near(cell, s->stars[i].n) && is_seen(s, cell, &s->stars[i], cell->area); k++) {
+            double x = cell->beside[k][0], y = cell->beside[k][1];
+            struct tangent t;
+            if (root_from(s->map, s->stars[i].n, &x, &y, &t) == FOUND)
+                KD_TRY(tell(s, &s->stars[i], x, y, &t));
+        }
+done:
+    return status;
+}
+
+/* Rays of four rows, of which the cells are between the middle two; NULL: there is none. */
+struct rows { const struct kd_vec *of[4]; };
+
+/* The difference of the rays on both sides of one, over two steps; where one of them is none, twice that to the other. */
+static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
+{
+    const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
+    const struct kd_vec d = less(has_after ? *after : middle, has_before ? *before : middle);
+    return has_before && has_after ? d : times(2, d);
+}
+
+/* Of the sky about a ray, times four; below 0 where it is mirrored. */
+static double area_at(const struct kd_sky_map *map, const struct rows *rows, int row, uint32_t x)
+{
+    const uint32_t width = map->width;
+    const struct kd_vec *line = rows->of[row], *above = rows->of[row - 1], *below = rows->of[row + 1];
+    const struct kd_vec *before = x || map->round ? &line[(x + width - 1) % width] : NULL, *after = x + 1 < width || map->round ? &line[(x + 1) % width] : NULL;
+    return volume(line[x], difference(line[x], before, after), difference(line[x], above ? above + x : NULL, below ? below + x : NULL));
+}
+
+/* Where the map folds, the area goes through 0: by the areas about the corners, as a plane through them has it, within a cell or next to it. */
+static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uint32_t x, struct cell *cell)
+{
+    const uint32_t next = (x + 1) % map->width;
+    const double a = area_at(map, rows, 1, x), b = area_at(map, rows, 1, next), c = area_at(map, rows, 2, x), d = area_at(map, rows, 2, next);
+    const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b), slope = hypot(gx, gy), off = -mean / slope;
+    cell->folds = fabs(off) < NEAR; /* not if any of it is a NAN */
+    cell->area = 0.25 * fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d)));
+    for (int k = 0; k < 2; k++) {
+        const double by = (off + (k ? BESIDE : -BESIDE)) / slope;
+        cell->beside[k][0] = cell->c[0].x + 0.5 + by * gx;
+        cell->beside[k][1] = cell->c[0].y + 0.5 + by * gy;
+    }
+}
+
+/* Sets what a cell is, but for its corners. False: no star is near. */
+static bool measure(const struct search *s, const struct rows *rows, uint32_t x, struct cell *cell)
+{
+    double low = INFINITY, high = -INFINITY;
+    cell->size = 0;
+    for (int i = 0; i < 4; i++) {
+        const struct kd_vec n = cell->c[i].n;
+        cell->side[i] = apart(n, cell->c[(i + 1) % 4].n);
+        cell->size = fmax(cell->size, cell->side[i]);
+        low = fmin(low, n.z), high = fmax(high, n.z);
+    }
+    cell->across = apart(cell->c[1].n, cell->c[3].n);
+    cell->size = fmax(cell->size, cell->across);
+    const double size = REACH * fmin(cell->size, s->map->coarse);
+    cell->first = cell->end = first_from(s, low - size);
+    while (cell->end < s->n && s->stars[cell->end].n.z <= high + size)
+        cell->end++;
+    if (cell->end == cell->first)
+        return false;
+    cell->pixels = s->map->pixels ? s->map->pixels(s->map->of, cell->c[0].x + 0.5, cell->c[0].y + 0.5) : 1;
+    find_fold(s->map, rows, x, cell);
+    return true;
+}
+
+static enum kd_status between(struct search *s, uint32_t y, const struct rows *rows)
+{
+    const struct kd_vec *upper = rows->of[1], *lower = rows->of[2];
+    const uint32_t width = s->map->width, cells = s->map->round ? width : width - 1;
+    enum kd_status status = KD_OK;
+    for (uint32_t x = 0; x < cells; x++) {
+        const uint32_t next = (x + 1) % width;
+        struct cell cell = { .c = { { x, y, upper[x] }, { x + 1.0, y, upper[next] }, { x + 1.0, y + 1.0, lower[next] }, { x, y + 1.0, lower[x] } } };
+        if (!measure(s, rows, x, &cell))
+            continue;
+        KD_TRY(triangle(s, &cell, 0, 1, 3));
+        KD_TRY(triangle(s, &cell, 2, 3, 1));
+        if (cell.folds && cell.size <= fmin(FOLDED, s->map->coarse) && s->map->exact)
+            KD_TRY(fold(s, &cell));
+    }
+done:
+    return status;
+}
+
+enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec *stars, size_t n,
                               enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user)
 {
-    struct listed *sorted = malloc((n + 1) * sizeof *sorted);
-    struct ray *rows = malloc(2 * (map->width + 1) * sizeof *rows);
-    const struct search search = { sorted, n, found, user };
-    enum kd_status status = sorted && rows ? KD_OK : KD_ENOMEM;
+    enum { ROWS = 4 };
+    const size_t width = map->width;
+    struct kd_vec *rays = malloc(ROWS * (width + 1) * sizeof *rays);
+    struct search s = { .map = map, .stars = malloc((n + 1) * sizeof *s.stars), .n = n, .last = calloc(n + 1, sizeof *s.last), .found = found, .user = user };
+    enum kd_status status = s.stars && s.last && rays ? KD_OK : KD_ENOMEM;
     if (!status) {
         for (size_t i = 0; i < n; i++)
-            sorted[i] = (struct listed) { stars[i], i };
-        qsort(sorted, n, sizeof *sorted, by_z);
-        row_of(map, 0, rows);
+            s.stars[i] = (struct listed) { stars[i], i };
+        qsort(s.stars, n, sizeof *s.stars, by_z);
+        for (uint32_t y = 0; y < 2 && y < map->height; y++)
+            map->row(map->of, y, rays + y * width);
     }
     for (uint32_t y = 0; y + 1 < map->height && !status; y++) {
-        struct ray *upper = rows + (y & 1) * map->width, *lower = rows + (~y & 1) * map->width;
-        row_of(map, y + 1, lower);
-        status = between(&search, y, upper, lower, map->width);
+        struct rows rows = { { NULL } };
+        if (y + 2 < map->height)
+            map->row(map->of, y + 2, rays + (y + 2) % ROWS * width);
+        for (uint32_t i = 0; i < ROWS; i++)
+            rows.of[i] = y + i >= 1 && y + i <= map->height ? rays + (y + i - 1) % ROWS * width : NULL;
+        status = between(&s, y, &rows);
     }
-    free(sorted);
-    free(rows);
+    free(s.told);
+    free(s.last);
+    free(s.stars);
+    free(rays);
     return status;
 }

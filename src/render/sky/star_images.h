@@ -1,8 +1,9 @@
-/* Where a lens map puts stars: for each star the places in a picture whose rays end at it. Pure; any thread.
+/* Where a map of rays puts stars: for each star the places among rays that end at it. Pure; any thread.
  *
  * Neighbouring rays make triangles, of which the map takes each to one of the sky; a star within that has an image within this, at the same
- * barycentric coordinates. A triangle with a side of more than KD_IMAGES_COARSE of sky, next to the critical curve, has no images: there, as
- * in pictures (comp/star_search.comp), pixels are too coarse to tell. */
+ * barycentric coordinates. From there Newton's method goes to where the ray itself, if the map can follow one, ends at the star. Where the map folds between four
+ * rays, two images of a star meet, and triangles lose both or tell one that is none: there each star that is near is looked for from both sides. A triangle with a side of
+ * more than `coarse` has no images. */
 #ifndef KD_RENDER_SKY_STAR_IMAGES_H
 #define KD_RENDER_SKY_STAR_IMAGES_H
 
@@ -13,24 +14,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_IMAGES_COARSE 0.15 /* rad */
-
-/* Where the rays of a picture end, one a pixel, rows from the top, radians; a NaN is a ray that does not escape. */
-struct kd_sky_places {
+/* Rays on a grid, and the places between them: ray 0, 0 is at 0, 0. */
+struct kd_sky_map {
     uint32_t width, height;
-    const float *theta, *phi;
-    double azimuth; /* is taken from phi */
+    bool round;    /* the first column follows the last one */
+    double coarse; /* rad */
+    const double *most; /* of each star: an image where a pixel is more of the sky, sr, need not be told; NULL: all are */
+    double (*pixels)(const void *of, double x, double y); /* the pixels that the square of four rays is in; NULL: 1 */
+    const void *of;
+    void (*row)(const void *of, uint32_t y, struct kd_vec *out);                 /* where rays come from, unit vectors; NAN: one that does not escape */
+    bool (*exact)(const void *of, double x, double y, struct kd_vec *out);       /* the same of any ray; false: it is not known. NULL: of none */
 };
 
 struct kd_star_image {
-    size_t star;        /* of the list, */
-    double x, y;        /* and its place in pixels: 0, 0 is the upper left corner of the picture, 0.5, 0.5 the middle of its first pixel */
-    double solid_angle; /* of the sky that the map takes one pixel to there, sr */
-    bool mirrored;      /* left and right are exchanged */
+    size_t star; /* of the list, */
+    double x, y; /* and its place among the rays, */
+    double solid_angle; /* the solid angle of the sky, sr, that the map takes the square of four rays to there, */
+    double x_by_azimuth, y_by_azimuth; /* and how the place goes by while the observer goes round the hole, per radian */
+    bool mirrored; /* left and right are exchanged */
 };
 
-/* Tells each image of so many stars, unit vectors in the frame of the places; row by row. KD_ENOMEM; a status of `found` ends it. */
-enum kd_status kd_star_images(const struct kd_sky_places *map, const struct kd_vec *stars, size_t n,
+/* Tells each image of so many stars, unit vectors in the frame of the map, once; row by row. KD_ENOMEM; a status of `found` ends it. */
+enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec *stars, size_t n,
                               enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user);
 
 #endif

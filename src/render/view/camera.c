@@ -147,11 +147,48 @@ static struct vec direction(const struct kd_camera_exact *c, double px, double p
     return (struct vec) { ahead * c->c0x + x * c->cxx + y * c->cyx, ahead * c->c0y + x * c->cxy + y * c->cyy, ahead * c->c0z + x * c->cxz + y * c->cyz };
 }
 
+void kd_camera_look(const struct kd_camera_exact *c, double x, double y, double out[3])
+{
+    const struct vec k = direction(c, x, y);
+    out[0] = k.x, out[1] = k.y, out[2] = k.z;
+}
+
 void kd_camera_direction(const struct kd_camera_exact *c, double x, double y, double out[3])
 {
     const struct vec k = direction(c, x, y);
     double n = 1 / sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
     out[0] = n * k.x, out[1] = n * k.y, out[2] = n * k.z;
+}
+
+static double along(const struct vec *k, double x, double y, double z) { return k->x * x + k->y * y + k->z * z; }
+
+bool kd_camera_seen(const struct kd_camera_exact *c, const double d[3], double *x, double *y)
+{
+    const bool flat = c->sight == KD_SIGHT_PLANE;
+    const struct vec k = { d[0] - (flat ? c->c0x : 0), d[1] - (flat ? c->c0y : 0), flat ? 0 : d[2] };
+    const double depth = along(&k, c->c0x, c->c0y, c->c0z), size = c->cxx * c->cxx + c->cxy * c->cxy + c->cxz * c->cxz;
+    double right = along(&k, c->cxx, c->cxy, c->cxz) / size, up = along(&k, c->cyx, c->cyy, c->cyz) / size, off, aside;
+    switch (c->sight) {
+    case KD_SIGHT_SPHERE:
+        off = hypot(right, depth);
+        right = atan2(right, depth) / (0.5 * M_PI * c->turn_x);
+        up = atan2(up, off) / (0.5 * M_PI * c->turn_y);
+        break;
+    case KD_SIGHT_DOME:
+        aside = hypot(right, up);
+        off = aside > 0 ? atan2(aside, depth) / (0.5 * M_PI * c->turn_x * aside) : 0;
+        right *= off, up *= off;
+        break;
+    case KD_SIGHT_PINHOLE:
+        if (!(depth > 0))
+            return false;
+        right /= depth, up /= depth;
+        break;
+    default: break;
+    }
+    *x = c->middle_x + right;
+    *y = c->middle_y - up;
+    return true;
 }
 
 void kd_camera_label(const struct kd_camera_exact *c, uint32_t px, uint32_t py, struct kd_camera_label *out)

@@ -40,6 +40,12 @@ struct kd_camera_label {
  * at a finite radius. */
 void kd_camera_direction(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
+/* The same of any length, and of a camera at infinity alpha and beta. */
+void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
+
+/* The place at which it sees a direction of any length, in rays as above; at infinity that of alpha and beta. False: none, behind a pinhole. */
+bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
+
 /* From E, L/sin(theta), and what beta is times |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
 void kd_camera_label_towards(const struct kd_camera_exact *camera, const double direction[3], struct kd_camera_label *out); /* of any length; at a finite radius */

@@ -174,3 +174,40 @@ bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out)
     *out = rim;
     return true;
 }
+
+void kd_rim_look(const struct kd_rim *rim, double x, double y, double look[3])
+{
+    for (int i = 0; i < 3; i++)
+        look[i] = rim->ahead[i] + x * rim->right[i] + y * rim->up[i];
+}
+
+double kd_rim_off(const struct kd_rim *rim, const double look[3], bool flat)
+{
+    const double from[] = { look[0] - rim->ahead[0], look[1] - rim->ahead[1], 0 }, depth = flat ? 1 : dot(look, rim->ahead);
+    const double x = dot(flat ? from : look, rim->right), y = dot(flat ? from : look, rim->up), angle = atan2(y, x) * (KD_RIM_EDGES / (2 * M_PI));
+    const int i = (int)floor(angle) + KD_RIM_EDGES;
+    const double part = angle - floor(angle), edge = (1 - part) * rim->edge[i % KD_RIM_EDGES] + part * rim->edge[(i + 1) % KD_RIM_EDGES];
+    return depth > 0 ? hypot(x, y) / (depth * edge) - 1 : INFINITY;
+}
+
+/* By Lagrange's form, from places -2 ... 2. */
+static double quartic(const double *values, int middle, double x)
+{
+    static const double over[] = { 24, -6, 4, -6, 24 };
+    double sum = 0;
+    for (int i = -2; i <= 2; i++) {
+        double w = values[(middle + i + KD_RIM_ANGLES) % KD_RIM_ANGLES] / over[i + 2];
+        for (int j = -2; j <= 2; j++)
+            w *= j == i ? 1 : x - j;
+        sum += w;
+    }
+    return sum;
+}
+
+void kd_rim_between(const struct kd_rim *rim, double column, double row, double place[2])
+{
+    const double nearest = nearbyint(column), out = 1 + rim->far * exp(-row * rim->fall);
+    const int middle = (int)(nearest - KD_RIM_ANGLES * floor(nearest / KD_RIM_ANGLES));
+    place[0] = out * quartic(rim->x, middle, column - nearest);
+    place[1] = out * quartic(rim->y, middle, column - nearest);
+}

@@ -40,6 +40,13 @@ bool kd_rim_may_be(const struct kd_scene *scene);
 /* There is one where the observer is beyond the orbits of light, and sees all of the curve less than 80 degrees from its middle. Some 0.3 ms. */
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 
+/* Which way an observer looks at a place of its plane: along e_r, e_theta, e_phi, of any length; at infinity alpha and beta. */
+void kd_rim_look(const struct kd_rim *rim, double x, double y, double look[3]);
+/* How far from the curve an observer looks, over its distance from the middle there; far off where the plane is not. */
+double kd_rim_off(const struct kd_rim *rim, const double look[3], bool flat);
+/* The place of its plane, between columns and rows as on them; by the quartic through five points of the curve. */
+void kd_rim_between(const struct kd_rim *rim, double column, double row, double place[2]);
+
 /* Its buffer holds where its rays come from (rim_sky.h), three planes of numbers, and the tables that say where it is: x and y of the curve's points, and `edge`. */
 static inline uint32_t kd_rim_rays(const struct kd_rim *rim) { return rim->rows * KD_RIM_ANGLES; }
 static inline uint64_t kd_rim_tables(uint32_t rays) { return 3ull * rays; } /* the number that they begin at */

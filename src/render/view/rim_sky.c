@@ -1,7 +1,6 @@
 #include "render/view/rim_sky.h"
 
-#include "physics/null_bend.h"
-#include "render/view/camera.h"
+#include "render/view/sky_ray.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,38 +17,23 @@ struct angles { double of[ANGLES]; };
 
 struct follower {
     const struct kd_rim *rim;
-    struct kd_camera_exact camera;
-    struct kd_vantage at;
+    struct kd_sky_rays rays;
     double first, last; /* logarithms of distances */
 };
 
 static struct follower follower_of(const struct kd_scene *scene, const struct kd_rim *rim)
 {
     const double first = log(rim->far);
-    return (struct follower) { rim, kd_camera_exact(scene), kd_scene_vantage(scene), first, first - (rim->rows - 1) * rim->fall };
-}
-
-static struct kd_null_ray ray_of(const struct follower *f, uint32_t k, double off)
-{
-    const struct kd_rim *r = f->rim;
-    const double x = (1 + off) * r->x[k], y = (1 + off) * r->y[k];
-    struct kd_null_ray ray = { .spin = f->at.spin, .radius = f->at.r, .cos_theta = f->at.u, .sin_theta = f->at.s };
-    struct kd_camera_label label = { .alpha = r->ahead[0] + x, .beta = r->ahead[1] + y };
-    double d[3];
-    for (int i = 0; i < 3; i++)
-        d[i] = r->ahead[i] + x * r->right[i] + y * r->up[i];
-    if (isfinite(f->at.r))
-        kd_camera_label_towards(&f->camera, d, &label);
-    ray.alpha = label.alpha, ray.beta = label.beta, ray.outward = label.outward;
-    return ray;
+    return (struct follower) { rim, kd_sky_rays_of(scene), first, first - (rim->rows - 1) * rim->fall };
 }
 
 static bool follow(const struct follower *f, uint32_t k, double off, struct angles *out)
 {
-    const struct kd_null_ray ray = ray_of(f, k, off);
     struct kd_null_bend bend;
-    const bool escapes = kd_null_bend_of(&ray, &bend);
-    *out = (struct angles) { { bend.turn, bend.drag + f->camera.twist, bend.t_theta, bend.t_phi } };
+    double look[3];
+    kd_rim_look(f->rim, (1 + off) * f->rim->x[k], (1 + off) * f->rim->y[k], look);
+    const bool escapes = kd_sky_ray_bend(&f->rays, look, &bend);
+    *out = (struct angles) { { bend.turn, bend.drag, bend.t_theta, bend.t_phi } };
     return escapes;
 }
 
@@ -57,7 +41,7 @@ static void direction(const struct follower *f, const struct angles *a, double o
 {
     const double length = sqrt(a->of[2] * a->of[2] + a->of[3] * a->of[3]);
     const struct kd_null_bend bend = { a->of[0], a->of[1], a->of[2] / length, a->of[3] / length };
-    kd_null_bend_sky(&bend, f->at.u, f->at.s, out);
+    kd_null_bend_sky(&bend, f->rays.at.u, f->rays.at.s, out);
 }
 
 static double apart(const struct angles *a, const struct angles *b)

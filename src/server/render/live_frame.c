@@ -166,6 +166,7 @@ struct kd_live_frame *kd_live_frame_make(struct kd_render_job *job, const struct
     frame->number = note->number;
     frame->revision = note->revision;
     frame->time = job->scene.top.time;
+    frame->azimuth_deg = job->scene.camera.azimuth_deg;
     frame->format = job->format;
     frame->file = job->file;
     job->file = (struct kd_buffer) { 0 };

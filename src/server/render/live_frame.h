@@ -14,6 +14,7 @@ struct kd_live_frame {
     uint64_t number;   /* of the session's frames, growing, not without gaps */
     unsigned revision; /* of the scene that it shows */
     double time;       /* of the scene as it shows it, M */
+    double azimuth_deg; /* likewise of its camera */
     const struct kd_format *format;
     struct kd_buffer file;           /* of it */
     struct kd_buffer approximations; /* as the header has them */

@@ -31,6 +31,8 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
     MHD_add_response_header(response, "Kerrd-Revision", number);
     snprintf(number, sizeof number, "%.15g", frame->time);
     MHD_add_response_header(response, "Kerrd-Time", number);
+    snprintf(number, sizeof number, "%.15g", frame->azimuth_deg);
+    MHD_add_response_header(response, "Kerrd-Azimuth", number);
     MHD_add_response_header(response, "Kerrd-Quality", frame->quality);
     MHD_add_response_header(response, "Kerrd-Accuracy", frame->accuracy);
     if (*frame->clock)

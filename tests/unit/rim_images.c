@@ -1,0 +1,197 @@
+/* Images of stars in the rim of the shadow: against the lens equation of Schwarzschild, and against rays of the Kerr-Schild oracle. */
+#include "kerr_schild.h"
+#include "render/sky/rim_images.h"
+#include "render/view/camera.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define RADIUS 30.0
+enum { WIDTH = 640, HEIGHT = 360, MOST = 4000 };
+
+static struct kd_scene scene;
+static struct kd_rim rim;
+static struct kd_error error;
+static struct kd_star_image seen[MOST];
+static size_t n_seen;
+
+static enum kd_status keep(void *user, const struct kd_star_image *image)
+{
+    (void)user;
+    assert_true(n_seen < MOST);
+    seen[n_seen++] = *image;
+    return KD_OK;
+}
+
+static void look(double spin, double inclination)
+{
+    kd_scene_smooth(&scene);
+    scene.spacetime.spin = spin;
+    scene.camera.r = RADIUS;
+    scene.camera.inclination_deg = inclination;
+    scene.camera.fov_deg = 40;
+    scene.image.width = WIDTH;
+    scene.image.height = HEIGHT;
+    assert_true(kd_rim_of(&scene, &rim));
+    n_seen = 0;
+}
+
+static const double step = 2 * 0.36397023426620236135 / WIDTH; /* tan(20 degrees) */
+
+/* The azimuth that a ray sweeps from RADIUS to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3), in to the turning point w_t and out; w = w_t sin^2
+ * takes the root's zero out. Midpoints. */
+static double swept(double b)
+{
+    double low = 0, high = 1.0 / 3, sum = 0;
+    for (int i = 0; i < 100; i++) {
+        const double w = 0.5 * (low + high);
+        *(1 / (b * b) - w * w * (1 - 2 * w) > 0 ? &low : &high) = w;
+    }
+    const double turn = 0.5 * (low + high), start = asin(sqrt(1 / RADIUS / turn));
+    const int n = 8000;
+    for (int part = 0; part < 2; part++) {
+        const double begin = part ? start : 0, length = M_PI / 2 - begin;
+        for (int i = 0; i < n; i++) {
+            const double s = sin(begin + (i + 0.5) * length / n), w = turn * s * s;
+            sum += length / n * 2 * sqrt(turn) * s / sqrt(turn + w - 2 * (turn * turn + turn * w + w * w));
+        }
+    }
+    return sum;
+}
+
+static const double closest = 5.19615242270663188; /* b of the critical curve */
+
+/* The tangent of the angle from the hole, of a ray whose b is so much above the critical one. */
+static double tangent(double above)
+{
+    const double s = closest * (1 + above) * sqrt(1 - 2 / RADIUS) / RADIUS;
+    return s / sqrt(1 - s * s);
+}
+
+/* Which ray sweeps so much: log of how far it is above the critical one. */
+static double above_of(double azimuth)
+{
+    double low = log(1e-6), high = log(1.0);
+    for (int i = 0; i < 45; i++) {
+        const double middle = 0.5 * (low + high);
+        *(swept(closest * (1 + exp(middle))) > azimuth ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* Of a star, cos(psi) along the way to the observer and sin(psi) to its side at `angle` from the picture's right, all images within the rim, by how much their rays sweep. */
+static size_t judge(double psi, double angle, double *place, double *area)
+{
+    size_t images = 0;
+    for (int k = 0; k < 6; k++) {
+        const double azimuth = k & 1 ? 2 * M_PI * (k / 2 + 1) - psi : 2 * M_PI * (k / 2) + psi, side = k & 1 ? -1 : 1, h = 1e-4;
+        if (azimuth < 2)
+            continue;
+        const double above = above_of(azimuth), t = tangent(exp(above)), off = t / tangent(0) - 1;
+        if (off > 0.98 * rim.far || off < 1.02 * rim.far * exp(-(rim.rows - 1.0) * rim.fall))
+            continue;
+        const double x = 0.5 * (WIDTH - 1) + side * t / step * cos(angle), y = 0.5 * (HEIGHT - 1) - side * t / step * sin(angle);
+        const double slope = (swept(closest * (1 + exp(above + h))) - swept(closest * (1 + exp(above - h)))) / (atan(tangent(exp(above + h))) - atan(tangent(exp(above - h))));
+        const double want = step * step * pow(1 + t * t, -1.5) * sin(psi) * fabs(slope) / sin(atan(t));
+        const struct kd_star_image *best = NULL;
+        for (size_t i = 0; i < n_seen; i++)
+            if (!best || hypot(seen[i].x - x, seen[i].y - y) < hypot(best->x - x, best->y - y))
+                best = &seen[i];
+        if (!best || hypot(best->x - x, best->y - y) > 0.01)
+            fail_msg("psi %g: no image at %.4f, %.4f, %g from the curve, but %.4f, %.4f", psi, x, y, off, best ? best->x : NAN, best ? best->y : NAN);
+        *place = fmax(*place, hypot(best->x - x, best->y - y));
+        *area = fmax(*area, fabs(best->solid_angle / want - 1));
+        if (best->mirrored != (k & 1))
+            fail_msg("psi %g: the image at %.4f, %.4f that sweeps %g is%s mirrored", psi, x, y, azimuth, best->mirrored ? "" : " not");
+        images++;
+    }
+    return images;
+}
+
+static void by_the_lens_equation(void **state)
+{
+    (void)state;
+    double place = 0, area = 0;
+    size_t all = 0;
+    for (int i = 0; i < 12; i++) {
+        const double psi = i < 3 ? M_PI - pow(0.1, i + 1) : 0.2 + 0.25 * i, angle = 2.39996 * i;
+        const struct kd_vec star = { cos(psi), sin(psi) * cos(angle), sin(psi) * sin(angle) };
+        look(0, 90);
+        assert_int_equal(kd_rim_images(&scene, &rim, &star, NULL, 1, keep, NULL, &error), KD_OK);
+        const size_t images = judge(psi, angle, &place, &area);
+        if (n_seen < images || n_seen > images + 2) /* one at each edge may be there, and is not judged */
+            fail_msg("psi %g: %zu images instead of %zu", psi, n_seen, images);
+        all += images;
+    }
+    printf("%zu images, places within %.1e pixels, solid angles within %.1e\n", all, place, area);
+    assert_true(all > 30 && place < 1e-4 && area < 1e-3);
+}
+
+/* A star where the oracle's ray from a place next to the curve ends has an image at that place. */
+static void by_the_oracle(void **state)
+{
+    (void)state;
+    static const struct { double spin, inclination; } cases[] = { { 0.5, 35 }, { 0.9, 85 }, { -0.9, 120 }, { 0.97, 60 } };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        double worst = 0;
+        look(cases[c].spin, cases[c].inclination);
+        const struct kd_camera_exact camera = kd_camera_exact(&scene);
+        for (int i = 0; i < 40; i++) {
+            const double column = fmod(53.37 * i, KD_RIM_ANGLES), row = 1 + fmod(0.618034 * i, 1) * (rim.rows - 3.0);
+            double at[2], d[3], x, y, nearest = INFINITY;
+            kd_rim_between(&rim, column, row, at);
+            kd_rim_look(&rim, at[0], at[1], d);
+            assert_true(kd_camera_seen(&camera, d, &x, &y));
+            const double n = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), to[] = { d[0] / n, d[1] / n, d[2] / n };
+            const struct ks_path path = ks_trace(ks_from_camera(cases[c].spin, RADIUS, cases[c].inclination * (M_PI / 180), false, to), 8);
+            const double s = sqrt(1 - path.u * path.u);
+            const struct kd_vec star = { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
+            assert_int_equal(path.fate, KS_ESCAPED);
+            n_seen = 0;
+            assert_int_equal(kd_rim_images(&scene, &rim, &star, NULL, 1, keep, NULL, &error), KD_OK);
+            for (size_t k = 0; k < n_seen; k++)
+                nearest = fmin(nearest, hypot(seen[k].x - x, seen[k].y - y));
+            if (!(nearest < 1e-3))
+                fail_msg("spin %g: no image at %.4f, %.4f, column %g, row %g of %u, of %zu; the nearest is %g off", cases[c].spin, x, y, column, row, rim.rows, n_seen, nearest);
+            worst = fmax(worst, nearest);
+        }
+        printf("spin %g, inclination %g: places within %.1e pixels of the oracle's\n", cases[c].spin, cases[c].inclination, worst);
+    }
+}
+
+/* A place that is seen is looked at, by every projection and from infinity. */
+static void seeing_is_looking(void **state)
+{
+    (void)state;
+    static const struct { enum kd_projection projection; double r; } cases[] = {
+        { KD_PROJECTION_PINHOLE, 20 }, { KD_PROJECTION_EQUIRECTANGULAR, 20 }, { KD_PROJECTION_FULLDOME, 20 }, { KD_PROJECTION_PLANE, INFINITY },
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        look(0.5, 60);
+        scene.camera.projection = (int)cases[c].projection;
+        scene.camera.r = cases[c].r;
+        scene.camera.yaw_deg = 20, scene.camera.pitch_deg = -10, scene.camera.roll_deg = 30;
+        const struct kd_camera_exact camera = kd_camera_exact(&scene);
+        for (int i = 0; i < 200; i++) {
+            const double px = 150 + fmod(61.7 * i, 340), py = 10.3 + fmod(37.1 * i, 340);
+            double d[3], x, y;
+            kd_camera_look(&camera, px, py, d);
+            for (int q = 0; q < 3 && isfinite(cases[c].r); q++)
+                d[q] *= 1.7;
+            assert_true(kd_camera_seen(&camera, d, &x, &y));
+            if (hypot(x - px, y - py) > 1e-9)
+                fail_msg("projection %zu: %g, %g is seen at %g, %g", c, px, py, x, y);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(by_the_lens_equation), cmocka_unit_test(by_the_oracle), cmocka_unit_test(seeing_is_looking) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
