@@ -7,6 +7,7 @@ Each place is looked for where SIMBAD has it (J2000): the centre of the light ov
 makes of it from so far that the hole bends no light. A pixel is 0.176 degrees, that of A. Mellinger's panorama. Then the panorama and the catalogue: what
 is about the places of thousands of stars, by data/hipparcos.stars, added up in the picture of the panorama, and in one of kerrd's stars. Where a
 panorama shows stars, or what is left of them, the sum has a peak, which is to be in its middle."""
+import collections
 import os
 import subprocess
 import sys
@@ -76,28 +77,52 @@ def shown(kerrd, panorama, *fields):
         return np.load(path)['rgb'] @ np.array([0.2126, 0.7152, 0.0722], np.float32)
 
 
+STARS_ALONE = 'sky.model=catalogue', 'sky.milky_way=0', 'sky.limit_mag=9'
+Stack = collections.namedtuple('Stack', 'brightest faintest stars_added panorama peak stars')
+
+
+def length(off):
+    return float(np.hypot(*off))
+
+
+def photographed(panorama):
+    """Luminance of the file."""
+    Image.MAX_IMAGE_PIXELS = None
+    return ((np.asarray(Image.open(panorama).convert('RGB')) / 255) ** 2.2) @ np.array([0.2126, 0.7152, 0.0722])
+
+
+def known(light, seen, names=JUDGED):
+    """Of each place, how far off it is in the file and in what kerrd shows."""
+    found = {}
+    for name in names:
+        ra, dec, radius = PLACES[name]
+        l, b = galactic(ra, dec)
+        found[name] = centre(light, l, b, radius), centre(seen, l - 180, b, radius)
+    return found
+
+
+def aligned(seen, stars):
+    for brightest, faintest in (3, 5), (5, 6.5), (6.5, 7.5), (7.5, 8.5):
+        one, other = stacked(seen, faintest, brightest), stacked(stars, faintest, brightest)
+        yield Stack(brightest, faintest, one[3], np.array(one[:2]), one[2], np.array(other[:2]))
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit('usage: bench/sky_places.py KERRD PANORAMA.png')
     kerrd, panorama = sys.argv[1:]
-    Image.MAX_IMAGE_PIXELS = None
-    file = Image.open(panorama)
-    print(file.text.get('Source', panorama))
-    light = ((np.asarray(file.convert('RGB')) / 255) ** 2.2) @ np.array([0.2126, 0.7152, 0.0722])
-    seen, stars = shown(kerrd, panorama, 'sky.model=image'), shown(kerrd, None, 'sky.model=catalogue', 'sky.milky_way=0', 'sky.limit_mag=9')
+    light, seen, stars = photographed(panorama), shown(kerrd, panorama, 'sky.model=image'), shown(kerrd, None, *STARS_ALONE)
+    print(Image.open(panorama).text.get('Source', panorama))
     worst = 0
     print('off by so many pixels to the right and down: in the file, and as kerrd shows it')
-    for name, (ra, dec, radius) in PLACES.items():
-        l, b = galactic(ra, dec)
-        in_file, in_picture = centre(light, l, b, radius), centre(seen, l - 180, b, radius)
+    for name, (in_file, in_picture) in known(light, seen, PLACES).items():
         print(f'{name:10} {in_file[0]:+.2f} {in_file[1]:+.2f}   {in_picture[0]:+.2f} {in_picture[1]:+.2f}')
         if name in JUDGED:
-            worst = max(worst, np.hypot(*in_picture))
+            worst = max(worst, length(in_picture))
     print('at the places of the stars of the catalogue: in the panorama, and in the picture of those stars')
-    for brightest, faintest in (3, 5), (5, 6.5), (6.5, 7.5), (7.5, 8.5):
-        one, other = stacked(seen, faintest, brightest), stacked(stars, faintest, brightest)
-        print(f'{one[3]:6d} of V {brightest} to {faintest}   {one[0]:+.3f} {one[1]:+.3f} ({one[2]:.0f} times the noise)   {other[0]:+.3f} {other[1]:+.3f}')
-        worst = max(worst, np.hypot(one[0] - other[0], one[1] - other[1]))
+    for row in aligned(seen, stars):
+        print(f'{row.stars_added:6d} of V {row.brightest} to {row.faintest}   {row.panorama[0]:+.3f} {row.panorama[1]:+.3f} ({row.peak:.0f} times the noise)   {row.stars[0]:+.3f} {row.stars[1]:+.3f}')
+        worst = max(worst, length(row.panorama - row.stars))
     print(f'at most {worst:.2f} pixels')
     sys.exit(int(worst > 1))
 

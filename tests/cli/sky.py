@@ -1,0 +1,47 @@
+"""A photographed panorama, as scripts/sky makes it: M42, omega Cen and M31 are within a pixel of their catalogue places in it and in what kerrd shows of it, and it is aligned to the catalogue's
+stars, 37 000 of them (bench/sky_places.py, which measures it and knows where SIMBAD has them)."""
+import importlib.util
+import os
+import pathlib
+import sys
+
+import support
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PANORAMA = ROOT / "venv/sky-gaia.png"
+TEXEL = 0.5  # of the panorama, 4096 across, in the pixels of sky_places.py, 0.176 degrees
+
+try:
+    spec = importlib.util.spec_from_file_location("sky_places", ROOT / "bench/sky_places.py")
+    places = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(places)
+except ImportError as missing:
+    print(f"left out: {missing}; scripts/setup --browser installs it")
+    sys.exit(77)
+if not PANORAMA.exists():
+    print("left out: there is no venv/sky-gaia.png; scripts/setup --browser makes it")
+    sys.exit(77)
+
+
+class Sky(support.Case):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.light = places.photographed(os.fspath(PANORAMA))
+        cls.seen = places.shown(support.KERRD, os.fspath(PANORAMA), "sky.model=image")
+
+    def test_known_places_are_where_catalogues_have_them(self):
+        for name, off in places.known(self.light, self.seen).items():
+            for where in off:
+                self.assertLess(places.length(where), TEXEL, (name, off))
+
+    def test_the_panorama_and_the_catalogue_are_aligned(self):
+        """Where the catalogue has stars the panorama has light, by far more than elsewhere; in the middle, as a picture of the catalogue has."""
+        for row in places.aligned(self.seen, places.shown(support.KERRD, None, *places.STARS_ALONE)):
+            self.assertGreater(row.peak, 10, row)
+            self.assertLess(places.length(row.panorama), 0.1, row)
+            self.assertLess(places.length(row.panorama - row.stars), 0.1, row)
+
+
+if __name__ == "__main__":
+    support.main(needs_device=True)
