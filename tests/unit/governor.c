@@ -832,6 +832,31 @@ static void what_stays_at_any_size_is_learned(void **state)
     }
 }
 
+/* The same view in a session that its first frame, for which kernels were made, has told to begin on the lowest rung: it has been on no other, by which it
+ * could tell what stays. */
+static void who_began_low_finds_out(void **state)
+{
+    (void)state;
+    static const enum pattern patterns[] = { PLAY, DRAG };
+    static const double least[] = { 0.5, 0.375 };
+    for (int k = 0; k < 2; k++) {
+        const struct kd_frame_cost first = { .rays_ms = 1900, .pixels_ms = 90, .total_ms = 2000, .lens_reused = patterns[k] == PLAY };
+        struct simulation s;
+        begin(&s, kd_governor_params(), 640, 360, (struct truth) { 0 });
+        s.cost = starry;
+        change(&s, true);
+        kd_governor_expect(&s.governor, &first);
+        run(&s, patterns[k], 1e3);
+        const double began = s.last.scale;
+        run(&s, patterns[k], 20e3);
+        const uint64_t changes = s.changes;
+        const double mean = mean_over(&s, patterns[k], 60e3);
+        print_message("from scale %g to %g: %.1f ms, %llu changes more\n", began, s.last.scale, mean, (unsigned long long)(s.changes - changes));
+        assert_true(began == 0.25 && s.last.scale >= least[k]);
+        assert_true(mean <= 1.1 * 33 && s.changes - changes <= 2);
+    }
+}
+
 /* Recorded */
 
 static int recorded_scene;
@@ -900,7 +925,7 @@ int main(void)
         cmocka_unit_test(a_change_breaks_into_refinement),
         cmocka_unit_test(what_measures_nothing_is_not_counted),
         cmocka_unit_test(whatever_happens_the_answer_is_sound),
-        cmocka_unit_test(what_stays_at_any_size_is_learned),
+        cmocka_unit_test(what_stays_at_any_size_is_learned), cmocka_unit_test(who_began_low_finds_out),
         cmocka_unit_test(recorded_frames_settle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

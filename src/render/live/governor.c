@@ -208,17 +208,18 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
     if (other->rays > 0 && other->pixels != here->pixels && cost->rays_ms > 0) {
         const double per_ray = (pace->other_ms - cost->rays_ms) / (other->rays - here->rays);
+        pace->tried = true;
         if (per_ray > 0)
             pace->stays = fmax(0, 1 - per_ray * here->rays / cost->rays_ms);
     }
     pace->other.rays = 0;
 }
 
-/* Says whether one rung up is in time if the time of rays goes by that line. */
-static bool may_climb_by_line(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost)
+/* Says whether one rung up is in time if that part of what rays take stays. */
+static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost, double part)
 {
     const struct kd_rung *rungs = g->ladder.rungs, *here = &rungs[pace->rung], *to = here - 1;
-    const double stays = pace->stays * cost->rays_ms;
+    const double stays = part * cost->rays_ms;
     struct kd_frame_cost line = *cost;
     line.rays_ms -= stays;
     line.total_ms -= stays;
@@ -233,8 +234,12 @@ static void climb(const struct kd_governor *g, struct kd_pace *pace, const struc
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
     while (to > ceiling && may_climb(g, pace, cost, to - 1, false))
         to--;
-    if (to == pace->rung && to > ceiling && (may_climb(g, pace, cost, to - 1, true) || may_climb_by_line(g, pace, cost)))
+    if (to == pace->rung && to > ceiling && (may_climb(g, pace, cost, to - 1, true) || may_climb_if(g, pace, cost, pace->stays))) {
         to--;
+    } else if (to == pace->rung && to > ceiling && !pace->tried && may_climb_if(g, pace, cost, 1)) {
+        pace->tried = true;
+        to--;
+    }
     if (to < pace->rung)
         move(g, pace, cost, to, true, now);
 }
@@ -309,6 +314,7 @@ static void change_ladder(struct kd_governor *g, const struct kd_scene *asked)
         pace->ceiling = pace->count = 0;
         pace->held_target = 0;
         pace->other.rays = pace->stays = 0;
+        pace->tried = false;
         pace->climbed = false;
     }
     g->ladders++;

@@ -33,6 +33,8 @@
  * - Up as far as would take at most 80 % of it if all of the cost but what is known not to grew, or by one rung if only what is
  *   known to grow did, or if rays cost what the line through two sizes says that were measured: rays next to the critical curve and the search
  *   for stars take their time at any size; not within a second of the last change.
+ * - A pace that has been on no rung but one, as a session's that began low, is tried on the next one up once if that is in time should all of what rays
+ *   take stay: one frame in that size says what does.
  * - After each change of rung averages start again; so do ceilings when the scene is of another kind, such as particles for a
  *   smooth disk.
  * - Frames that reuse a lens map get none that would take longer than stall_ms to trace: that is seen when a drag ends and time goes
@@ -103,6 +105,7 @@ struct kd_pace {
     struct kd_rung other;         /* the rung before; no rays: nobody knows, or it was made use of; */
     double other_ms;              /* what its rays took */
     double stays;                 /* which part of what rays take is the same at any size, as far as is known */
+    bool tried;                   /* it need not be tried on another rung to know that */
 };
 
 /* All members are private. */
