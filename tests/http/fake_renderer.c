@@ -51,6 +51,8 @@ bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *
     return scene->sky.seed == UNREAD && !atomic_load(&renderer->read);
 }
 
+void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { (void)renderer, (void)hash; }
+
 void kd_renderer_sky_stop(struct kd_renderer *renderer) { (void)renderer; }
 
 /* Whoever plans asks for it: a device called "held" holds that thread. */

@@ -76,12 +76,14 @@ static void make_first(struct kd_panoramas *all)
     pthread_mutex_unlock(&all->lock);
     enum kd_status status = make(all->assets, &key, &made, &why);
     pthread_mutex_lock(&all->lock);
-    if (status) {
+    const bool ahead = all->asked[0].ahead; /* by now */
+    if (status && !ahead) {
         memcpy(all->broken, key.of, sizeof all->broken);
         all->why = why;
-    } else {
+    } else if (!status) {
         *place = made;
         place->used = ++all->used;
+        place->shown = ahead;
     }
     memmove(all->asked, all->asked + 1, --all->n_asked * sizeof *all->asked);
     pthread_cond_broadcast(&all->changed);
@@ -128,12 +130,12 @@ static struct kd_panorama *kept(struct kd_panoramas *all, const char *of)
     return NULL;
 }
 
-static bool is_asked(const struct kd_panoramas *all, const char *of)
+static struct kd_panorama_key *asked(struct kd_panoramas *all, const char *of)
 {
     for (unsigned i = 0; i < all->n_asked; i++)
         if (!strcmp(all->asked[i].of, of))
-            return true;
-    return false;
+            return &all->asked[i];
+    return NULL;
 }
 
 /* Bytes of a hash never change: what is no sound picture never will be one. */
@@ -143,7 +145,10 @@ static bool is_broken(const struct kd_panoramas *all, const char *of) { return a
 static void begin(struct kd_panoramas *all, const struct kd_panorama_key *key)
 {
     pthread_t thread;
-    if (kept(all, key->of) || is_asked(all, key->of) || is_broken(all, key->of) || all->n_asked == KD_PANORAMAS_ASKED)
+    struct kd_panorama_key *same = asked(all, key->of);
+    if (same)
+        same->ahead &= key->ahead;
+    if (kept(all, key->of) || same || is_broken(all, key->of) || all->n_asked == KD_PANORAMAS_ASKED)
         return;
     all->asked[all->n_asked++] = *key;
     if (all->runs)
@@ -163,9 +168,20 @@ bool kd_panorama_begin(struct kd_panoramas *all, const struct kd_scene *scene)
         return false;
     pthread_mutex_lock(&all->lock);
     begin(all, &key);
-    const bool asked = is_asked(all, key.of);
+    const bool under_way = asked(all, key.of);
     pthread_mutex_unlock(&all->lock);
-    return asked;
+    return under_way;
+}
+
+void kd_panorama_ahead(struct kd_panoramas *all, const char *hash)
+{
+    struct kd_panorama_key key = { .ahead = true };
+    snprintf(key.of, sizeof key.of, "%s", hash);
+    snprintf(key.sky.image, sizeof key.sky.image, "%s", hash);
+    pthread_mutex_lock(&all->lock);
+    if (!all->n_asked && kept(all, "")) /* an empty place */
+        begin(all, &key);
+    pthread_mutex_unlock(&all->lock);
 }
 
 /* With the lock: waits for it, or makes it here where there is no thread for it. NULL: it has failed. */
@@ -175,7 +191,7 @@ static struct kd_panorama *wait_for(struct kd_panoramas *all, const struct kd_pa
         *all->broken = 0;
     while (!kept(all, key->of) && strcmp(all->broken, key->of)) {
         begin(all, key);
-        if (is_asked(all, key->of) || all->runs) {
+        if (asked(all, key->of) || all->runs) {
             pthread_cond_wait(&all->changed, &all->lock);
             continue;
         }

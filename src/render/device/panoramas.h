@@ -21,7 +21,7 @@ struct kd_panorama {
 enum { KD_PANORAMAS = 3, KD_PANORAMAS_ASKED = 16 };
 
 /* One that is to be made: as `of` above, and what it is made from. */
-struct kd_panorama_key { char of[KD_ASSET_NAME]; struct kd_sky sky; };
+struct kd_panorama_key { char of[KD_ASSET_NAME]; struct kd_sky sky; bool ahead; /* nobody waits for it */ };
 struct kd_panoramas {
     pthread_mutex_t lock; /* guards all of it */
     pthread_cond_t changed;
@@ -41,6 +41,9 @@ void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *a
 /* Begins to make the panorama of a scene, if that has one, and it is not there. Whether it is under way now. Places of those that nobody has been given
  * are the last to be given up; who waits for one asks again, so that it is made again where it was. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
+/* Begins to read an asset that may become a sky, where there is a free place for it and nothing else to be made: who asks for it later waits less, or not at
+ * all. It is the first to be given up, and what is wrong with it is told to who asks. */
+void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
 /* Finds the panorama of a scene whose sky has one, or waits for it: some tenths of a second for a Milky Way, a second for a large picture. It stays until
  * the next call. Render thread only. KD_EINVAL at /sky/image: the asset is not here any more, or is no sound picture; KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene, const struct kd_panorama **out, struct kd_error *error);

@@ -124,6 +124,8 @@ bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *
     return *scene->sky.image && kd_panorama_begin(&renderer->panoramas, scene);
 }
 
+void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { kd_panorama_ahead(&renderer->panoramas, hash); }
+
 void kd_renderer_sky_stop(struct kd_renderer *renderer) { kd_panoramas_stop(&renderer->panoramas); }
 
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)

@@ -34,6 +34,8 @@ void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 /* Begin to read the picture of a scene's sky, where it has one that is not there: up to a second. A render waits for it and keeps the device
  * meanwhile; who asks until it is not under way, and renders then, leaves the device to others. Whether it is under way. Any thread. */
 bool kd_renderer_sky_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
+/* Begin to read an asset that may become one (panoramas.h). Any thread. */
+void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
 void kd_renderer_sky_stop(struct kd_renderer *renderer); /* afterwards none is, and sky_made is not called until another is begun */
 /* Device, driver, precision, memory, limits, versions: the JSON of GET /v1/device. */
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);

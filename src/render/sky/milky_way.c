@@ -8,13 +8,14 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define DEGREE ((float)M_PI / 180)
 enum { SIDE = 64 }; /* lattice points, after which noise repeats */
 
 struct clouds { float *lattice; }; /* SIDE^3 numbers of [-1, 1] */
 
-static float at(const struct clouds *c, unsigned x, unsigned y, unsigned z)
+static float at(const struct clouds *c, int x, int y, int z)
 {
     return c->lattice[((z & (SIDE - 1)) * SIDE + (y & (SIDE - 1))) * SIDE + (x & (SIDE - 1))];
 }
@@ -25,22 +26,27 @@ static float eased(float t) { return t * t * (3 - 2 * t); }
 /* Noise has mean 0 and lies in [-1, 1]. The coordinates are positive. */
 static float noise(const struct clouds *c, const float p[3])
 {
-    const unsigned x = (unsigned)p[0], y = (unsigned)p[1], z = (unsigned)p[2];
+    const int x = (int)p[0], y = (int)p[1], z = (int)p[2];
     const float u = eased(p[0] - (float)x), v = eased(p[1] - (float)y), w = eased(p[2] - (float)z);
     const float low = mix(mix(at(c, x, y, z), at(c, x + 1, y, z), u), mix(at(c, x, y + 1, z), at(c, x + 1, y + 1, z), u), v);
     const float high = mix(mix(at(c, x, y, z + 1), at(c, x + 1, y, z + 1), u), mix(at(c, x, y + 1, z + 1), at(c, x + 1, y + 1, z + 1), u), v);
     return mix(low, high, w);
 }
 
-/* Octaves, each turned against the one before so that the lattice is not seen. ridged: filaments, where noise passes through 0. */
-static float octaves(const struct clouds *c, const float n[3], float cells, int count, float falls, bool ridged)
+/* Filaments are where noise passes through 0. */
+static float ridge(float value) { return 0.5f - 2 * fabsf(value); }
+
+/* Octaves from `first` to before `end`, each turned against the one before so that the lattice is not seen. cells: of octave 0. */
+struct octaves { float cells, falls; int first, end; bool ridged; };
+
+static float octaves(const struct clouds *c, const float n[3], const struct octaves *which)
 {
-    float sum = 0, loud = 1, p[3] = { cells * n[0], cells * n[1], cells * n[2] };
-    for (int o = 0; o < count; o++) {
-        const float shifted[3] = { p[0] + 4096.5f, p[1] + 4096.5f, p[2] + 4096.5f }, value = noise(c, shifted);
+    float sum = 0, loud = 1, p[3] = { which->cells * n[0], which->cells * n[1], which->cells * n[2] };
+    for (int o = 0; o < which->end; o++) {
+        const float shifted[3] = { p[0] + 4096.5f, p[1] + 4096.5f, p[2] + 4096.5f }, value = o < which->first ? 0 : noise(c, shifted);
         const float x = p[0], y = p[1], z = p[2];
-        sum += loud * (ridged ? 0.5f - 2 * fabsf(value) : value);
-        loud *= falls;
+        sum += o < which->first ? 0 : loud * (which->ridged ? ridge(value) : value);
+        loud *= which->falls;
         p[0] = 2.05f * (0.36f * x + 0.48f * y - 0.80f * z) + 11.7f;
         p[1] = 2.05f * (-0.80f * x + 0.60f * y) + 5.3f;
         p[2] = 2.05f * (0.48f * x + 0.64f * y + 0.60f * z) + 23.1f;
@@ -65,46 +71,103 @@ static struct across across_of(float b)
     return (struct across) { deg, cosf(b), sinf(b), expf(-above / 4.2f), expf(-above / 11), 1.1f * expf(-above / 22), 0.018f * expf(-above / 26) };
 }
 
+/* Noise of few cells changes little from texel to texel: it is made for every STEP-th column and row, with at least five of these a cell, and interpolated.
+ * FIRST, SECOND: of the filaments' octaves, before their ridges. */
+enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
+enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
+#define DUSTY 32.0f /* degrees from the plane: beyond there is none */
+#define FALLS 0.66f /* of the filaments */
+static const struct octaves few_clouds = { 7, 0.62f, 0, FEW, false }, more_clouds = { 7, 0.62f, FEW, 5, false };
+static const struct octaves filaments[] = { { 5, 1, 0, 1, false }, { 5, 1, 1, FEW, false }, { 5, FALLS, FEW, 6, true } };
+
+static void smooth_at(const struct clouds *c, const float n[3], bool dusty, float out[SMOOTH])
+{
+    static const struct octaves bends = { 2.3f, 0.5f, 0, 2, false }, warps = { 9, 0.55f, 0, 3, false }, patches = { 3.1f, 0.6f, 0, 3, false };
+    out[CLOUDS] = octaves(c, n, &few_clouds);
+    if (!dusty)
+        return;
+    out[BENT] = 2.2f * octaves(c, n, &bends);
+    out[WARP_X] = 0.05f * octaves(c, n, &warps);
+    out[WARP_Y] = 0.05f * noise(c, (float[]) { 20 * n[0] + 900, 20 * n[1] + 300, 20 * n[2] + 500 });
+    out[PATCHES] = octaves(c, n, &patches);
+    const float warped[3] = { n[0] + out[WARP_X], n[1] + out[WARP_Y], n[2] };
+    out[FIRST] = octaves(c, warped, &filaments[0]);
+    out[SECOND] = octaves(c, warped, &filaments[1]);
+}
+
 /* What a direction has before dust: the band, reddish towards the middle. */
-static void starlight(const struct clouds *c, const float n[3], const struct along *l, const struct across *b, float rgb[3])
+static void starlight(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l, const struct across *b, float rgb[3])
 {
     static const float band[] = { 0.97f, 1.0f, 1.06f }, old[] = { 1.22f, 0.97f, 0.68f };
     const float bulge2 = l->l * l->l / (15 * 15) + b->b * b->b / (7.5f * 7.5f);
     const float thin = (0.16f + 0.62f * l->inwards) * (0.75f * b->near + 0.25f * b->far);
-    const float star_clouds = b->contrast > 0.1f ? expf(b->contrast * octaves(c, n, 7, 5, 0.62f, false) - 0.17f * b->contrast * b->contrast) : 1;
-    const float bulge = 1.25f * expf(-powf(bulge2, 0.75f));
+    const float star_clouds = b->contrast > 0.1f ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast) : 1;
+    const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0; /* 1e-7 there */
     for (int k = 0; k < 3; k++)
         rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
 }
 
 /* Optical depth of the dust, of green light. Lanes wander about the plane; spurs leave it. */
-static float dust(const struct clouds *c, const float n[3], const struct along *l, float b)
+static float dust(const struct clouds *c, const float n[3], const float smooth[SMOOTH], const struct along *l, float b)
 {
-    if (fabsf(b) > 32)
+    if (fabsf(b) > DUSTY)
         return 0;
-    const float bent = 2.2f * octaves(c, n, 2.3f, 2, 0.5f, false), off = b - bent;
-    const float warp[3] = { n[0] + 0.05f * octaves(c, n, 9, 3, 0.55f, false), n[1] + 0.05f * noise(c, (float[]) { 20 * n[0] + 900, 20 * n[1] + 300, 20 * n[2] + 500 }), n[2] };
-    const float filaments = octaves(c, warp, 5, 6, 0.66f, true), patches = octaves(c, n, 3.1f, 3, 0.6f, false);
+    const float off = b - smooth[BENT], warped[3] = { n[0] + smooth[WARP_X], n[1] + smooth[WARP_Y], n[2] };
+    const float threads = ridge(smooth[FIRST]) + FALLS * ridge(smooth[SECOND]) + octaves(c, warped, &filaments[2]);
     const float lane = expf(-off * off / (2 * 3.6f * 3.6f)), spurs = 0.38f * expf(-fabsf(off) / 9);
-    return l->inner * (lane + spurs) * expf(fminf(1.55f * filaments + 1.1f * patches, 2.2f));
+    return l->inner * (lane + spurs) * expf(fminf(1.55f * threads + 1.1f * smooth[PATCHES], 2.2f));
 }
 
-static void look(const struct clouds *c, const struct along *l, const struct across *b, float rgb[3])
-{
-    static const float reddening[] = { 0.72f, 1, 1.35f };
+static void look(const struct clouds *c, const float smooth[SMOOTH], const struct along *l, const struct across *b, float rgb[3])
+{    static const float reddening[] = { 0.72f, 1, 1.35f };
     const float n[3] = { b->cos * l->cos, b->cos * l->sin, b->sin };
-    starlight(c, n, l, b, rgb);
-    const float depth = 1.5f * dust(c, n, l, b->b);
+    starlight(c, n, smooth, l, b, rgb);
+    const float depth = 1.5f * dust(c, n, smooth, l, b->b);
     for (int k = 0; depth > 0 && k < 3; k++) /* dust is at most 32 degrees from the plane */
         rgb[k] *= 0.06f + 0.94f * expf(-reddening[k] * depth); /* some stars are in front */
 }
 
-static void paint(const struct clouds *c, const struct along *columns, const struct kd_sky_picture *out)
+static struct across row_at(uint32_t y) { return across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / KD_MILKY_WAY_HEIGHT)); }
+
+/* The nodes of a row; the last one is the first again. */
+static void make_nodes(const struct clouds *c, const struct along *columns, uint32_t y, float nodes[NODES + 1][SMOOTH])
 {
+    const struct across b = row_at(y);
+    for (uint32_t i = 0; i < NODES; i++)
+        smooth_at(c, (float[]) { b.cos * columns[STEP * i].cos, b.cos * columns[STEP * i].sin, b.sin }, fabsf(b.b) < DUSTY + 1, nodes[i]);
+    memcpy(nodes[NODES], nodes[0], sizeof nodes[0]);
+}
+
+static void paint_row(const struct clouds *c, const struct along *columns, uint32_t y, float (*const nodes[2])[SMOOTH], float *texels)
+{
+    const struct across row = row_at(y);
+    const int many = fabsf(row.b) > DUSTY ? 1 : SMOOTH;
+    const float down = (float)(y % STEP) / STEP;
+    float left[SMOOTH], right[SMOOTH], smooth[SMOOTH];
+    for (uint32_t x = 0; x < KD_MILKY_WAY_WIDTH; x++) {
+        const float share = (float)(x % STEP) / STEP;
+        for (int k = 0; x % STEP == 0 && k < many; k++) {
+            left[k] = mix(nodes[0][x / STEP][k], nodes[1][x / STEP][k], down);
+            right[k] = mix(nodes[0][x / STEP + 1][k], nodes[1][x / STEP + 1][k], down);
+        }
+        for (int k = 0; k < many; k++)
+            smooth[k] = mix(left[k], right[k], share);
+        look(c, smooth, &columns[x], &row, &texels[3 * x]);
+    }
+}
+
+static void paint(const struct clouds *c, const struct along *columns, float (*const nodes)[SMOOTH], const struct kd_sky_picture *out)
+{
+    float (*at[2])[SMOOTH] = { nodes, nodes + NODES + 1 };
+    make_nodes(c, columns, 0, at[1]);
     for (uint32_t y = 0; y < out->height; y++) {
-        const struct across row = across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / (float)out->height));
-        for (uint32_t x = 0; x < out->width; x++)
-            look(c, &columns[x], &row, &out->texels[3 * ((size_t)y * out->width + x)]);
+        if (y % STEP == 0) {
+            float (*const kept)[SMOOTH] = at[0];
+            at[0] = at[1];
+            at[1] = kept;
+            make_nodes(c, columns, y + STEP, at[1]);
+        }
+        paint_row(c, columns, y, at, &out->texels[3 * (size_t)y * out->width]);
     }
 }
 
@@ -115,13 +178,15 @@ enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_
     struct kd_random random = { ((uint64_t)(uint32_t)seed << 32) + 1 };
     *out = (struct kd_sky_picture) { KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT, malloc(12ull * KD_MILKY_WAY_WIDTH * KD_MILKY_WAY_HEIGHT) };
     struct along *columns = malloc(KD_MILKY_WAY_WIDTH * sizeof *columns);
-    bool good = c.lattice && out->texels && columns;
+    float (*nodes)[SMOOTH] = calloc(2 * (NODES + 1), sizeof *nodes);
+    bool good = c.lattice && out->texels && columns && nodes;
     for (size_t i = 0; good && i < n; i++)
         c.lattice[i] = (float)(2 * kd_random(&random) - 1);
     for (uint32_t x = 0; good && x < out->width; x++)
         columns[x] = along_of((float)M_PI * (1 - 2 * ((float)x + 0.5f) / (float)out->width));
     if (good)
-        paint(&c, columns, out);
+        paint(&c, columns, nodes, out);
+    free(nodes);
     free(columns);
     free(c.lattice);
     if (good)

@@ -3,6 +3,7 @@
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
 #include "server/http/request.h"
+#include "server/render/queue.h"
 #include "server/render/task.h"
 
 #include <stdio.h>
@@ -79,6 +80,8 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (p->task.status)
         return refuse(request, p);
     const struct kd_asset_about *about = kd_asset_about(p->put.asset);
+    if (p->put.created && kd_asset_is_panorama(about->width, about->height))
+        kd_render_queue_sky_ahead(request->server->renders, about->hash, about->width, about->height);
     enum kd_status status = to_json(about, p->put.created, &json);
     if (status || !p->put.created)
         return kd_reply_json(request, status, &json, JSON_TYPE);

@@ -249,6 +249,14 @@ void kd_render_queue_push(struct kd_render_queue *queue, struct kd_render_job *j
     pthread_mutex_unlock(&queue->lock);
 }
 
+void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, uint32_t width, uint32_t height)
+{
+    struct kd_capacity c;
+    kd_render_queue_capacity(queue, &c);
+    if (18ull * width * height <= c.memory_bytes / 4) /* six bytes of the file, and twelve of light */
+        kd_renderer_sky_ahead(queue->renderer, hash);
+}
+
 /* Those that have begun are ended by who has them, at their next turn. */
 void kd_render_queue_sweep(struct kd_render_queue *queue)
 {
