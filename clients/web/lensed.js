@@ -59,7 +59,7 @@ export function lensed(box, running) {
         if (running.address('')) await next();
         else await pause(again_ms);
       } catch (error) {
-        if (error.status !== 404) tell(words, error.message);
+        tell(words, error.message);
         await pause(again_ms);
       }
     at_work = false;
@@ -67,22 +67,32 @@ export function lensed(box, running) {
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => wanted && pull());
   running.addEventListener('begun', () => ((frame = 0), (camera = null), fit()));
 
-  // Dragged, the camera goes round the hole.
+  // Dragged, or by arrow keys, the camera goes round the hole.
   let from = null;
+  function turn({ inclination_deg, azimuth_deg }) {
+    camera = { inclination_deg: Math.min(Math.max(inclination_deg, 1), 179), azimuth_deg: azimuth_deg - 360 * Math.round(azimuth_deg / 360) };
+    send({ camera });
+  }
+  function now() {
+    const { inclination_deg, azimuth_deg } = running.state?.scene?.camera ?? { inclination_deg: 80, azimuth_deg: 0 };
+    return (camera ??= { inclination_deg, azimuth_deg });
+  }
+  const moves = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, -5], ArrowDown: [0, 5] };
+  box.addEventListener('keydown', event => {
+    const by = moves[event.key];
+    if (!by || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const { inclination_deg, azimuth_deg } = now();
+    turn({ inclination_deg: inclination_deg + by[1], azimuth_deg: azimuth_deg + by[0] });
+  });
   box.addEventListener('pointerdown', event => {
-    const { inclination_deg, azimuth_deg } = running.state.scene.camera;
-    camera ??= { inclination_deg, azimuth_deg };
+    now();
     from = { x: event.clientX, y: event.clientY, ...camera };
     box.setPointerCapture(event.pointerId);
   });
   box.addEventListener('pointermove', event => {
     if (!from) return;
-    const azimuth = from.azimuth_deg - (event.clientX - from.x) * 0.4;
-    camera = {
-      inclination_deg: Math.min(Math.max(from.inclination_deg - (event.clientY - from.y) * 0.4, 1), 179),
-      azimuth_deg: azimuth - 360 * Math.round(azimuth / 360),
-    };
-    send({ camera });
+    turn({ inclination_deg: from.inclination_deg - (event.clientY - from.y) * 0.4, azimuth_deg: from.azimuth_deg - (event.clientX - from.x) * 0.4 });
   });
   for (const end of ['pointerup', 'pointercancel']) box.addEventListener(end, () => (from = null));
 

@@ -42,7 +42,13 @@ export function parts(root, known) {
     canvas,
     el('div', { class: 'buttons' }, nearer, farther, fit),
   );
-  const lensed = el('div', { id: 'play-lensed', hidden: true }),
+  const lensed = el('div', {
+      id: 'play-lensed',
+      tabindex: 0,
+      role: 'application',
+      'aria-label': t('The playground as light shows it: drag or arrow keys turn the camera', 'Il laboratorio come lo mostra la luce: trascina o usa le frecce per girare la camera'),
+      hidden: true,
+    }),
     pictures = el('div', { id: 'play-pictures' }, stage, lensed),
     views = [['plan', t('From above', 'Dall’alto')], ['lensed', t('As light shows it', 'Come lo mostra la luce')], ['both', t('Both', 'Tutt’e due')]].map(([value, text]) => button('play-show-' + value, text, { value }));
   const told = el('p', { id: 'play-clock' }),

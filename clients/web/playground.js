@@ -116,8 +116,14 @@ export async function openPlayground() {
   }
 
   const remove = () => chosen != null && patch({ remove: [chosen] }).then(state => state && choose(null));
-  const pause = () => patch({ paused: !running.state.paused });
-  const step = () => running.state.paused && act(() => running.step(Math.max(running.state.rate / 20, 1e-6)));
+  const pause = () => patch({ paused: !running.state?.paused });
+  let stepping = false; // a key that is held asks for more
+  async function step() {
+    if (!running.state?.paused || stepping) return;
+    stepping = true;
+    await act(() => running.step(Math.max(running.state.rate / 20, 1e-6)));
+    stepping = false;
+  }
   function next(by) {
     const ids = plane.all().map(({ id }) => id);
     if (ids.length) choose(ids[(ids.indexOf(chosen) + by + (chosen == null && by < 0 ? 1 : 0) + ids.length) % ids.length]);
@@ -143,8 +149,9 @@ export async function openPlayground() {
   });
   const hand = hands(part.stage, plane, { aim: showAim, release, choose, pause, step, remove, fit, next, speed });
   const begin = persistent(part.fault, 'playground', () => {
-    const rate = link.get('play.rate');
-    return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate ? { rate: Number(rate) } : {}) });
+    const rate = Number(link.get('play.rate')),
+      paused = link.get('play.paused') === '1';
+    return running.begin(given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
   });
   let hole = {}; // gravity and spin, where somebody has chosen them
   const showRules = rules(
@@ -197,9 +204,13 @@ export async function openPlayground() {
     if (!file) return;
     await act(async () => {
       const document = JSON.parse(await file.text());
-      given = { rate: running.state?.rate, ...document };
-      part.preset.value = '';
-      await running.begin(given);
+      const whole = { rate: running.state?.rate, ...document },
+        before = [given, part.preset.value];
+      [given, part.preset.value] = [whole, ''];
+      await running.begin(whole).catch(error => {
+        [given, part.preset.value] = before;
+        throw error;
+      });
     });
     part.load.value = ''; // the same file may be chosen once more
   });
@@ -234,8 +245,8 @@ export async function openPlayground() {
       state.settings.gravity === 'kerr'
         ? t('The dashed path is the server’s: a geodesic.', 'Il percorso tratteggiato è del server: una geodetica.')
         : t(
-            'The dashed path is reckoned by this page with the server’s law of motion; waves, tides and mergers are left out, and the pulls of bodies below a hundred-thousandth of the hole’s mass.',
-            'Il percorso tratteggiato lo calcola questa pagina con la legge di moto del server; senza onde, maree e fusioni, e senza l’attrazione dei corpi sotto un centomillesimo della massa del buco.',
+            'The dashed path is reckoned by this page with the server’s law of motion; waves, tides and mergers are left out, and the pulls of bodies below a hundred-thousandth of the hole’s mass, and of more than sixteen heavy ones those of the lightest.',
+            'Il percorso tratteggiato lo calcola questa pagina con la legge di moto del server; senza onde, maree e fusioni, e senza l’attrazione dei corpi sotto un centomillesimo della massa del buco né, se i pesanti sono più di sedici, dei meno pesanti.',
           );
     const sentences = state.approximations.map(text => el('li', {}, tell(el('span'), text)));
     part.approximations.replaceChildren(...sentences);

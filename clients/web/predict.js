@@ -70,6 +70,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
     end = 3 * Math.PI * Math.sqrt(r) * Math.abs(r - 2),
     points = [[...thrown.x]],
     apart = r / 300; // between two points, at least
+  if (r <= captured) return { points, captured: true };
   let n = all.length,
     t = 0,
     before = 0,

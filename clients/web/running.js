@@ -30,6 +30,7 @@ function unpack(buffer) {
 export class Running extends EventTarget {
   #session = null;
   #document = {};
+  #kept = null; // a snapshot of when the page was hidden: a playground that nobody watches ends
   #polls = new AbortController();
   #events = null;
   #last = 0; // number of the newest event that came
@@ -43,12 +44,12 @@ export class Running extends EventTarget {
 
   constructor() {
     super();
-    for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => (seenNow() ? this.#listen() : this.#hush()));
+    for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => (seenNow() ? this.#listen() : this.#leave()));
     addEventListener('pagehide', () => {
       this.#hush();
       this.#end();
     });
-    addEventListener('pageshow', event => event.persisted && this.begin(this.#document));
+    addEventListener('pageshow', event => event.persisted && this.#anew());
   }
 
   #tell(name, detail) {
@@ -62,6 +63,15 @@ export class Running extends EventTarget {
   #end() {
     if (this.#session) fetch(this.#session.url, { method: 'DELETE', headers: this.#headers(), keepalive: true }).catch(() => {});
     this.#session = null;
+  }
+
+  async #leave() {
+    const session = this.#session;
+    this.#hush();
+    if (!session || this.#kept?.session === session) return;
+    const answer = await ask(session.url + '/snapshot').catch(() => null),
+      { rate, paused } = this.state;
+    if (answer && !seenNow() && session === this.#session) this.#kept = { session, document: { ...(await answer.json()), rate, paused } };
   }
 
   #hush() {
@@ -78,6 +88,7 @@ export class Running extends EventTarget {
     this.#hush();
     this.#end();
     this.#document = given;
+    this.#kept = null;
     this.#session = { url: 'v1/playground/' + state.id, token };
     Object.assign(this, { bodies: null, debris: null, tick: null });
     this.#last = 0;
@@ -108,8 +119,10 @@ export class Running extends EventTarget {
 
   async #send(url, method, body) {
     const session = this.#session;
+    if (!session) throw new Error(t('The playground has not begun yet', 'Il laboratorio non è ancora cominciato'));
     try {
-      return this.#take(await (await ask(url, { method, headers: this.#headers(), body: JSON.stringify(body) })).json());
+      const state = await (await ask(url, { method, headers: this.#headers(), body: JSON.stringify(body) })).json();
+      return session === this.#session ? this.#take(state) : null;
     } catch (error) {
       if (error.status === 404 && session === this.#session) this.#anew();
       throw error;
@@ -117,22 +130,28 @@ export class Running extends EventTarget {
   }
 
   change(patch) {
-    return this.#send(this.#session.url, 'PATCH', patch);
+    return this.#send(this.#session?.url, 'PATCH', patch);
   }
 
   step(by) {
     return this.#send(this.address('step'), 'POST', { by });
   }
 
-  // It is no more: the same document once again.
+  // It is no more: on from where it was when the page was hidden, else the same document once again.
   async #anew() {
+    const { document: kept } = this.#kept ?? {};
     this.#hush();
     this.#session = null;
-    this.#tell('ended', t('The server has ended this playground: it begins again.', 'Il server ha chiuso questo laboratorio: si ricomincia.'));
+    this.#tell(
+      'ended',
+      kept
+        ? t('The server has ended this playground: it goes on from where it was when you left.', 'Il server ha chiuso questo laboratorio: riprende da dov’era quando l’hai lasciato.')
+        : t('The server has ended this playground: it begins again.', 'Il server ha chiuso questo laboratorio: si ricomincia.'),
+    );
     for (;;)
       try {
         await seen(view);
-        if (!this.#session) await this.begin(this.#document);
+        if (!this.#session) await this.begin(kept ?? this.#document);
         return;
       } catch (error) {
         this.#tell('fault', error);
@@ -178,6 +197,7 @@ export class Running extends EventTarget {
 
   #listen() {
     if (!this.#session || this.#events || !seenNow()) return;
+    this.#kept = this.#kept && { ...this.#kept, session: null }; // the next time it is taken anew
     const events = (this.#events = new EventSource(`${this.#session.url}/events?since=${this.#last}`)),
       told = message => JSON.parse(message.data);
     events.addEventListener('tick', message => this.#tell('tick', (this.tick = told(message))));

@@ -249,6 +249,25 @@ class Playground(Browser):
         self.assertEqual(left, [])
         self.assertGreater(len(texts), 30)
 
+    def test_what_was_left_goes_on(self):
+        """A playground that nobody watches ends; who comes back finds it as it was left."""
+        self.expected = '404'
+        page = self.open_play('lang=en&play.preset=emri&play.paused=1')
+        page.fill('#play-at-y', '15')
+        page.press('#play-at-y', 'Tab')
+        page.fill('#play-v-x', '0.2')
+        page.press('#play-v-x', 'Tab')
+        page.click('#play-throw')
+        self.assertTrue(daemon.eventually(lambda: len(self.bodies()) == 2))
+        with page.expect_response('**/snapshot'):
+            page.click('nav [data-view=scale]')
+        page.wait_for_timeout(300)
+        (begun,) = (r.response().json() for r in self.requests if r.method == 'POST' and r.url.endswith('/v1/playground'))
+        self.assertEqual(self.daemon.request('DELETE', f'/v1/playground/{begun["id"]}?token={begun["token"]}').status, 204)
+        page.click('nav [data-view=playground]')
+        page.wait_for_selector('#play-said >> text=goes on from where it was', timeout=20000)
+        self.assertTrue(daemon.eventually(lambda: self.address() != begun['id'] and len(self.bodies()) == 2 and self.state()['paused']))
+
     def test_a_server_that_is_started_anew(self):
         self.expected = 'Failed to load resource'
         page = self.open_play('lang=en&play.preset=emri')
