@@ -134,3 +134,12 @@ uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const 
         argp_error(state, "%s %s: a size from 64M to 1024T, as 1536M or 2G", option, text);
     return (uint64_t)value << shift;
 }
+
+void kd_cli_add_axis(const char ***axes, size_t *n, const char *text, const struct argp_state *state)
+{
+    const char **more = realloc(*axes, (*n + 1) * sizeof *more);
+    if (!more)
+        argp_failure(state, KD_EXIT_FAILURE, 0, "out of memory");
+    *axes = more;
+    more[(*n)++] = text;
+}

@@ -57,6 +57,9 @@ uint64_t kd_cli_bytes(const struct argp_state *state, const char *option, const 
 #define KD_CLI_MEMORY                                                                                                                \
     { "memory", 'M', "SIZE", 0, "most memory for pictures, as 1536M or 2G (default: what the device and this machine have left)", 0 }
 
+/* One more axis, FIELD=VALUES, to a list that the caller frees. */
+void kd_cli_add_axis(const char ***axes, size_t *n, const char *text, const struct argp_state *state);
+
 /* A whole number from an option's text, or a usage error. */
 unsigned kd_cli_number(const struct argp_state *state, const char *option, const char *text, unsigned minimum,
                        unsigned maximum);

@@ -50,15 +50,6 @@ static const struct kind *kind_of(const char *path)
     return NULL;
 }
 
-static void add_axis(struct arguments *arguments, const char *text, const struct argp_state *state)
-{
-    const char **more = realloc(arguments->axes, (arguments->n_axes + 1) * sizeof *more);
-    if (!more)
-        argp_failure(state, KD_EXIT_FAILURE, 0, "out of memory");
-    arguments->axes = more;
-    more[arguments->n_axes++] = text;
-}
-
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
@@ -67,7 +58,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &arguments->scene;
         state->child_inputs[1] = &arguments->device;
         return 0;
-    case 'x': add_axis(arguments, text, state); return 0;
+    case 'x': kd_cli_add_axis(&arguments->axes, &arguments->n_axes, text, state); return 0;
     case 'o': arguments->output = text; return 0;
     case 't': arguments->stats = true; return 0;
     case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;

@@ -57,6 +57,20 @@ class Sweep(support.Case):
         self.addCleanup(units.close)
         return units
 
+    def test_planned(self):
+        """What a plan says of all scenes together is what the sweep then does: scenes, lens maps, and the time of those that are shared."""
+        plan = json.loads(self.good("plan", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), *ARGUMENTS))
+        self.assertEqual((plan["scenes"], plan["lens_maps"]), (self.stats["scenes"], self.stats["lens_maps_traced"]))
+        self.assertEqual({path: [str(value) for value in values] for path, values in plan["axes"].items()}, AXES)
+        self.assertTrue(plan["shared_ms"] > 0 and plan["estimate_ms"] > 0)
+        one = json.loads(self.good("plan", *SCENE, "-x", "disk.outer=20"))
+        single = json.loads(self.good("plan", *SCENE, "--set", "disk.outer=20"))
+        self.assertEqual((one["scenes"], one["lens_maps"], one["shared_ms"], one["bytes"]["device"]), (1, 1, 0, single["bytes"]["device"]))
+        ten = json.loads(self.good("plan", *SCENE, "-x", "disk.outer=20:29:1"))
+        self.assertEqual((ten["scenes"], ten["lens_maps"], ten["rays"], ten["bytes"]), (10, 1, 10 * one["rays"], one["bytes"]))
+        self.bad(2, "(at /axes/", "plan", *SCENE, "-x", "disk.outer=20,none")
+        self.bad(2, "scene 1", "plan", *SCENE, "-x", "image.width=64,9000", "--set", "image.height=9000")
+
     def test_a_cube_is_its_scenes(self):
         """In both formats, against a file of each scene by itself."""
         self.assertEqual((self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6))  # three inclinations, of two disks that need different things of a map

@@ -36,6 +36,7 @@ enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_m
 {
     struct kd_sweep_order_item *items = order->items;
     *shared_ms = 0;
+    order->groups = order->n;
     if (!order->n)
         return KD_OK;
     order->frames = malloc(order->n * sizeof *order->frames);
@@ -46,6 +47,7 @@ enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_m
         if (items[i].group == items[i - 1].group) {
             items[i].first = items[i - 1].first;
             *shared_ms += items[i].trace_ms;
+            order->groups--;
         }
     qsort(items, order->n, sizeof *items, by_first);
     for (unsigned i = 0; i < order->n; i++)

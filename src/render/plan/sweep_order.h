@@ -8,6 +8,7 @@
 struct kd_sweep_order {
     struct kd_sweep_order_item { uint64_t group; unsigned frame, first; double trace_ms; } *items; /* while it is being made */
     unsigned n;
+    unsigned groups;  /* lens maps that are not shared with a scene before, once all are there */
     unsigned *frames; /* the frame of each place; NULL: they are rendered as they are numbered */
 };
 
