@@ -27,7 +27,7 @@ static struct kd_playground_body circling(double r, double phi, double inclinati
 /* The sun and a hole of a million suns, on a parabola whose pericentre is 1.2 times as deep as the tidal radius, 47 M. */
 static void disruption_settings(struct kd_playground_params *s)
 {
-    s->h_max = 20;
+    s->h_max = 5; /* at 100 M a second twenty pictures */
     s->debris_per_body = 50000;
 }
 

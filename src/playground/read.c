@@ -79,7 +79,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
     uint32_t id = 0;
     enum kd_status status;
     if (what == REMOVE) {
-        if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX))
+        if (!cJSON_IsNumber(item) || !(item->valuedouble >= 1 && item->valuedouble <= UINT32_MAX) || item->valuedouble != floor(item->valuedouble))
             return kd_error_field(error, pointer, "this is no body's id");
         status = kd_playground_remove(p, (uint32_t)item->valuedouble, error);
         return status ? kd_error_field(error, pointer, "there is no body %.0f, or it is there no more", item->valuedouble) : KD_OK;
@@ -110,6 +110,8 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     snprintf(pointer, sizeof pointer, "/%s", name);
     if (list && !cJSON_IsArray(list))
         return kd_error_field(error, pointer, "%s is no array", name);
+    if (list && what != ADD && cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* of ADD the body that is one too many is named */
+        return kd_error_field(error, pointer, "%s has %d elements, allowed are up to %u", name, cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
         snprintf(pointer, sizeof pointer, "/%s", name);
         snprintf(index, sizeof index, "%u", i++);

@@ -134,8 +134,8 @@ static enum kd_status start_plays(struct kd_server *server, const struct kd_serv
     const unsigned most = or_default(params->playgrounds, 16);
     const size_t bytes = params->playgrounds_kib ? (size_t)params->playgrounds_kib << 10 : KD_PLAYS_BYTES;
     const struct kd_plays_params plays = {
-        .limit = most, .client_limit = share_of(params, most), .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS),
-        .bytes = bytes, .client_bytes = (size_t)bytes_share_of(params, bytes),
+        .sessions = server->sessions, .renders = server->renders, .limit = most, .client_limit = share_of(params, most),
+        .idle_ms = or_default(params->session_ms, KD_SESSION_IDLE_MS), .bytes = bytes, .client_bytes = (size_t)bytes_share_of(params, bytes),
     };
     return kd_plays_create(&plays, &server->plays, error);
 }

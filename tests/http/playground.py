@@ -365,6 +365,108 @@ class Playground(daemon.Owned):
                     for one in play, self.open({**snapshot, 'paused': True}):
                         self.delete(one)
 
+    def test_what_is_paused_stands_still(self):
+        play = self.open({'preset': 'swarm'}, rate=1e5)
+        for _ in range(8):
+            paused = self.patch(play, {'paused': True}).json()
+            time.sleep(0.05)
+            self.assertEqual(self.status(play)['t'], paused['t'])
+            self.patch(play, {'paused': False})
+
+    def test_polls_that_do_not_wait(self):
+        play = self.open(rate=100)
+        seen = set()
+        for _ in range(5):
+            answer = self.get(play, '/bodies?wait_ms=0')
+            seen.add(answer.header('Kerrd-Generation'))
+            time.sleep(0.1)
+        self.assertEqual(len(seen), 5)
+        self.patch(play, {'paused': True})
+        now = self.status(play)['generation']
+        self.assertEqual(self.daemon.get(self.at(play, f'/bodies?after={now}&wait_ms=0')).status, 204)
+
+    def test_debris_that_is_waited_for_long(self):
+        play = self.open({'preset': 'disruption', 'debris_per_body': 500}, paused=True)
+        self.step(play, 3500)
+        generation = int(self.get(play, '/debris').header('Kerrd-Generation'))
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            waiting = pool.submit(self.get, play, f'/debris?after={generation}&wait_ms=30000')
+            time.sleep(6)
+            began = time.monotonic()
+            self.step(play, 100)
+            self.assertGreater(len(unpack(waiting.result())[3]), 100)
+            self.assertLess(time.monotonic() - began, 5)
+
+    def test_lists_have_ends(self):
+        play = self.open(paused=True)
+        self.assertProblem(self.patch(play, {'remove': [1.5]}), 422, 'invalid-playground', '/remove/0')
+        for name, element in ('change', {'id': 1}), ('remove', 1):
+            self.assertProblem(self.patch(play, {name: [element] * 4097}), 422, 'invalid-playground', '/' + name)
+        self.assertProblem(self.patch(play, {'add': [PLANET] * 4096}), 422, 'invalid-playground', '/add/4095')
+        self.assertEqual(len(self.status(play)['bodies']), 1)
+
+    def frame(self, play, after=0, wait_ms=20000):
+        return self.daemon.get(self.at(play, f'/frame.png?after={after}&wait_ms={wait_ms}'))
+
+    def test_pictures(self):
+        small = {'image': {'width': 64, 'height': 36}}
+        play = self.open(paused=True, scene=small)
+        self.assertEqual((play['scene']['image']['width'], play['scene']['spacetime']['spin']), (64, 0))
+        self.assertEqual(self.daemon.metrics()['kerrd_sessions'], 0, 'nobody has asked for a picture yet')
+        first = self.frame(play)
+        self.assertEqual((first.status, first.header('Content-Type'), struct.unpack('>II', first.body[16:24])), (200, 'image/png', (64, 36)))
+        number = int(first.header('Kerrd-Frame'))
+        while (answer := self.frame(play, number, 500)).status == 200:
+            number = int(answer.header('Kerrd-Frame'))
+        self.assertEqual(answer.status, 204, 'a playground that rests is drawn no more')
+        self.step(play, 20)
+        moved = self.frame(play, number)
+        self.assertEqual((moved.status, float(moved.header('Kerrd-Time'))), (200, float(f"{self.status(play)['t']:.15g}")))
+        number = int(moved.header('Kerrd-Frame'))
+        changed = self.patch(play, {'scene': {'camera': {'inclination_deg': 30}}}).json()
+        self.assertEqual((changed['scene']['camera']['inclination_deg'], changed['scene']['image']['width']), (30, 64))
+        seen = self.frame(play, number)
+        while seen.header('Kerrd-Revision') == '1':
+            seen = self.frame(play, int(seen.header('Kerrd-Frame')))
+        self.assertEqual(seen.status, 200)
+        self.patch(play, {'paused': False, 'rate': 100})
+        times, number = [], int(seen.header('Kerrd-Frame'))
+        for _ in range(5):
+            answer = self.frame(play, number)
+            number = int(answer.header('Kerrd-Frame'))
+            times.append(float(answer.header('Kerrd-Time')))
+        self.assertEqual(times, sorted(times))
+        self.assertGreater(times[-1], times[0])
+        before = self.status(play)
+        for scene, pointer in (({'camera': {'inclination_deg': 181}}, '/scene/camera/inclination_deg'), (3, '/scene'), ({'colour': 1}, '/scene/colour')):
+            self.assertProblem(self.patch(play, {'scene': scene, 'waves': True}), 422, 'invalid-playground', pointer)
+            self.assertProblem(self.daemon.post('/v1/playground', {'scene': scene}), 422, 'invalid-playground', pointer)
+        self.assertEqual((self.status(play)['scene'], self.status(play)['settings']['waves']), (before['scene'], False))
+        self.assertEqual(self.daemon.metrics()['kerrd_sessions'], 1)
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            self.patch(play, {'paused': True})
+            waiting = pool.submit(self.frame, play, 10 ** 9)
+            time.sleep(0.3)
+            self.delete(play)
+            self.assertProblem(waiting.result(), 404, 'not-found')
+        self.assertEqual(self.daemon.metrics()['kerrd_sessions'], 0)
+        self.assertProblem(self.frame(play), 404, 'not-found')
+
+    def test_a_stream_of_pictures_keeps_it_awake(self):
+        play = self.open(rate=100, scene={'image': {'width': 64, 'height': 36}})
+        s = self.stream(play, '/frames', 'application/x-kerrd-frames')
+        data, end = b'', time.monotonic() + 6.5
+        while time.monotonic() < end:
+            data += s.recv(65536)
+        s.close()
+        self.assertGreater(data.count(b'\x89PNG'), 20)
+        self.assertGreater(self.status(play)['t'], 550, 'it has gone on all the time')
+
+    def test_a_kerr_hole_is_shown_with_its_spin(self):
+        play = self.open({'gravity': 'kerr', 'spin': 0.5, 'bodies': [PLANET]}, paused=True)
+        self.assertEqual(play['scene']['spacetime']['spin'], 0.5)
+        self.assertProblem(self.patch(play, {'scene': {'spacetime': {'spin': 0.4}}}), 422, 'invalid-playground', '/scene/spacetime/spin')
+
     def test_kerr(self):
         play = self.open({'gravity': 'kerr', 'spin': 0.9, 'bodies': [PLANET, {**PLANET, 'position': [0, 12, 0], 'velocity': [-0.33, 0, 0]}]}, rate=300)
         self.assertTrue(daemon.eventually(lambda: self.status(play)['t'] > 200))

@@ -89,6 +89,8 @@ enum MHD_Result kd_handle_play_step(struct kd_request *request);
 enum MHD_Result kd_handle_play_snapshot(struct kd_request *request);
 enum MHD_Result kd_handle_play_series(struct kd_request *request);
 enum MHD_Result kd_handle_play_fallback(struct kd_request *request);
+enum MHD_Result kd_handle_play_frame(struct kd_request *request);
+enum MHD_Result kd_handle_play_frames(struct kd_request *request);
 enum MHD_Result kd_handle_play_bodies(struct kd_request *request); /* playground/data.c */
 enum MHD_Result kd_handle_play_debris(struct kd_request *request);
 enum MHD_Result kd_handle_play_events(struct kd_request *request); /* playground/events.c */

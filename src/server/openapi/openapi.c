@@ -106,6 +106,8 @@ static void add_path_parameter(struct kd_json *json, const char *path)
 static const struct { const char *path, *name, *schema, *help; } queries[] = {
     { "/v1/sessions/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
     { "/v1/sessions/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
+    { "/v1/playground/{id}/frame.png", "after", WHOLE, "number of the last frame that the client has; 0 without it" },
+    { "/v1/playground/{id}/frame.png", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/bodies", "after", WHOLE, "generation that the client has; without it the answer comes at once" },
     { "/v1/playground/{id}/bodies", "wait_ms", MOMENT, "how long to wait for a newer one" },
     { "/v1/playground/{id}/debris", "after", WHOLE, "generation that the client has; without it the answer comes at once" },

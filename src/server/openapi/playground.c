@@ -88,6 +88,7 @@ static void add_properties(struct kd_json *json, bool patch)
     kd_json_string(json, "description", "M a second of the clock; a preset has one of its own");
     kd_json_end(json);
     add_raw(json, "paused", "{\"type\":\"boolean\",\"default\":false}");
+    add_raw(json, "scene", "{\"type\":\"object\",\"description\":\"merge patch of the scene of its pictures\"}");
     for (size_t i = 0; i < kd_playground_n_settings; i++)
         add_row(json, &kd_playground_settings[i]);
     if (patch) {

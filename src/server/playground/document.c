@@ -1,9 +1,13 @@
 #include "server/playground/document.h"
 
 #include "playground/fields.h"
+#include "playground/hole.h"
 #include "playground/preset.h"
+#include "playground/show.h"
 #include "scene/tree.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define USUAL_RATE 50.
@@ -33,10 +37,57 @@ enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct 
     return status;
 }
 
-double kd_play_usual_rate(const cJSON *tree)
+static const struct kd_playground_preset *preset_of(const cJSON *tree)
 {
     const cJSON *name = cJSON_GetObjectItemCaseSensitive(tree, "preset");
-    const struct kd_playground_preset *preset = cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
+    return cJSON_IsString(name) ? kd_playground_preset_of(name->valuestring) : NULL;
+}
+
+enum kd_status kd_play_usual_scene(const cJSON *tree, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
+{
+    static const char size[] = "{\"image\":{\"width\":640,\"height\":360}}";
+    const struct kd_playground_preset *preset = preset_of(tree);
+    double farthest = 0;
+    char width[40];
+    enum kd_status status;
+    kd_scene_defaults(out);
+    KD_TRY(kd_scene_patch(out, size, sizeof size - 1, error));
+    if (preset)
+        KD_TRY(kd_scene_patch(out, preset->scene, strlen(preset->scene), error));
+    out->spacetime.spin = p->params.spin;
+    for (size_t i = 0; i < p->n; i++)
+        farthest = fmax(farthest, kd_playground_radius(p->bodies[i].x) + p->bodies[i].radius);
+    snprintf(width, sizeof width, "%.9g", fmin(fmax(2.4 * farthest, out->camera.field_m), 1e6));
+    if (!preset)
+        KD_TRY(kd_scene_set(out, "camera.field_m", width, error));
+    KD_TRY(kd_scene_validate(out, error));
+done:
+    return status;
+}
+
+enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error)
+{
+    char pointer[sizeof error->pointer];
+    enum kd_status status;
+    if (!item)
+        return KD_OK;
+    if (!cJSON_IsObject(item))
+        return kd_error_field(error, "/scene", "scene is no object");
+    KD_TRY(kd_scene_from_tree(scene, item, true, error));
+    KD_TRY(kd_scene_resolve(scene, assets, error));
+    KD_TRY(kd_scene_validate(scene, error));
+    KD_TRY(kd_playground_may_show(p, scene, error));
+done:
+    if (status) {
+        snprintf(pointer, sizeof pointer, "/scene%.100s", error->pointer);
+        memcpy(error->pointer, pointer, sizeof pointer);
+    }
+    return status;
+}
+
+double kd_play_usual_rate(const cJSON *tree)
+{
+    const struct kd_playground_preset *preset = preset_of(tree);
     return preset ? preset->rate : USUAL_RATE;
 }
 
@@ -93,8 +144,12 @@ enum kd_status kd_play_to_json(const struct kd_play *play, const struct kd_play_
     if (told->before != UINT32_MAX)
         add_added(&json, p, told->before);
     kd_playground_status_json(p, &json);
+    struct kd_buffer scene = { 0 };
+    enum kd_status status = kd_scene_to_json(told->scene, &scene);
+    kd_json_raw(&json, "scene", status ? "null" : (const char *)scene.data, status ? 4 : scene.size);
+    kd_buffer_finish(&scene);
     kd_json_end(&json);
-    return kd_json_finish_line(&json);
+    return kd_json_finish_line(&json) || status ? KD_ENOMEM : KD_OK;
 }
 
 enum kd_status kd_play_series_json(const struct kd_playground_series *series, struct kd_buffer *out)

@@ -3,16 +3,23 @@
 #define KD_SERVER_PLAYGROUND_DOCUMENT_H
 
 #include "playground/json.h"
+#include "scene/asset.h"
+#include "scene/scene.h"
 #include "server/playground/plays.h"
 
 /* Takes "rate" and "paused" out of the tree; what is not given stays. KD_EINVAL with a pointer. */
 enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error);
+/* The scene that shows it well: that of the preset which the tree names, or one as wide as the bodies are far out. */
+enum kd_status kd_play_usual_scene(const cJSON *tree, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error);
+/* Merges "scene" over *scene, if it is there (NULL: it is not), and looks whether the playground may be shown in it. KD_EINVAL with a pointer. */
+enum kd_status kd_play_read_scene(const cJSON *item, const struct kd_playground *p, const struct kd_assets *assets, struct kd_scene *scene, struct kd_error *error);
 /* The rate of the preset that the tree names, or what is usual. */
 double kd_play_usual_rate(const cJSON *tree);
 /* {"by": M} of a step. */
 enum kd_status kd_play_read_step(const char *text, size_t length, double *by, struct kd_error *error);
 
 struct kd_play_told {
+    const struct kd_scene *scene; /* of its picture */
     bool token;            /* who has just opened it is told */
     uint32_t before;       /* ids above it are "added"; UINT32_MAX: none is told */
     const struct kd_playground_progress *progress; /* of a step; NULL: it is none */

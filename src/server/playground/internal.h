@@ -5,6 +5,7 @@
 #include "server/http/bytes.h"
 #include "server/http/secret.h"
 #include "server/playground/plays.h"
+#include "server/session/sessions.h"
 
 #include <pthread.h>
 
@@ -28,11 +29,16 @@ struct kd_play {
     struct kd_playground_events log;
     uint64_t log_begin; /* what a snapshot has told elsewhere */
     struct kd_play_watcher *watchers;
+    struct kd_scene scene;      /* of its picture */
+    struct kd_session *picture; /* that shows it, a reference; NULL: nobody has asked for one */
+    bool unshown;               /* that has been given nothing yet */
+    double looked_at_ms;        /* when somebody asked for a frame last */
     /* with `work`, which is taken before all->lock */
     pthread_mutex_t work;
     struct kd_playground *p;
     double looked_ms, goal, allowance; /* the clock of its turns (run.c); looked_ms 0: it stands */
-    double ticked_ms, measured_ms, measured_t;
+    double ticked_ms, measured_ms, measured_t, shown_ms;
+    uint64_t shown; /* the generation that the picture has; 0: none */
 };
 
 struct kd_plays {
@@ -54,6 +60,10 @@ bool kd_play_awake(const struct kd_play *play, double now); /* somebody watches,
 void kd_play_call(struct kd_play *play);                    /* its job has something to do */
 void kd_play_wake(struct kd_play *play, double now);        /* those for whom there is something. watch.c */
 bool kd_play_awaited(const struct kd_play *play);           /* whether anybody waits for a tick. watch.c */
+
+bool kd_play_looked_at(const struct kd_play *play); /* somebody waits for frames. picture.c */
+struct kd_session *kd_play_shown(const struct kd_play *play, double now); /* the picture, if somebody may look at it: a reference, or NULL. picture.c */
+void kd_play_hide(struct kd_play *play); /* ends the picture. picture.c */
 
 /* The play's job; run.c. */
 enum kd_turn_end kd_play_turn(struct kd_turns_job *job);

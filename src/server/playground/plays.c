@@ -50,6 +50,7 @@ void kd_play_let_go(struct kd_play *play)
     if (--play->references)
         return;
     kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
+    kd_play_hide(play);
     kd_play_tick_release(play->tick);
     kd_playground_destroy(play->p);
     pthread_mutex_destroy(&play->work);
@@ -73,11 +74,15 @@ void kd_play_unlist(struct kd_play *play, const char *why)
     kd_turns_wake(play->all->turns, &play->turns); /* for its last turn */
     play->listed = false;
     play->why = why;
+    kd_play_hide(play);
     play->all->count--;
     kd_play_wake(play, kd_clock_ms());
 }
 
-bool kd_play_awake(const struct kd_play *play, double now) { return play->watchers || now - play->used_ms < KD_PLAY_REST_MS; }
+bool kd_play_awake(const struct kd_play *play, double now) 
+{
+    return play->watchers || now - play->used_ms < KD_PLAY_REST_MS || kd_play_looked_at(play);
+}
 
 static unsigned watchers_of(const struct kd_play *play)
 {
@@ -133,8 +138,8 @@ static enum kd_status admit(struct kd_plays *all, const char *client, size_t byt
     return KD_OK;
 }
 
-enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const char *client, bool *quota,
-                             struct kd_play **out, struct kd_error *error)
+enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const struct kd_scene *scene, const char *client,
+                             bool *quota, struct kd_play **out, struct kd_error *error)
 {
     const size_t bytes = BYTES((*p)->debris.capacity);
     struct kd_play *play = make(all, pace, client);
@@ -145,6 +150,7 @@ enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, con
     enum kd_status status = admit(all, client, bytes, quota, error);
     if (!status) {
         play->p = *p;
+        play->scene = *scene;
         *p = NULL;
         play->bytes = bytes;
         play->log.last = play->log_begin = play->p->events.last;

@@ -22,8 +22,14 @@
 
 struct kd_plays;
 struct kd_play;
+struct kd_render_queue;
+struct kd_scene;
+struct kd_session;
+struct kd_sessions;
 
 struct kd_plays_params {
+    struct kd_sessions *sessions;    /* in which their pictures are */
+    struct kd_render_queue *renders;
     unsigned limit, client_limit; /* at once; of one client */
     unsigned idle_ms;
     size_t bytes, client_bytes; /* of memory, of all; of one client */
@@ -40,8 +46,8 @@ struct kd_play_pace {
 
 /* Opens a play, which owns *p from then on and sets it to NULL. The caller holds a reference. KD_EBUSY: there are as many as may be, or as many bytes; *quota: of
  * this client. */
-enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const char *client, bool *quota,
-                             struct kd_play **out, struct kd_error *error);
+enum kd_status kd_plays_open(struct kd_plays *all, struct kd_playground **p, const struct kd_play_pace *pace, const struct kd_scene *scene, const char *client,
+                             bool *quota, struct kd_play **out, struct kd_error *error);
 /* The play of this id: a reference, or NULL. It counts as asked for. */
 struct kd_play *kd_plays_find(struct kd_plays *all, const char *id);
 void kd_play_release(struct kd_play *play); /* accepts NULL */
@@ -70,6 +76,14 @@ struct kd_play_state {
 };
 struct kd_play_state kd_play_state(struct kd_play *play);
 void kd_play_set_pace(struct kd_play *play, const struct kd_play_pace *pace);
+/* Fails where a frame of the scene would take too long, or cannot be made. */
+enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error);
+/* The scene of its picture, which a session shows (server/session) as soon as somebody asks for frames, together with the bodies and the debris as they are. */
+void kd_play_scene(struct kd_play *play, struct kd_scene *out);
+/* Resolved and valid. */
+enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *scene, struct kd_error *error);
+/* The session: a reference. KD_EBUSY: there are as many as may be; *quota: of this client. The HTTP thread. */
+enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error);
 /* Whether the play may be stepped by hand from now on, which it may while it is paused and nobody else does: then nothing else changes it until kd_play_stepped. */
 bool kd_play_step(struct kd_play *play);
 void kd_play_stepped(struct kd_play *play);

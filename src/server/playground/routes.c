@@ -2,10 +2,12 @@
 #include "server/playground/routes.h"
 
 #include "base/clock.h"
+#include "server/asset/store.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
 #include "server/playground/document.h"
 #include "server/render/task.h"
+#include "server/session/sessions.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,10 +58,14 @@ static void destroy(struct kd_task *task)
 
 static const char *body_of(const struct kd_task *task) { return task->request->body.data ? (const char *)task->request->body.data : ""; }
 
-static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_play_told *told, struct kd_error *error)
+static enum kd_status tell(struct play_task *t, struct kd_playground *p, const struct kd_play_told *what, struct kd_error *error)
 {
     const struct kd_play_state state = kd_play_state(t->play);
-    return kd_play_to_json(t->play, &state, p, told, &t->out) ? kd_error_set(error, KD_ENOMEM, "out of memory for the answer") : KD_OK;
+    struct kd_play_told told = *what;
+    struct kd_scene scene;
+    kd_play_scene(t->play, &scene);
+    told.scene = &scene;
+    return kd_play_to_json(t->play, &state, p, &told, &t->out) ? kd_error_set(error, KD_ENOMEM, "out of memory for the answer") : KD_OK;
 }
 
 static enum kd_status open_play(struct play_task *t, struct kd_error *error)
@@ -67,30 +73,37 @@ static enum kd_status open_play(struct play_task *t, struct kd_error *error)
     struct kd_server *server = t->task.request->server;
     struct kd_play_pace pace = { 0 };
     struct kd_playground *p = NULL;
-    cJSON *tree = NULL;
+    struct kd_scene scene;
+    cJSON *tree = NULL, *look = NULL;
     enum kd_status status;
     KD_TRY(kd_playground_parse(body_of(&t->task), t->task.request->body.size, &tree, error));
     pace.rate = kd_play_usual_rate(tree);
     KD_TRY(kd_play_read_pace(tree, &pace, error));
+    look = cJSON_DetachItemFromObjectCaseSensitive(tree, "scene");
     KD_TRY(kd_playground_read_tree(tree, &p, error));
-    KD_TRY(kd_plays_open(server->plays, &p, &pace, t->task.request->client, &t->task.quota, &t->play, error));
+    KD_TRY(kd_play_usual_scene(tree, p, &scene, error));
+    KD_TRY(kd_play_read_scene(look, p, kd_asset_store_assets(server->assets), &scene, error));
+    if (look)
+        KD_TRY(kd_plays_takes(server->plays, &scene, error));
+    KD_TRY(kd_plays_open(server->plays, &p, &pace, &scene, t->task.request->client, &t->task.quota, &t->play, error));
     struct kd_playground *opened = kd_play_take(t->play);
     status = tell(t, opened, &(struct kd_play_told) { .token = true, .before = UINT32_MAX }, error);
     kd_play_give(t->play, opened);
 done:
     kd_playground_destroy(p);
+    cJSON_Delete(look);
     cJSON_Delete(tree);
     kd_task_drop_body(t->task.request);
     return status;
 }
 
 /* Counts the debris that the patch makes room for. */
-static enum kd_status make_room(struct play_task *t, const cJSON *tree, struct kd_error *error)
+static enum kd_status make_room(struct play_task *t, const struct kd_playground *p, const cJSON *tree, struct kd_error *error)
 {
     const cJSON *capacity = cJSON_GetObjectItemCaseSensitive(tree, "debris_capacity");
     if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
         return KD_OK; /* the reader of settings refuses it */
-    return kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error);
+    return capacity->valuedouble > p->params.debris_capacity ? kd_play_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error) : KD_OK;
 }
 
 static enum kd_status change_taken(struct play_task *t, struct kd_playground **p, cJSON *tree, struct kd_error *error)
@@ -98,23 +111,33 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     const struct kd_play_state state = kd_play_state(t->play);
     struct kd_play_pace pace = state.pace;
     const uint32_t before = (*p)->last_id;
+    struct kd_server *server = t->task.request->server;
+    cJSON *look = cJSON_DetachItemFromObjectCaseSensitive(tree, "scene");
+    struct kd_scene scene;
     bool quota;
-    enum kd_status status;
+    enum kd_status status = KD_OK;
     t->conflict = state.stepping;
     if (t->conflict)
-        return kd_error_set(error, KD_EINVAL, "the playground is being stepped: it is changed before or after that");
+        KD_TRY(kd_error_set(error, KD_EINVAL, "the playground is being stepped: it is changed before or after that"));
     KD_TRY(kd_play_read_pace(tree, &pace, error));
+    kd_play_scene(t->play, &scene);
+    KD_TRY(kd_play_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
+    if (look)
+        KD_TRY(kd_plays_takes(server->plays, &scene, error));
     if (tree->child) {
-        KD_TRY(make_room(t, tree, error));
+        KD_TRY(make_room(t, *p, tree, error));
         status = kd_playground_patch_tree(p, tree, error);
-        kd_play_room(t->play, (*p)->params.debris_capacity, &quota, &(struct kd_error) { 0 }); /* as it has come out: never more than was counted */
+        kd_play_room(t->play, (*p)->params.debris_capacity, &quota, &(struct kd_error) { 0 }); /* as it has come out: what is too much is given back */
         KD_TRY(status);
         kd_play_moved(t->play);
     }
+    if (look)
+        KD_TRY(kd_play_set_scene(t->play, &scene, error));
     if (pace.rate != state.pace.rate || pace.paused != state.pace.paused)
         kd_play_set_pace(t->play, &pace);
     KD_TRY(tell(t, *p, &(struct kd_play_told) { .before = before }, error));
 done:
+    cJSON_Delete(look);
     return status;
 }
 
@@ -335,3 +358,25 @@ enum MHD_Result kd_handle_play_fallback(struct kd_request *request)
     static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE };
     return table(request, FALLBACK, types, 2);
 }
+
+/* The session that shows the play: a reference, or NULL after a refusal. */
+static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result *refused)
+{
+    struct kd_session *picture = NULL;
+    struct kd_error error = { 0 };
+    bool quota;
+    struct kd_play *play = kd_play_of(request, refused);
+    if (!play)
+        return NULL;
+    if (kd_play_picture(play, &quota, &picture, &error)) {
+        struct kd_problem problem = kd_problem_from(&error);
+        if (quota)
+            problem.type = KD_PROBLEM_QUOTA;
+        *refused = kd_reply_problem(request, &problem);
+    }
+    kd_play_release(play);
+    return picture;
+}
+
+enum MHD_Result kd_handle_play_frame(struct kd_request *request) { return kd_live_frame(request, picture_of); }
+enum MHD_Result kd_handle_play_frames(struct kd_request *request) { return kd_live_frames(request, picture_of); }

@@ -3,6 +3,7 @@
  * Its goal goes on with the clock, at the rate that is asked, and the bodies follow in sub-steps until they are past it. They may be behind by LAG_S of the rate, which a
  * crowded machine makes up for later; what is more is let go. A beat, a thirtieth of a second, has room for as many sub-steps as the setting `budget` says. */
 #include "base/clock.h"
+#include "playground/show.h"
 #include "server/playground/internal.h"
 
 #include <math.h>
@@ -22,15 +23,29 @@ struct order {
     bool over, goes, anew, awaited;
     double rate;
     uint32_t debris; /* pieces that somebody wants */
+    struct kd_session *shown; /* a picture of it that somebody looks at, a reference; NULL: none */
 };
 
+/* The most pieces that anybody waits for, or has asked for of late. Locked. */
+static uint32_t wanted_debris(const struct kd_play *play, double now)
+{
+    uint32_t most = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0;
+    for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
+        most = w->debris > most ? w->debris : most;
+    return most;
+}
+
+/* With `work`. */
 static struct order look(struct kd_play *play, double now)
 {
     pthread_mutex_lock(&play->all->lock);
     const struct order order = { .over = !play->listed, .anew = play->anew, .rate = play->pace.rate, .awaited = kd_play_awaited(play),
                                  .goes = !play->pace.paused && !play->stepping && play->pace.rate > 0 && kd_play_awake(play, now),
-                                 .debris = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0 };
+                                 .debris = wanted_debris(play, now), .shown = kd_play_shown(play, now) };
     play->anew = false;
+    if (play->unshown)
+        play->shown = 0;
+    play->unshown = false;
     if (!order.goes)
         play->reached = 0;
     pthread_mutex_unlock(&play->all->lock);
@@ -137,15 +152,36 @@ static double publish(struct kd_play *play, const struct order *order, double no
     return 0;
 }
 
+/* Hands the picture what it is to show now. Returns as publish. */
+static double show(struct kd_play *play, const struct order *order, double now)
+{
+    struct kd_crowd *crowd = NULL;
+    const uint64_t generation = kd_play_state(play).generation;
+    if (!order->shown || play->shown == generation)
+        return 0;
+    if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
+        return play->shown_ms + TICK_MS;
+    if (kd_playground_show(play->p, &crowd, NULL))
+        return now + MOST_MS; /* there may be memory then */
+    play->shown = generation;
+    play->shown_ms = now;
+    kd_session_show(order->shown, crowd);
+    return 0;
+}
+
+static double sooner(double one, double other) { return one > 0 && (one < other || !(other > 0)) ? one : other; }
+
 enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
 {
     struct kd_play *play = (struct kd_play *)job;
+    bool behind = false;
+    pthread_mutex_lock(&play->work); /* first: who has it meanwhile may change what is to be done */
     double now = kd_clock_ms();
     const struct order order = look(play, now);
-    bool behind = false;
-    if (order.over)
+    if (order.over) {
+        pthread_mutex_unlock(&play->work);
         return KD_TURN_LAST;
-    pthread_mutex_lock(&play->work);
+    }
     if (!order.goes)
         play->looked_ms = 0;
     else if (order.anew || !(play->looked_ms > 0))
@@ -153,9 +189,10 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
     else
         behind = advance(play, order.rate, now);
     now = kd_clock_ms();
-    const double ahead = play->p->t - play->goal, due = publish(play, &order, now);
-    const double next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
-    job->due_ms = due > 0 && (!order.goes || due < next) ? due : next;
+    const double ahead = play->p->t - play->goal, next = order.goes ? now + fmin(fmax(1e3 * ahead / order.rate, LEAST_MS), MOST_MS) : 0;
+    job->due_ms = sooner(publish(play, &order, now), sooner(show(play, &order, now), next));
     pthread_mutex_unlock(&play->work);
+    if (order.shown)
+        kd_session_release(order.shown);
     return behind ? KD_TURN_MORE : KD_TURN_PARK;
 }

@@ -25,7 +25,8 @@ static enum kd_play_news news(const struct kd_play_watcher *w, double now)
         return KD_PLAY_OVER;
     if (has_tick(w))
         return KD_PLAY_TICK;
-    return now > w->deadline_ms ? KD_PLAY_LATE : KD_PLAY_LATER;
+    const bool comes = !w->stream && play->generation >= w->least; /* it is being made, and at once, whatever the deadline */
+    return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
 static void resume(struct kd_play_watcher *w)
@@ -133,7 +134,7 @@ void kd_plays_sweep(struct kd_plays *all)
         all->looked_ms = now;
     for (struct kd_play *play = all->first, *next; play; play = next) {
         next = play->next;
-        if (play->watchers)
+        if (play->watchers || play->stepping || kd_play_looked_at(play))
             play->used_ms = now;
         kd_play_wake(play, now);
         for (struct kd_play_watcher *w = look ? play->watchers : NULL; w; w = w->next)

@@ -18,6 +18,8 @@ struct kd_session {
     struct kd_scene scene; /* as at since_ms */
     struct kd_timeline path; /* what it goes along since then instead, if it has keys; */
     struct kd_scene on_path; /* the latest valid scene of which */
+    struct kd_crowd *crowd; /* that it shows besides; NULL: none, or none yet */
+    bool crowded, crowd_moved; /* it has one; another one than in the latest frame */
     double since_ms, used_ms;
     char lens_key[65]; /* of the scene as asked */
     struct kd_governor governor;

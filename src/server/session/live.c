@@ -80,7 +80,7 @@ static enum MHD_Result bad_number(struct kd_request *request, const char *detail
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
 }
 
-enum MHD_Result kd_handle_session_frame(struct kd_request *request)
+enum MHD_Result kd_live_frame(struct kd_request *request, kd_session_find_fn *find)
 {
     uint64_t after, wait;
     enum MHD_Result refused;
@@ -92,7 +92,7 @@ enum MHD_Result kd_handle_session_frame(struct kd_request *request)
         return bad_number(request, "after is the number of a frame, Kerrd-Frame of one that you have");
     if (!kd_target_whole(&request->target, "wait_ms", WAIT_MS, 60000, &wait))
         return bad_number(request, "wait_ms is a whole number of milliseconds, 0 to 60000");
-    struct kd_session *session = kd_session_of(request, &refused);
+    struct kd_session *session = find(request, &refused);
     if (!session)
         return refused;
     struct kd_viewer *viewer = request->connection ? calloc(1, sizeof *viewer) : NULL;
@@ -240,10 +240,10 @@ static uint64_t last_event(struct kd_request *request, struct kd_session *sessio
     return number <= state.frame ? number : 0;
 }
 
-static enum MHD_Result open_stream(struct kd_request *request, int form, const char *type)
+static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_fn *find, int form, const char *type)
 {
     enum MHD_Result refused;
-    struct kd_session *session = kd_session_of(request, &refused);
+    struct kd_session *session = find(request, &refused);
     if (!session)
         return refused;
     struct stream *s = request->connection ? calloc(1, sizeof *s) : NULL;
@@ -267,12 +267,14 @@ static enum MHD_Result open_stream(struct kd_request *request, int form, const c
     return start_stream(request, s, type);
 }
 
-enum MHD_Result kd_handle_session_frames(struct kd_request *request)
+enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *find)
 {
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
     bool binary = accept.data && strstr((const char *)accept.data, BINARY_TYPE);
     kd_buffer_finish(&accept);
-    return binary ? open_stream(request, BINARY, BINARY_TYPE) : open_stream(request, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
+    return binary ? open_stream(request, find, BINARY, BINARY_TYPE) : open_stream(request, find, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
 }
 
-enum MHD_Result kd_handle_session_events(struct kd_request *request) { return open_stream(request, EVENTS, "text/event-stream"); }
+enum MHD_Result kd_handle_session_frame(struct kd_request *request) { return kd_live_frame(request, kd_session_of); }
+enum MHD_Result kd_handle_session_frames(struct kd_request *request) { return kd_live_frames(request, kd_session_of); }
+enum MHD_Result kd_handle_session_events(struct kd_request *request) { return open_stream(request, kd_session_of, EVENTS, "text/event-stream"); }

@@ -121,7 +121,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     if (atomic_load(&server->phase) >= KD_REFUSING)
         return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_STOPPING, .retry_after = 1,
                                                                 .detail = "the server is stopping and takes no new sessions" });
-    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, &quota, &session, &error)) {
+    if (kd_sessions_open(server->sessions, &planned->scene, &planned->plan, request->client, false, &quota, &session, &error)) {
         problem = kd_problem_from(&error);
         if (quota)
             problem.type = KD_PROBLEM_QUOTA;

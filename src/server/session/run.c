@@ -19,6 +19,7 @@ struct kd_session_frame {
     unsigned revision;
     double begun_ms;
     struct kd_turn turn;
+    struct kd_crowd *crowd; /* that its scene shows: held */
     bool rendered;
 };
 
@@ -61,6 +62,10 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
+    if (s->crowd) {
+        kd_scene_show(&live->job.scene, s->crowd);
+        live->job.scene.top.time += s->crowd->time;
+    }
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
     if (kd_plan_make(&live->job.scene, &capacity, &live->job.plan, error)) {
@@ -71,14 +76,14 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
      * frames of a drag are. */
     if (!turn->refining && s->governor.share < 1)
         live->job.plan.audit /= SHARED_AUDIT;
-    if (!turn->refining && s->exposed_revision == s->revision && (kd_emit_moves(scene) || kd_session_on_its_way(s, now)))
+    if (!turn->refining && s->exposed_revision == s->revision && (kd_emit_moves(scene) || s->crowd || kd_session_on_its_way(s, now)))
         follow_exposure(s, now, &live->job.plan);
     return live;
 }
 
 void kd_session_pump(struct kd_session *s)
 {
-    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s))
+    if (!s->listed || s->failed || s->rendering || s->encoding >= ENCODING_MAX || !kd_session_awaited(s) || (s->crowded && !s->crowd))
         return;
     double now = kd_clock_ms();
     struct kd_scene scene;
@@ -89,7 +94,7 @@ void kd_session_pump(struct kd_session *s)
     }
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
-    if (moves || s->moved) /* what has come to rest since the latest frame differs from it too */
+    if (moves || s->moved || s->crowd_moved) /* what has come to rest since the latest frame differs from it too */
         kd_governor_changed(&s->governor, now, &scene, flies || s->flew);
     const struct kd_turn turn = kd_governor_turn(&s->governor, now);
     if (turn.wait_ms > 0)
@@ -100,6 +105,9 @@ void kd_session_pump(struct kd_session *s)
         return;
     }
     live->number = ++s->begun;
+    live->crowd = s->crowd;
+    kd_crowd_keep(live->crowd);
+    s->crowd_moved = false;
     s->moved = moves;
     s->flew = flies;
     live->revision = s->revision;
@@ -230,5 +238,6 @@ static void done(struct kd_render_job *job)
     pthread_mutex_unlock(&all->lock);
     kd_buffer_finish(&job->file);
     kd_frame_finish(&job->frame);
+    kd_crowd_release(live->crowd);
     free(live);
 }

@@ -29,6 +29,7 @@ void kd_session_let_go(struct kd_session *s)
     if (--s->references)
         return;
     kd_live_frame_release(s->latest);
+    kd_crowd_release(s->crowd);
     kd_timeline_finish(&s->path);
     free(s);
 }
@@ -95,7 +96,7 @@ static enum kd_status make_plan(struct kd_sessions *all, const struct kd_scene *
 }
 
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                bool *quota, struct kd_session **out, struct kd_error *error)
+                                bool crowded, bool *quota, struct kd_session **out, struct kd_error *error)
 {
     *quota = false;
     struct kd_session *s = calloc(1, sizeof *s);
@@ -105,6 +106,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
     }
     s->all = all;
     s->references = 2; /* the list's and the caller's */
+    s->crowded = crowded;
     snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;
     s->revision = 1;
@@ -227,6 +229,55 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     pthread_mutex_unlock(&s->all->lock);
 done:
     return status;
+}
+
+enum kd_status kd_session_put(struct kd_session *s, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_plan plan;
+    enum kd_status status = make_plan(s->all, scene, &plan, error);
+    if (status)
+        return status;
+    pthread_mutex_lock(&s->all->lock);
+    kd_timeline_finish(&s->path);
+    change(s, kd_clock_ms(), scene, &plan);
+    pthread_mutex_unlock(&s->all->lock);
+    return KD_OK;
+}
+
+void kd_session_show(struct kd_session *s, struct kd_crowd *crowd)
+{
+    pthread_mutex_lock(&s->all->lock);
+    struct kd_crowd *old = s->crowd;
+    s->crowd = crowd;
+    s->crowd_moved = true;
+    kd_session_drop_refinement(s);
+    kd_session_pump(s);
+    pthread_mutex_unlock(&s->all->lock);
+    kd_crowd_release(old);
+}
+
+bool kd_session_watched(struct kd_session *s)
+{
+    pthread_mutex_lock(&s->all->lock);
+    const bool watched = s->viewers;
+    pthread_mutex_unlock(&s->all->lock);
+    return watched;
+}
+
+bool kd_session_over(struct kd_session *s)
+{
+    pthread_mutex_lock(&s->all->lock);
+    const bool over = !s->listed;
+    pthread_mutex_unlock(&s->all->lock);
+    return over;
+}
+
+struct kd_session *kd_session_share(struct kd_session *s)
+{
+    pthread_mutex_lock(&s->all->lock);
+    s->references++;
+    pthread_mutex_unlock(&s->all->lock);
+    return s;
 }
 
 enum kd_status kd_session_follow(struct kd_session *s, struct kd_timeline *path, struct kd_session_state *out, struct kd_error *error)

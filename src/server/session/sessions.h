@@ -8,6 +8,7 @@
 
 #include "server/render/live_frame.h"
 #include "server/render/queue.h"
+#include "scene/crowd.h"
 #include "scene/timeline.h"
 #include "server/http/counts.h"
 
@@ -31,10 +32,18 @@ void kd_sessions_destroy(struct kd_sessions *all);
 /* Fails with KD_ETOOBIG where a frame of the plan would take too long. */
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error);
 
-/* Opens a session of a valid scene with its plan; its frames are counted in the client's share. The caller holds a reference.
+/* Opens a session of a valid scene with its plan; its frames are counted in the client's share. The caller holds a reference. crowded: it shows a crowd
+ * besides its scene, and nothing before kd_session_show.
  * KD_EBUSY: there are as many sessions as may be, or with *quota as many of this client. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan, const char *client,
-                                bool *quota, struct kd_session **out, struct kd_error *error);
+                                bool crowded, bool *quota, struct kd_session **out, struct kd_error *error);
+/* Shows this crowd from now on, at its time after the scene's; takes over the reference. The revision stays what it is. */
+void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
+/* Puts a scene in the place of the present one, resolved and valid. */
+enum kd_status kd_session_put(struct kd_session *session, const struct kd_scene *scene, struct kd_error *error);
+bool kd_session_watched(struct kd_session *session); /* somebody waits, or reads a stream */
+bool kd_session_over(struct kd_session *session);
+struct kd_session *kd_session_share(struct kd_session *session); /* another reference */
 /* Finds the session of this id: a reference, or NULL. The session counts as asked for. */
 struct kd_session *kd_sessions_find(struct kd_sessions *all, const char *id);
 void kd_session_release(struct kd_session *session);
@@ -103,5 +112,9 @@ enum MHD_Result kd_session_answer(struct kd_request *request, const struct kd_se
 enum MHD_Result kd_session_forbid(struct kd_request *request);
 void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; accepts NULL */
 void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */
+/* Answer with the newest frame, and with all of them, of the session that `find` gives, as kd_session_of does. */
+typedef struct kd_session *kd_session_find_fn(struct kd_request *request, enum MHD_Result *refused);
+enum MHD_Result kd_live_frame(struct kd_request *request, kd_session_find_fn *find);
+enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *find);
 
 #endif

@@ -1,0 +1,97 @@
+/* A play is shown by a session (server/session), which is opened when somebody asks for the first frame, and given a crowd of what there is to see whenever that has
+ * changed and somebody looks (run.c). Locks are taken in the order work, all->lock, the sessions' lock. */
+#include "base/clock.h"
+#include "server/playground/internal.h"
+#include "server/render/queue.h"
+
+#define ASKED_MS 1000. /* for which who asked for a frame may be on the way back for another */
+
+/* These run with the lock. */
+
+bool kd_play_looked_at(const struct kd_play *play) { return play->picture && kd_session_watched(play->picture); }
+
+struct kd_session *kd_play_shown(const struct kd_play *play, double now)
+{
+    const bool may = play->picture && (now - play->looked_at_ms < ASKED_MS || kd_session_watched(play->picture));
+    return may ? kd_session_share(play->picture) : NULL;
+}
+
+void kd_play_hide(struct kd_play *play)
+{
+    struct kd_session *picture = play->picture;
+    play->picture = NULL;
+    if (!picture)
+        return;
+    kd_session_end(picture);
+    kd_session_release(picture);
+}
+
+/* These take the lock themselves. */
+
+void kd_play_scene(struct kd_play *play, struct kd_scene *out)
+{
+    pthread_mutex_lock(&play->all->lock);
+    *out = play->scene;
+    pthread_mutex_unlock(&play->all->lock);
+}
+
+enum kd_status kd_plays_takes(struct kd_plays *all, const struct kd_scene *scene, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    kd_render_queue_capacity(all->params.renders, &capacity);
+    enum kd_status status = kd_plan_make(scene, &capacity, &plan, error);
+    return status ? status : kd_sessions_takes(all->params.sessions, &plan, error);
+}
+
+enum kd_status kd_play_set_scene(struct kd_play *play, const struct kd_scene *scene, struct kd_error *error)
+{
+    enum kd_status status;
+    KD_TRY(kd_plays_takes(play->all, scene, error));
+    pthread_mutex_lock(&play->all->lock);
+    status = play->picture && !kd_session_over(play->picture) ? kd_session_put(play->picture, scene, error) : KD_OK;
+    if (!status)
+        play->scene = *scene;
+    pthread_mutex_unlock(&play->all->lock);
+done:
+    return status;
+}
+
+static enum kd_status open_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error)
+{
+    struct kd_capacity capacity;
+    struct kd_plan plan;
+    struct kd_scene scene;
+    enum kd_status status;
+    kd_play_scene(play, &scene);
+    kd_render_queue_capacity(play->all->params.renders, &capacity);
+    KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
+    KD_TRY(kd_sessions_open(play->all->params.sessions, &scene, &plan, play->turns.client, true, quota, out, error));
+done:
+    return status;
+}
+
+enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_session **out, struct kd_error *error)
+{
+    struct kd_session *fresh = NULL;
+    enum kd_status status = KD_OK;
+    *quota = false;
+    pthread_mutex_lock(&play->all->lock);
+    const bool there = play->picture && !kd_session_over(play->picture);
+    pthread_mutex_unlock(&play->all->lock); /* only the HTTP thread opens one */
+    if (!there)
+        status = open_picture(play, quota, &fresh, error);
+    if (status)
+        return status;
+    pthread_mutex_lock(&play->all->lock);
+    if (fresh) {
+        kd_play_hide(play);
+        play->picture = fresh;
+        play->unshown = true;
+    }
+    *out = play->picture ? kd_session_share(play->picture) : NULL;
+    play->looked_at_ms = kd_clock_ms();
+    kd_play_call(play);
+    pthread_mutex_unlock(&play->all->lock);
+    return *out ? KD_OK : kd_error_set(error, KD_EBUSY, "the playground is ending");
+}
