@@ -166,6 +166,7 @@ done:
 /* What pieces there are, as kd_debris_advance would know it; false: one cannot be. */
 static bool look(struct kd_playground_debris *d)
 {
+    double haste = 0;
     d->alive = 0;
     for (uint32_t i = 0; i < d->used; i++) {
         const struct kd_debris_piece *piece = &d->pieces[i];
@@ -176,9 +177,10 @@ static bool look(struct kd_playground_debris *d)
             continue;
         if (!(r < 1e18) || !(kd_playground_radius(v) < 1.001) || !isfinite(piece->back) || !d->sources[piece->source].number)
             return false;
+        haste += 1 / fmax(r - KD_PLAYGROUND_HORIZON, 1e-3);
         d->alive++;
     }
-    return !d->alive || (d->haste > 0 && d->haste < 1e9);
+    return !d->alive || (d->haste > 0.5 * haste && d->haste < 1e9); /* it bounds the sub-steps that all of them take at once */
 }
 
 static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *item, struct kd_error *error)

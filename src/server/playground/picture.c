@@ -85,6 +85,8 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
         return status;
     pthread_mutex_lock(&play->all->lock);
     if (fresh) {
+        if (play->picture)
+            kd_session_go_on_from(fresh, play->picture);
         kd_play_hide(play);
         play->picture = fresh;
         play->unshown = true;

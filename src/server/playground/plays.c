@@ -79,7 +79,7 @@ void kd_play_unlist(struct kd_play *play, const char *why)
     kd_play_wake(play, kd_clock_ms());
 }
 
-bool kd_play_awake(const struct kd_play *play, double now) 
+bool kd_play_awake(const struct kd_play *play, double now)
 {
     return play->watchers || now - play->used_ms < KD_PLAY_REST_MS || kd_play_looked_at(play);
 }

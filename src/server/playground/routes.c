@@ -124,15 +124,21 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_play_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     if (look)
         KD_TRY(kd_plays_takes(server->plays, &scene, error));
+    struct kd_scene old;
+    kd_play_scene(t->play, &old);
+    if (look) { /* first: it can fail, and can be put back */
+        KD_TRY(kd_play_set_scene(t->play, &scene, error));
+        kd_play_moved(t->play);
+    }
     if (tree->child) {
-        KD_TRY(make_room(t, *p, tree, error));
-        status = kd_playground_patch_tree(p, tree, error);
+        status = make_room(t, *p, tree, error);
+        status = status ? status : kd_playground_patch_tree(p, tree, error);
+        if (status && look)
+            kd_play_set_scene(t->play, &old, &(struct kd_error) { 0 });
         kd_play_room(t->play, (*p)->params.debris_capacity, &quota, &(struct kd_error) { 0 }); /* as it has come out: what is too much is given back */
         KD_TRY(status);
         kd_play_moved(t->play);
     }
-    if (look)
-        KD_TRY(kd_play_set_scene(t->play, &scene, error));
     if (pace.rate != state.pace.rate || pace.paused != state.pace.paused)
         kd_play_set_pace(t->play, &pace);
     KD_TRY(tell(t, *p, &(struct kd_play_told) { .before = before }, error));

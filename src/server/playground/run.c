@@ -161,6 +161,8 @@ static double show(struct kd_play *play, const struct order *order, double now)
         return 0;
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
+    if (play->shown && !kd_session_hungry(order->shown))
+        return now + LEAST_MS; /* a crowd for each frame: more would be time that nobody sees */
     if (kd_playground_show(play->p, &crowd, NULL))
         return now + MOST_MS; /* there may be memory then */
     play->shown = generation;
@@ -180,6 +182,8 @@ enum kd_turn_end kd_play_turn(struct kd_turns_job *job)
     const struct order order = look(play, now);
     if (order.over) {
         pthread_mutex_unlock(&play->work);
+        if (order.shown)
+            kd_session_release(order.shown);
         return KD_TURN_LAST;
     }
     if (!order.goes)

@@ -267,9 +267,24 @@ bool kd_session_watched(struct kd_session *s)
 bool kd_session_over(struct kd_session *s)
 {
     pthread_mutex_lock(&s->all->lock);
-    const bool over = !s->listed;
+    const bool over = !s->listed || s->failed;
     pthread_mutex_unlock(&s->all->lock);
     return over;
+}
+
+bool kd_session_hungry(struct kd_session *s)
+{
+    pthread_mutex_lock(&s->all->lock);
+    const bool hungry = !s->crowd_moved;
+    pthread_mutex_unlock(&s->all->lock);
+    return hungry;
+}
+
+void kd_session_go_on_from(struct kd_session *s, struct kd_session *other)
+{
+    pthread_mutex_lock(&s->all->lock);
+    s->begun = other->begun;
+    pthread_mutex_unlock(&s->all->lock);
 }
 
 struct kd_session *kd_session_share(struct kd_session *s)
