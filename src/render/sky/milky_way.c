@@ -119,7 +119,8 @@ static float dust(const struct clouds *c, const float n[3], const float smooth[S
 }
 
 static void look(const struct clouds *c, const float smooth[SMOOTH], const struct along *l, const struct across *b, float rgb[3])
-{    static const float reddening[] = { 0.72f, 1, 1.35f };
+{
+    static const float reddening[] = { 0.72f, 1, 1.35f };
     const float n[3] = { b->cos * l->cos, b->cos * l->sin, b->sin };
     starlight(c, n, smooth, l, b, rgb);
     const float depth = 1.5f * dust(c, n, smooth, l, b->b);
