@@ -21,6 +21,7 @@ const names = {
   debris_per_body: t('Pieces of a star', 'Pezzi di una stella'),
   debris_temperature_k: t('Temperature of debris', 'Temperatura dei detriti'),
   debris_depth: t('Depth of debris', 'Profondità dei detriti'),
+  albedo: t('Light thrown back', 'Luce rimandata'),
   seed: t('Seed', 'Seme'),
 };
 

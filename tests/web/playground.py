@@ -249,6 +249,28 @@ class Playground(Browser):
         self.assertEqual(left, [])
         self.assertGreater(len(texts), 30)
 
+    def test_as_light_shows_it(self):
+        page = self.open_play('lang=en&play.preset=disruption&play.paused=1&play.show=both')
+        page.wait_for_selector('#play-lensed img[src]', timeout=60000)
+        lit = page.evaluate('''() => {
+            const image = document.querySelector('#play-lensed img'), { naturalWidth: w, naturalHeight: h } = image, c = new OffscreenCanvas(w, h).getContext('2d');
+            c.drawImage(image, 0, 0);
+            return c.getImageData(0, 0, w, h).data.filter((v, i) => i % 4 === 0 && v > 60).length;
+        }''')
+        self.assertGreater(lit, 50)
+        camera = lambda: self.state()['scene']['camera']['inclination_deg']
+        before, shown = camera(), page.get_attribute('#play-lensed img', 'src')
+        page.focus('#play-lensed')
+        page.keyboard.press('ArrowUp')
+        self.assertTrue(daemon.eventually(lambda: abs(camera() - (before - 5)) < 1e-9))
+        self.assertTrue(daemon.eventually(lambda: page.get_attribute('#play-lensed img', 'src') != shown))
+        self.assertEqual(page.inner_text('#play-lensed'), '')
+        self.shot(page, 'playground-both')
+        page.click('#play-show-lensed')
+        self.assertFalse(page.is_visible('#play-stage'))
+        page.click('#play-show-plan')
+        self.assertFalse(page.is_visible('#play-lensed'))
+
     def test_what_was_left_goes_on(self):
         """A playground that nobody watches ends; who comes back finds it as it was left."""
         self.expected = '404'
