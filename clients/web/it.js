@@ -654,6 +654,8 @@ export const sentences = {
     'disco spesso: il suo gas gira con la velocità angolare dell’orbita circolare nel piano alla sua distanza dall’asse, a qualunque altezza',
   "thick disk: the sum of emission and absorption along each ray, without scattering; what it emits is that of a black body of the thin disk's temperature, from top to bottom":
     'disco spesso: somma di emissione e assorbimento lungo ogni raggio, senza diffusione; emette come un corpo nero della temperatura del disco sottile, da cima a fondo',
+  'thick disk: light through its turbulence is found to 2e-2, 1e-2, 1e-3, 1e-4 or 5e-5 by accuracy.profile, from draft to reference: coarser than through smooth volumes':
+    'disco spesso: la luce attraverso la turbolenza è trovata entro 2e-2, 1e-2, 1e-3, 1e-4 o 5e-5 secondo accuracy.profile, da draft a reference: meno finemente che attraverso volumi lisci',
   'thick disk: shown at one coordinate time, whatever disk.slow_light says':
     'disco spesso: mostrato a un solo tempo coordinato, qualunque cosa dica disk.slow_light',
   'volume: made up, the same everywhere between its edges, at rest for observers of zero angular momentum; it ends a hundredth outside the horizon; grey, its colour that of a chosen temperature, and its light bolometric, whatever disk.band says':

@@ -8,6 +8,7 @@
     F(w_least) F(w_most)   /* 1/r of crossings that may shine */                                              \
     F(along_least) F(along_most) /* 1/r between which volumes are, */                                         \
     F(along_hollow) F(along_u)   /* and the least and the largest |cos(theta)| */                                \
+    F(along_knot)          /* 1/r of a sphere at which the light of one has an edge; 0: none */               \
     F(r_isco)                                                                                                  \
     F(one_minus_a)         /* 1 - spin, which a float of the spin has lost near 1 */                           \
     F(inner) F(outer)      /* edges of the disk, M, whether anything shines between them or not */

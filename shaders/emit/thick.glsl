@@ -1,6 +1,8 @@
 /* This is the smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the axis, z = r cos(theta),
  *
- *   density ~ exp(-z^2/2H^2),   H = height R (R/10)^flare,   between the spheres of the disk's edges, where R is beyond the ISCO, and to 4.5 H.
+ *   density ~ exp(-z^2/2H^2) (1 - (z/4.5 H)^8)^3,   H = height R (R/10)^flare,   between the spheres of the disk's edges, where R is beyond the ISCO,
+ *
+ * and to 4.5 H, where it ends without an edge, which places between it and the plane would find or miss.
  *
  * It shines as the thin disk does, of whose temperature and flux it is at R, and goes round with the Omega of the circular orbit there, at any height
  * (the metric's own u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972). From top to bottom it has the optical
@@ -8,9 +10,10 @@
  * opacity and fade, so that for a small height the picture is the thin disk's. Turbulence is that of gas.glsl, its noise with a third coordinate. */
 #ifndef KD_BLOCK_thick
 #define KD_THICK_REACH 4.5     /* H */
+#define KD_THICK_AMID 0.399624938 /* of the density, over the column: of height 1: its integral is 1 */
 #define KD_THICK_NOISE 5.237147522273636 /* 1 over the standard deviation of gradient noise by gradients of a cube */
 #define KD_THICK_FAINT 0.15    /* octaves fainter than this part of the first are sampled as the others ask for */
-#define KD_THICK_UNSEEN 0.05   /* those whose part is less than this one of the first, by what gas there is, are left out */
+#define KD_THICK_UNSEEN 0.05   /* those whose part is less than this one of the first, by what gas there is, are left out, and fade to that from three times as much */
 #define KD_THICK_LAYERS 3.0    /* cells in height for each in the plane: streaks are as much narrower than they are long */
 #define KD_BLOCK_thick(F, U, A)                                                                                 \
     F(height) F(flare)     /* H/R at 10 M, and the power of R/10 that it grows as */                           \
@@ -72,7 +75,7 @@ struct kd_thick_stir { float excess, finest; };
 kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
 {
     float u = max((log2(axis) - emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;
-    float x2 = x * x, share = x2 * x2 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
+    float x3 = x * x * x, share = x3 * x3 * (462.0 + x * (-1980.0 + x * (3465.0 + x * (-3080.0 + x * (1386.0 - 252.0 * x)))));
     float w1 = sqrt(max(1.0 - share, 0.0)), w2 = sqrt(share);
     uint k = min(uint(j), KD_GAS_RINGS - 2u);
     vec4 ring = kd_table_row(gas, k * (KD_GAS_OCTAVES + 1u));
@@ -89,8 +92,11 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     mat2 next = KD_GAS_FINER * mat2(cos(KD_GAS_TURN), sin(KD_GAS_TURN), -sin(KD_GAS_TURN), cos(KD_GAS_TURN));
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
-        if (!(part * counts > KD_THICK_UNSEEN * emission.gas.loudness))
+        float seen = part * counts / (KD_THICK_UNSEEN * emission.gas.loudness) - 1.0;
+        if (!(seen > 0.0))
             break;
+        seen = min(0.5 * seen, 1.0);
+        part *= seen * seen * seen * (10.0 + seen * (6.0 * seen - 15.0));
         vec2 a = kd_thick_noise(vec3(one.p, up), kd_gas_lattice(one, octave)), b = kd_thick_noise(vec3(two.p, up), kd_gas_lattice(two, octave));
         sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
         finest *= octave > 0u && part > KD_THICK_FAINT * emission.gas.loudness ? KD_GAS_FINER : 1.0;
@@ -123,18 +129,21 @@ kd_medium kd_thick_along(kd_midst p)
     kd_thick_stir stir = KD_THICK_TAKEN > 0u ? kd_thick_excess(p, axis, z, exp(-0.25 * x * x)) : kd_thick_stir(0.0, 0.0);
     float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
 
-    /* The thin disk's opacity for light at this angle, as an optical depth along the normal. */
-    float fade = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0), cap = emission.disk.opacity * (fade * fade * (3.0 - 2.0 * fade));
+    /* The thin disk's opacity for light at this angle, as an optical depth along the normal: what it lets through has no difference of what is nearly the same. */
+    float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0), on = f * f * (3.0 - 2.0 * f), off_ = (1.0 - f) * (1.0 - f) * (1.0 + 2.0 * f);
     float c = p.du / s / (r * seen), slant = sqrt(c * c + emission.thick.height * emission.thick.height), depth = emission.gas.depth * flux * more;
     bool deep = (TRAITS_thick & KD_TRAIT_GAS_DEEP) != 0u;
-    float taken = cap * (deep ? 1.0 - exp(-depth / slant) : 1.0);
-    if (!deep || cap < 1.0)
-        depth = taken < 0.01 ? slant * taken * (1.0 + taken * (0.5 + taken * (1.0 / 3.0))) : -slant * log(1.0 - min(taken, 0.999999));
-    depth *= 0.3989422804 / height * exp(-0.5 * x * x) * seen;
+    float y = depth / slant, passes = deep ? exp(-y) : 0.0, stops = !deep ? 1.0 : y < 0.02 ? y * (1.0 - y * (0.5 - y * (1.0 / 6.0))) : 1.0 - passes;
+    float taken = emission.disk.opacity * on * stops, left = 1.0 - emission.disk.opacity + emission.disk.opacity * (off_ + on * passes);
+    if (!deep || emission.disk.opacity * on < 1.0)
+        depth = slant * (taken < 0.1 ? taken * (1.0 + taken * (0.5 + taken * (1.0 / 3.0 + taken * (0.25 + taken * (0.2 + taken * (1.0 / 6.0))))))
+                                     : -log(max(left, deep ? 1e-30 : 1e-6)));
+    float edge = x * x * (1.0 / (KD_THICK_REACH * KD_THICK_REACH)), ends = max(1.0 - edge * edge * edge * edge, 0.0);
+    depth *= KD_THICK_AMID / height * exp(-0.5 * x * x) * ends * ends * ends * seen;
     if (KD_THICK_TAKEN > 0u) {
         float across = out_ * out_ + (round_ + emission.gas.shear * out_) * (round_ + emission.gas.shear * out_) + KD_THICK_LAYERS * KD_THICK_LAYERS * dz * dz;
-        float rare = 1.0 + max(abs(x) - 1.5, 0.0); /* where there is less of it, it may be sampled less */
-        grain = 1.0 / (1.0 / grain + 0.5 * sqrt(across) * emission.gas.cells * stir.finest / (axis * rare));
+
+        grain = 1.0 / (1.0 / grain + 0.5 * sqrt(across) * emission.gas.cells * stir.finest / axis);
     }
     return kd_medium(depth * kd_black_body(t * sqrt(sqrt(more)) / shown, TRAITS_thick), depth, grain);
 }

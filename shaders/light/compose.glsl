@@ -97,7 +97,7 @@ kd_medium kd_medium_at(kd_midst p)
 void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {
     float x = medium.depth * way, passes = exp(-x);
-    float mean = x < 0.02 ? 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))) : (1.0 - passes) / x;
+    float mean = x < 0.25 ? 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x * (1.0 / 120.0 - x * (1.0 / 720.0))))) : (1.0 - passes) / x;
     KD_TELL_ON(beam.through * mean, way)
     beam.light += (beam.through * mean) * min(way * medium.light, KD_BEAM_MOST);
     beam.through *= passes;

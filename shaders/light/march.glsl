@@ -25,6 +25,7 @@
 #define KD_MARCH_TOO_LONG 1.5 /* one that is by so much longer than its places allow is gone through anew */
 #define KD_MARCH_BEHIND 1.5   /* grain of what little is seen of, at most, over that of what is in front */
 #define KD_MARCH_LOOPS 65536u /* more than there are: lavapipe ends loops before their condition does, and what that leaves undone is to be found out */
+#define KD_MARCH_DEEP 1e3      /* optical depth that is as good as any above */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this of the light behind comes through */
 
 /* A polynomial of the time within a step, from 0 to 1. */
@@ -178,16 +179,34 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
     return x < 8.0 ? exp(-0.5 * x) * rest : vec3(0.0);
 }
 
-/* Goes through a part of a step that lies in the volumes. */
+/* Sums of many small parts keep what their last digit loses (Kahan 1965): thousands of places, each rounded likewise, are off by 5e-5 else. */
+void kd_march_add(inout float sum, inout float off, float more)
+{
+    precise float y = more - off, t = sum + y;
+    precise float rounded = t - sum;
+    off = rounded - y;
+    sum = t;
+}
+
+void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
+{
+    precise vec3 y = more - off, t = sum + y;
+    precise vec3 rounded = t - sum;
+    off = rounded - y;
+    sum = t;
+}
+
+/* Goes through a part of a step that lies in the volumes. What it adds is summed up by itself, and what comes through it is the exponential of its depth. */
 void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, float from, float to, inout float stretch, inout bool lost)
 {
-    float coarse = 4.0 / float(FINE);
+    float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
+    vec3 light = vec3(0.0), light_off = vec3(0.0);
     float wish = stretch / s.h; /* how long the next stretch may be; 0: not known, and what is found on one of no length tells */
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE; n++) {
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0, least = KD_MARCH_SHORTEST;
         float next = from + length_;
         length_ = next - from; /* as rounded */
-        kd_beam trial = beam;
+        kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
         KD_TELL_TRY
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
@@ -199,19 +218,22 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
             kd_beam_along(trial, medium, weight * length_ * way);
             one = two;
             two = three;
-            three = vec4(min(weight * length_ * way * medium.light, KD_BEAM_MOST), weight * length_ * way * medium.depth);
+            three = vec4(min(weight * length_ * way * medium.light, KD_BEAM_MOST), min(weight * length_ * way * medium.depth, KD_MARCH_DEEP));
             float allowed = min(min(medium.grain * far, KD_MARCH_WAY * r) / (p.speed * s.h), KD_MARCH_DEPTH / max(medium.depth * way, 1e-30));
             most = min(most, coarse * allowed);
             least = min(least, KD_MARCH_LEAST * coarse * KD_MARCH_WAY * r / (p.speed * s.h));
         }
         wish = max(most, least);
         if (length_ > 0.0 && length_ <= KD_MARCH_TOO_LONG * wish) {
-            KD_TELL_TAKE(beam.light, trial.light, beam.through * kd_march_rest(one, two, three))
-            beam.light = min(trial.light + beam.through * kd_march_rest(one, two, three), KD_BEAM_MOST);
-            beam.through = trial.through;
+            vec3 rest = beam.through * kd_march_rest(one, two, three);
+            KD_TELL_TAKE(vec3(0.0), trial.light, rest)
+            kd_march_add(light, light_off, min(trial.light + rest, KD_BEAM_MOST));
+            kd_march_add(depth, depth_off, one.w + two.w + three.w);
+            beam.through = front * exp(-depth);
             from = length_ < left ? next : to;
         }
     }
+    beam.light = min(beam.light + light, KD_BEAM_MOST);
     stretch = wish * s.h;
     lost = lost || (from < to && beam.through > KD_MARCH_OPAQUE);
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
@@ -300,6 +322,11 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         end = turn_w > t ? min(end, turn_w) : end;
         end = turn_u > t ? min(end, turn_u) : end;
         end = plane > t ? min(end, plane) : end;
+        if (emission.frame.along_knot > 0.0) {
+            float before = kd_quintic_at(s.w, t) - emission.frame.along_knot, behind = kd_quintic_at(s.w, end) - emission.frame.along_knot;
+            float knot = before * behind < 0.0 ? kd_quintic_root(s.w, emission.frame.along_knot, t, end) : none;
+            end = knot > t ? min(end, knot) : end;
+        }
         float from = t, to = end, up = t < plane ? y.side : -y.side;
         kd_quintic_clip(s.w, emission.frame.along_least, 1.0, from, to);
         kd_quintic_clip(s.w, emission.frame.along_most, -1.0, from, to);

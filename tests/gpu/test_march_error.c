@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT }; /* of the largest picture */
 
 static struct kd_scene scene_of(const char *preset, const char *json)
 {
@@ -45,14 +45,15 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
     static double off[PIXELS];
     double most = 0;
     int n = 0;
-    for (int i = 0; i < PIXELS; i++)
-        most = fmax(most, intensity(b)[i]);
-    for (int i = 0; i < PIXELS; i++) {
+    const int pixels = (int)(a->width * a->height);
+    for (int i = 0; i < pixels; i++)
+        most = fmax(most, isfinite(intensity(b)[i]) ? intensity(b)[i] : 0);
+    for (int i = 0; i < pixels; i++) {
         const double x = intensity(a)[i], y = intensity(b)[i], own = fmax(x, y);
-        if (x != y)
+        if (isfinite(x + y) && x != y) /* a driver that ends loops gives up some rays of the finer march */
             off[n++] = fabs(x - y) / fmax(own, 1e-3 * most);
     }
-    assert_true(n > PIXELS / 20);
+    assert_true(n > pixels / 20);
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
@@ -121,7 +122,7 @@ static double shell_error(struct kd_scene scene)
     return worst;
 }
 
-/* Each profile holds what it aims at where all is smooth, but for what 32 bits leave: a shell in each ray, a thick disk in nine of ten. */
+/* Each profile holds what it aims at where all is smooth: a shell in each ray, a thick disk in nine of ten. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -135,10 +136,29 @@ static void test_profiles(void **state)
         struct kd_frame frame = rendered(&scene);
         const struct errors is = compare(&frame, &fine);
         print_message("profile %d, aim %.0e: shell %.2g; thick disk %.2g, worst %.2g\n", profile, aims[profile], shells[profile], is.nine, is.worst);
-        assert_true(shells[profile] < aims[profile] + 1e-5 && is.nine < aims[profile] + 3e-5);
+        assert_true(shells[profile] < aims[profile] && is.nine < aims[profile]);
         kd_frame_finish(&frame);
     }
     assert_true(shells[0] > 5 * shells[2] && shells[1] > 2 * shells[2]); /* each is another one */
+    kd_frame_finish(&fine);
+}
+
+/* And each of those that take less than minutes holds what it aims at in turbulence, of which the march tells no less than there is. */
+static void test_stirred(void **state)
+{
+    (void)state;
+    static const double aims[] = KD_MARCH_STIRRED_ERRORS;
+    struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":96,\"height\":54}}");
+    struct kd_frame fine = by_plan(&scene, 2, 1); /* at balanced, twice that is off by a seventh */
+    for (int profile = 0; profile <= KD_PROFILE_BALANCED; profile++) {
+        scene.accuracy.profile = profile;
+        struct kd_frame frame = rendered(&scene);
+        const struct errors is = compare(&frame, &fine);
+        print_message("profile %d, aim %.0e: turbulent disk %.2g, worst %.2g; said %.2g\n", profile, aims[profile], is.nine, is.worst, frame.accuracy.volume_error);
+        assert_true(is.nine < aims[profile] && is.nine > 0.02 * aims[profile]);
+        assert_true(frame.accuracy.volume_error < aims[profile]);
+        kd_frame_finish(&frame);
+    }
     kd_frame_finish(&fine);
 }
 
@@ -168,6 +188,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_said),
         cmocka_unit_test(test_profiles),
+        cmocka_unit_test(test_stirred),
         cmocka_unit_test(test_refused),
     };
     int code = open_renderer();

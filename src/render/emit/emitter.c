@@ -204,6 +204,16 @@ static double height_of_all(const struct kd_scene *scene)
     return most >= 1 ? 2 : most; /* no ray is held to find where it passes the axis */
 }
 
+/* 1/r of the outermost edge within a volume; 0: none has one. */
+static double knot_of_all(const struct kd_scene *scene)
+{
+    double r = 0;
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]) && kd_emitters[i]->knot)
+            r = fmax(r, kd_emitters[i]->knot(scene));
+    return r > 0 ? 1 / r : 0;
+}
+
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels)
 {
     struct kd_emission *numbers = &state->data.emission;
@@ -228,6 +238,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .along_least = (float)(1 / along[1]),
         .along_most = (float)fmin(1 / along[0], 1e30),
         .along_hollow = (float)hollow_of_all(scene),
+        .along_knot = (float)knot_of_all(scene),
         .along_u = (float)height_of_all(scene),
         .r_isco = (float)kd_kerr_isco(scene->spacetime.spin),
         .one_minus_a = (float)(1 - scene->spacetime.spin),

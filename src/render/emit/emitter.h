@@ -50,6 +50,8 @@ struct kd_emitter {
     /* Of one ALONG: the least and the largest |cos(theta)| there; NULL: 0 and 1. The march finds these edges and those of `reach` to a float's accuracy, of all volumes of a
      * scene together: an edge inside those bounds is as sharp as the emitter's grain tells. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
+    /* Of one ALONG: r of a sphere within its reach where its light or its depth has an edge, M, which the march finds as well; 0 or NULL: none. */
+    double (*knot)(const struct kd_scene *scene);
     /* Fill in numbers; and tables, which may take milliseconds. They are called anew when a part of the scene that they depend on
      * has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);

@@ -8,15 +8,20 @@
 
 enum { LEAST = 2, BALANCED = 4, MOST = 64 };
 
-static double error_of(const struct kd_accuracy *a)
+static bool is_stirred(const struct kd_scene *scene) { return kd_emit_along(scene) && scene->disk.height > 0 && scene->gas.amplitude > 0; }
+
+static double error_of(const struct kd_scene *scene)
 {
-    static const double errors[] = KD_MARCH_ERRORS;
-    return isfinite(a->tolerance) ? a->tolerance : errors[a->profile];
+    static const double errors[] = KD_MARCH_ERRORS, stirred[] = KD_MARCH_STIRRED_ERRORS;
+    const struct kd_accuracy *a = &scene->accuracy;
+    return isfinite(a->tolerance) ? a->tolerance : (is_stirred(scene) ? stirred : errors)[a->profile];
 }
 
-static uint32_t fine_of(double error)
+/* Measured in the preset thick-disk at 320 x 180: nine of ten rays are within 8e-3 of 16 times as many stretches at four quarters, and within 1.6e-3 at eight,
+ * 5e-4 at twelve: noise is smooth to the second derivative only. */
+static uint32_t fine_of(double error, bool stirred)
 {
-    double fine = ceil(BALANCED * sqrt(sqrt(1e-4 / error)) - 1e-9);
+    double fine = ceil(BALANCED * (stirred ? pow(8e-3 / error, 1 / 2.8) : sqrt(sqrt(1e-4 / error))) - 1e-9);
     return (uint32_t)fmin(fmax(fine, LEAST), MOST);
 }
 
@@ -34,8 +39,7 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
     const double bodies = kd_emit_met(scene) ? BODIES * steps / 16 : 0;
     if (!kd_emit_along(scene))
         return bodies;
-    const bool stirred = scene->disk.height > 0 && scene->gas.amplitude > 0;
-    return bodies + (0.25 * steps / 16 + 0.75 * fine / BALANCED) * (stirred ? 1 + 0.25 * scene->gas.octaves : 1);
+    return bodies + (0.25 * steps / 16 + 0.75 * fine / BALANCED) * (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
 /* One pixel in 144, of which what is followed for the error takes a thirtieth of what the picture does; of small pictures more, of large ones less. */
@@ -57,8 +61,8 @@ static struct kd_march_sample sample_of(uint32_t width, uint32_t height)
 
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    const double error = error_of(&scene->accuracy);
-    const uint32_t steps = steps_of(error, rays), fine = fine_of(error);
+    const double error = error_of(scene);
+    const uint32_t steps = steps_of(error, rays), fine = fine_of(error, is_stirred(scene));
     return (struct kd_march) {
         .steps = steps, .weight = weight_of(scene, steps, fine), .fine = fine, .opaque = 0.1 * error, .sample = kd_emit_along(scene) ? sample_of(scene->image.width, scene->image.height) : (struct kd_march_sample) { 0 },
     };
