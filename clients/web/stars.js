@@ -7,7 +7,8 @@ import { ask } from './server.js';
 const near_px = 16;
 const rest_ms = 250; // that a camera has been still
 const hidden = 0.02; // through which part of a disk a star shows
-const stale_deg = 0.5; // places are told on to where they are after less
+const stale_px = 6; // places go on by so much before a new list is asked for,
+const again_ms = 1500; // and no sooner: it is a picture's work on the device that makes these
 
 export const hasNames = scene => scene.get('sky.model') === 'catalogue' && scene.get('camera.projection') !== 'ring' && scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
@@ -58,7 +59,9 @@ export function buildStars(stage, scene) {
   let timer = 0,
     pointer = null,
     azimuth = null, // of the latest picture
-    last = null; // the list of one that turns
+    last = null, // the list of one that turns
+    pace = 0, // of the star that is named, pixels a degree
+    asked = 0;
 
   const turns = () => azimuth != null && scene.goesOn() && scene.get('motion.azimuth_rate_deg') !== 0;
   const gone = list => (turns() ? ((azimuth - list.azimuth_deg + 540) % 360) - 180 : 0);
@@ -73,6 +76,7 @@ export function buildStars(stage, scene) {
       by = gone(list),
       images = list.images.map(one => ({ ...one, x: one.x + by * one.x_by_azimuth, y: one.y + by * one.y_by_azimuth })),
       image = images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
+    pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px; // else a degree
     clear();
     if (!image) return;
     const all = images.filter(one => one.name === image.name && one.designation === image.designation);
@@ -87,6 +91,7 @@ export function buildStars(stage, scene) {
 
   const look = latest(async () => {
     if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.proper_time_rate'))) return clear();
+    asked = performance.now();
     const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null); // without them the picture is as good
     last = turns() ? list : null;
     if (list && pointer) name(list);
@@ -115,7 +120,7 @@ export function buildStars(stage, scene) {
       azimuth = frame.azimuth;
       if (!last || !pointer || !turns()) return;
       name(last);
-      if (Math.abs(gone(last)) > stale_deg) look();
+      if (pace * Math.abs(gone(last)) > stale_px && performance.now() > asked + again_ms) look();
     },
   };
 }
