@@ -33,7 +33,7 @@ void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_sh
         const float x = pieces[i].x[0], y = pieces[i].x[1], z = pieces[i].x[2], r2 = x * x + y * y + z * z, across2 = x * x + y * y;
         float column = cells * atan2f(y, x);
         column += column < 0 ? turn : 0;
-        const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 < 1e30f;
+        const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 > 1 && r2 < 1e30f; /* the hole is there, or more than the coarsest grid has rows for */
         out[i] = somewhere ? (struct kd_show_place) { 0.5f * cells * logf(r2), column < turn ? column : 0 } : (struct kd_show_place) { NAN, NAN };
     }
 }
@@ -79,6 +79,8 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
             *first = (i + 1) % KD_SHOW_TURN_LEAST;
         }
     }
+    if (widest < 2) /* as good as all round */
+        *first = widest = 0;
     *count = KD_SHOW_TURN_LEAST - widest;
 }
 
@@ -92,7 +94,7 @@ void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_
     if (!take(places, n, &taken) || !taken.pieces)
         return;
     beside_gap(taken.column, &first, &columns);
-    const double rows = taken.rows[1] - taken.rows[0] + 1, mean = (double)taken.pieces / (double)taken.cells;
+    const double rows = fmin(taken.rows[1] - taken.rows[0] + 1, KD_SHOW_NODES / (columns + 1) - 1), mean = (double)taken.pieces / (double)taken.cells;
     const bool round_ = columns == KD_SHOW_TURN_LEAST;
     while (finer < COARSER && mean >= PER_CELL * 4 * finer * finer && (2 * finer * rows + 1) * (2 * finer * columns + 1) <= KD_SHOW_NODES)
         finer *= 2;
@@ -128,11 +130,12 @@ void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_sho
     const size_t width = KD_CROWD_NODE * (size_t)to->columns;
     double thick = 0;
     for (size_t i = 0; i < n; i++) {
-        if (isnan(places[i].row)) {
+        const float row = scale * places[i].row - (float)to->first_row;
+        if (isnan(row) || row > (float)(to->rows - 1)) {
             to->hidden += pieces[i].stage != KD_DEBRIS_FREE;
             continue;
         }
-        const float row = scale * places[i].row - (float)to->first_row, from = scale * places[i].column - (float)to->first_column;
+        const float from = scale * places[i].column - (float)to->first_column;
         const float column = from < 0 ? from + turn : from, *x = pieces[i].x;
         const uint32_t k = (uint32_t)fminf(fmaxf(row, 0), (float)(to->rows - 2)), j = (uint32_t)fminf(column, (float)(to->columns - (to->columns == to->turn ? 1 : 2)));
         const float upper = row - (float)k, right = column - (float)j;

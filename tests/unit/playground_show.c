@@ -196,13 +196,13 @@ static void a_star_is_shown(void **state)
 static void nowhere(void **state)
 {
     (void)state;
-    struct kd_debris_piece pieces[6] = { piece(10, 1, 0, 0, 0), piece(20, 2, 0, 0, 0), piece(1, 0, 0, 0, 0), piece(5, 0, 0, 0, 0), piece(6, 0, 0, 0, 0), piece(7, 0, 0, 0, 0) };
+    struct kd_debris_piece pieces[7] = { piece(10, 1, 0, 0, 0), piece(20, 2, 0, 0, 0), piece(1, 0, 0, 0, 0), piece(5, 0, 0, 0, 0), piece(6, 0, 0, 0, 0), piece(7, 0, 0, 0, 0), piece(1e-9, 0, 0, 0, 0) };
     pieces[2].x[0] = pieces[2].x[1] = 0; /* on the axis */
     pieces[3].x[1] = NAN;
     pieces[4].x[0] = INFINITY;
     pieces[5].x[2] = 1e20f;
-    struct kd_crowd *crowd = grid_of(pieces, 6, 1);
-    assert_int_equal(crowd->debris.pieces + crowd->debris.hidden, 6);
+    struct kd_crowd *crowd = grid_of(pieces, 7, 1);
+    assert_int_equal(crowd->debris.pieces + crowd->debris.hidden, 7);
     assert_true(crowd->debris.pieces == 2 && fabs(sums_of(&crowd->debris).worth - 2) < 1e-5);
     kd_crowd_release(crowd);
 }
