@@ -59,6 +59,7 @@ export const sentences = {
   'pieces of debris there may be; a new one takes the place of the oldest': 'quanti pezzi di detriti ci possono essere; uno nuovo prende il posto del più vecchio',
   'pieces that a body falls into when it is torn apart': 'in quanti pezzi cade un corpo fatto a pezzi',
   'temperature in K of the black body that debris shines as in pictures': 'temperatura in K del corpo nero come cui i detriti splendono nelle immagini',
+  "share of the disk's light that bodies throw back in pictures; 0: that is not looked for": 'quota della luce del disco che i corpi rimandano nelle immagini; 0: non la si cerca',
   'optical depth in pictures of the debris of one body, spread over 1000 M^2': 'profondità ottica, nelle immagini, dei detriti di un corpo sparsi su 1000 M²',
   "share of the disk's light that bodies throw back in pictures; 0: that is not looked for": 'quota della luce del disco che i corpi rimandano nelle immagini; 0: non la si calcola',
   'of the directions that debris takes': 'delle direzioni che prendono i detriti',

@@ -559,8 +559,12 @@ export const sentences = {
     'macchie: lo spostamento Doppler o il redshift gravitazionale del gas è disattivato',
   "spots: fast light: shown where they are at one coordinate time, whatever the light's delay":
     'macchie: luce veloce: mostrate dove sono a un solo tempo coordinato, qualunque sia il ritardo della luce',
-  'bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows, no light of the disk on them':
-    'corpi: sfere opache nel proprio riferimento; lo spazio è piatto, e la luce dritta, alla scala di ognuno: niente maree, gravità propria, ombre, né luce del disco su di loro',
+  'bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows':
+    'corpi: sfere opache nel proprio riferimento; lo spazio è piatto, e la luce dritta, alla scala di ognuno: niente maree, gravità propria, né ombre',
+  'bodies: no light of the disk falls on them':
+    'corpi: su di loro non cade luce del disco',
+  'bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly to all sides; three moments of its direction are kept':
+    'corpi: rimandano la luce di un disco liscio che nulla nasconde, dritta da 16 anelli di 24 luoghi, ugualmente da ogni lato; della sua direzione si tengono tre momenti',
   'bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its centre, where a body has another shape':
     'corpi: uno il cui raggio è più di un decimo della distanza dal buco è disegnato nello spazio piatto del suo centro, dove un corpo ha un’altra forma',
   'bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening':

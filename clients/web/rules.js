@@ -20,8 +20,8 @@ const names = {
   debris_capacity: t('Places for debris', 'Posti per i detriti'),
   debris_per_body: t('Pieces of a star', 'Pezzi di una stella'),
   debris_temperature_k: t('Temperature of debris', 'Temperatura dei detriti'),
+  albedo: t('Albedo of bodies', 'Albedo dei corpi'),
   debris_depth: t('Depth of debris', 'Profondità dei detriti'),
-  albedo: t('Light thrown back', 'Luce rimandata'),
   seed: t('Seed', 'Seme'),
 };
 

@@ -16,11 +16,14 @@
     F(x) F(y) F(z) F(reach)   /* a ball round all of them, M: x and y by azimuths that are mirrored, 0 at the observer */ \
     U(leaves)                   /* of the tree, a power of two */
 #define KD_TABLES_bodies(T)
-#define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH)
+#define KD_TRAIT_LIT 64u /* some throw back light of the disk */
+#define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
 /* A tree of balls in the order of a heap: nodes from 1 on, of x, y, z and radius, two below each, of which the last `leaves` are the bodies'. Behind it
  * lie the bodies, KD_BODY_WORDS each: three rows of the map A, each with what it makes of the centre; velocity and gamma; the velocity
- * past which coordinates turn, R, limb darkening and brightness; factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and which body of the list it is. */
-#define KD_BODY_WORDS 28
+ * past which coordinates turn, R, limb darkening and brightness; factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and which body of the list it is;
+ * and the light of the disk that it throws back (src/render/emit/bodies_lit.c): its sum and its sum along r, theta and phi; that along rr, thetatheta and phiphi, and its
+ * temperature over the disk's largest; that along rtheta, rphi and thetaphi. */
+#define KD_BODY_WORDS 40
 #define KD_BUFFERS_bodies(B) B(3, float, bodies)
 #define KD_PASS_bodies(P)
 #endif
@@ -44,11 +47,34 @@ float kd_bodies_shift(kd_met met)
 /* In its own frame. */
 float kd_bodies_kelvin(kd_met met) { return emission.disk.peak * kd_body_row(met.body, 6u).x; }
 
+/* What falls on a surface of normal y from light of these moments of direction n, to their second order (R. Ramamoorthi & P. Hanrahan 2001, "On the
+ * relationship between radiance and irradiance", J. Opt. Soc. Am. A 18, 2448): a cosine that is cut at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
+vec3 kd_bodies_reflected(kd_met met)
+{
+    vec4 a = kd_body_row(met.body, 7u), b = kd_body_row(met.body, 8u), c = kd_body_row(met.body, 9u);
+    float s = sqrt(max(1.0 - met.u * met.u, 0.0));
+    vec4 p = vec4(s * cos(met.phi), -s * sin(met.phi), met.u, met.w);
+    vec3 y = vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
+    /* The normal, by the frame of the body: light left it at t' = R cos there. */
+    vec4 v = kd_body_row(met.body, 3u), own = kd_body_row(met.body, 4u);
+    y /= max(met.w, 1e-12);
+    float t = (met.cosine * own.y / v.w + dot(v.xyz, y)) / (1.0 + v.z * own.x);
+    y.z -= own.x * t;
+    y += v.xyz * (v.w * v.w / (v.w + 1.0) * dot(v.xyz, y) - v.w * t);
+    y *= inversesqrt(max(dot(y, y), 1e-30));
+    float square = dot(b.xyz, y * y) + 2.0 * (c.x * y.x * y.y + c.y * y.x * y.z + c.z * y.y * y.z);
+    float light = max(0.25 * a.x + 0.5 * dot(a.yzw, y) + (5.0 / 32.0) * (3.0 * square - a.x), 0.0), t2 = b.w * b.w;
+    return b.w > 0.0 ? light / (t2 * t2) * kd_black_body(min(b.w / kd_bodies_shift(met), 1e6), TRAITS_bodies) : vec3(0.0);
+}
+
 vec3 kd_bodies_light(kd_met met)
 {
     vec4 own = kd_body_row(met.body, 4u);
     float t = kd_body_row(met.body, 6u).x / kd_bodies_shift(met), limb = (1.0 - own.z * (1.0 - met.cosine)) / (1.0 - own.z * (1.0 / 3.0));
-    return min(own.w * limb * kd_black_body(min(t, 1e6), TRAITS_bodies), 1e30);
+    vec3 light = own.w * limb * kd_black_body(min(t, 1e6), TRAITS_bodies);
+    if ((TRAITS_bodies & KD_TRAIT_LIT) != 0u)
+        light += kd_bodies_reflected(met);
+    return min(light, 1e30);
 }
 #endif
 #endif

@@ -126,6 +126,8 @@ float of_crossing(uvec2 place, uint at)
     kd_met met = kd_met_nothing();
     if (KD_MEETS)
         met = kd_meet(place);
+    if (KD_MEETS && kd_meet_lost)
+        return KD_NOTHING;
     before = min(ORDERS, met.crossed);
 #endif
     for (uint n = 0; n < before; n++) {

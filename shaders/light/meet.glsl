@@ -101,6 +101,12 @@ uint kd_met_next(uint node)
     return next == 1u ? 0u : next;
 }
 
+/* Whether it is not known what the ray at hand meets: a driver may end loops before their condition does, and of thousands of bodies on top of each other there
+ * are more than lavapipe goes through. */
+bool kd_meet_lost = false;
+
+#define KD_MEET_CLOSE 0.995 /* of 1/r of the horizon: up to there places of a step are known; azimuths have no end at it */
+
 kd_met kd_meet(uvec2 place)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -126,8 +132,10 @@ kd_met kd_meet(uvec2 place)
             p = q;
             float was = h;
             h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
-            if (p.v.w > 0.0 && p.y.w < near_horizon) /* azimuths have no end there: not across it in one go */
+            if (p.v.w > 0.0 && p.y.w < near_horizon) /* azimuths have no end there: not across it in one go, */
                 h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
+            else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon) /* and then by halves */
+                h = min(h, 0.5 * (cam.horizon - p.y.w) / p.v.w);
             q = kd_path_step(m, p, h);
             if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
                 q.v.w = kd_leaving(m, q.y.w, ray.e);
@@ -164,6 +172,7 @@ kd_met kd_meet(uvec2 place)
         if (node == 0u && met.body != KD_NOBODY) /* later steps lie behind */
             break;
     }
+    kd_meet_lost = node != 0u || (goes && met.body == KD_NOBODY);
     return met;
 }
 
@@ -173,6 +182,11 @@ void kd_follow(inout kd_beam beam, uvec2 place, uint at)
     kd_met met = kd_met_nothing();
     if (KD_MEETS)
         met = kd_meet(place);
+    if (KD_MEETS && kd_meet_lost) {
+        KD_MARCH_GIVEN_UP(beam);
+        beam.through = 0.0;
+        return;
+    }
     if (KD_MARCHES)
         kd_march_follow(beam, place, at, met.time, met.crossed);
     for (uint n = 0u; !KD_MARCHES && KD_GLOWS && n < min(ORDERS, met.crossed) && beam.through > 0.0; n++) {

@@ -30,6 +30,8 @@ static const char *number_in(const char *path, int *length)
 enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error)
 {
     int length;
+    if (!asked->path && (asked->scene.document || asked->scene.preset || asked->scene.n_set || asked->stats))
+        return kd_error_set(error, KD_EINVAL, "--scene, --scene-preset, --scene-set, --size and --stats are for --picture FILE, which is missing");
     if (!asked->path)
         return asked->every > 0 ? kd_error_set(error, KD_EINVAL, "--every is for --picture FILE, which is missing") : KD_OK;
     if (!kd_format_of_path(asked->path))

@@ -31,6 +31,7 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
     WHOLE(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
     REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the black body that debris shines as in pictures") \
     REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
+    REAL(albedo, 0, 0, 1, "share of the disk's light that bodies throw back in pictures; 0: that is not looked for") \
     WHOLE(seed, 1, 0, 4294967295u, "of the directions that debris takes")
 
 struct kd_playground_params {

@@ -189,6 +189,7 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
     struct kd_playground_params looks = *params; /* how it is shown, and all else as it is */
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;
+    looks.albedo = p->params.albedo;
     const bool moves_on = same(&looks, &p->params);
     if (!moves_on)
         disturb(p);

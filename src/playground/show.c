@@ -16,13 +16,13 @@ static double slower(const double v[3], bool approximate)
     return approximate ? 1 / sqrt(1 + v2) : 1;
 }
 
-static void show_body(const struct kd_playground_body *body, uint32_t which, bool approximate, struct kd_seen_body *out)
+static void show_body(const struct kd_playground_body *body, uint32_t which, bool approximate, double albedo, struct kd_seen_body *out)
 {
     const struct kd_playground_spherical at = kd_playground_spherical(body->x, body->v);
     const double slow = slower(at.v, approximate);
     *out = (struct kd_seen_body) {
         .r = at.r, .u = cos(at.theta), .s = sin(at.theta), .phi = at.phi, .velocity = { slow * at.v[0], slow * at.v[1], slow * at.v[2] },
-        .radius = body->radius, .which = which, .temperature_k = body->temperature_k, .brightness = 1, .limb_darkening = LIMB,
+        .radius = body->radius, .which = which, .temperature_k = body->temperature_k, .brightness = 1, .limb_darkening = LIMB, .albedo = albedo,
     };
 }
 
@@ -163,7 +163,7 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd
         kd_show_grid(places, n, &grid);
     KD_TRY(kd_crowd_create(p->n, grid.rows, grid.columns, &crowd, error));
     for (size_t i = 0; i < p->n; i++)
-        show_body(&p->bodies[i], (uint32_t)i, approximate, &crowd->bodies[i]);
+        show_body(&p->bodies[i], (uint32_t)i, approximate, p->params.albedo, &crowd->bodies[i]);
     grid.nodes = crowd->debris.nodes;
     grid.temperature_k = p->params.debris_temperature_k;
     grid.depth = p->params.debris_depth;

@@ -24,6 +24,7 @@ struct kd_seen_body {
     double radius;           /* in its own frame; 0 or less: it is not seen */
     uint32_t which;          /* what a pixel that shows it is told: its place in whoever's list */
     double temperature_k, brightness, limb_darkening; /* as bodies.* of a scene has them */
+    double albedo; /* share of the disk's light that it throws back, evenly to all sides; 0: that is not looked for */
 };
 
 /* Debris lies on nodes, 2 pi/turn apart in azimuth and in ln r, turn being a power of two: `rows` rows of `columns` nodes each, which begin at

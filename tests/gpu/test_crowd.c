@@ -4,10 +4,12 @@
 
 #include "kerr_schild.h"
 #include "playground/show.h"
+#include "render/emit/bodies.h"
+#include "render/emit/emitter.h"
 
 #include <math.h>
 
-enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, MOST = 8, MANY = 4096 };
+enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, MOST = 8, MANY = 4096, FINE = 64 };
 #define RADIUS 0.15
 #define LEAST_K 3000.0 /* bodies are told by their temperatures: one is 2 K hotter than the one before */
 
@@ -271,6 +273,102 @@ static void test_debris(void **state)
     }
 }
 
+/* A dark body far from the hole throws back what falls on the side that is seen: the whole integral over the disk, by places ten times as many and with the
+ * cosine itself, where light is straight. */
+static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
+{
+    const double inner = kd_disk_inner(scene), outer = scene->disk.outer, radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+    static double heat[FINE]; /* of this scene's disk, whichever body is looked at */
+    double sum = 0;
+    for (int i = 0; i < FINE; i++)
+        for (int k = 0; k < FINE; k++) {
+            const double r = inner + (outer - inner) * (i + 0.5) / FINE, phi = 2 * M_PI * (k + 0.5) / FINE;
+            heat[i] = heat[i] > 0 ? heat[i] : kd_disk_heat(scene, r);
+            const double t = heat[i];
+            const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] }, d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
+            const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length, v = 1 / sqrt(r - 2); /* of a circle in Schwarzschild's metric, past one at rest */
+            const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length, g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);
+            sum += cosine > 0 ? t * t * t * t * g * g * g * g * cosine * fabs(at[2]) / length / d2 * r * (outer - inner) / FINE * 2 * M_PI / FINE : 0;
+        }
+    return sum;
+}
+
+/* What falls on one that moves: light by light carried over into its frame by the matrix of the boost, a photon's four components at a time. */
+static void test_lit_moving(void **state)
+{
+    (void)state;
+    static const double velocities[][3] = { { 0.4, 0, 0 }, { -0.3, 0.2, 0.5 }, { 0, -0.6, 0.1 } };
+    struct kd_scene scene = scene_of("{\"spacetime\":{\"spin\":0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0}}");
+    const double r = 60, u = 0.6, s = 0.8, inner = kd_disk_inner(&scene), dr = (25 - inner) / FINE;
+    struct kd_lit lit;
+    assert_true(kd_lit_of(&scene, &lit));
+    for (int k = 0; k < 3; k++) {
+        const double *v = velocities[k], v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], gamma = 1 / sqrt(1 - v2);
+        const struct kd_seen_body body = { .r = r, .u = u, .s = s, .phi = 1, .velocity = { v[0], v[1], v[2] }, .radius = 1, .albedo = 1 };
+        double sums[10] = { 0 };
+        float got[12];
+        kd_lit_body(&lit, &body, sqrt(1 - 2 / r), got);
+        for (int i = 0; i < FINE * FINE; i++) {
+            const double at = inner + dr * (i / FINE + 0.5), phi = 2 * M_PI * (i % FINE + 0.5) / FINE, t = kd_disk_heat(&scene, at);
+            const double d[3] = { at * cos(phi) - r * s, at * sin(phi), -r * u }, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), gas = 1 / sqrt(at - 2);
+            /* The photon flies along -d; by the gas it has the energy gamma (1 + v.d), by the body the components of the boost. */
+            const double k4[4] = { 1, -(s * d[0] + u * d[2]) / length, -(u * d[0] - s * d[2]) / length, -d[1] / length };
+            const double emitted = (1 + gas * (-sin(phi) * d[0] + cos(phi) * d[1]) / length) / sqrt(1 - gas * gas);
+            double seen[4] = { gamma * k4[0], 0, 0, 0 };
+            for (int m = 0; m < 3; m++) {
+                seen[0] -= gamma * v[m] * k4[m + 1];
+                seen[m + 1] = k4[m + 1] - gamma * v[m] * k4[0];
+                for (int n = 0; n < 3; n++)
+                    seen[m + 1] += (gamma - 1) * v[m] * v[n] / v2 * k4[n + 1];
+            }
+            const double g = seen[0] / emitted * sqrt((1 - 2 / at) / (1 - 2 / r)), from[3] = { -seen[1] / seen[0], -seen[2] / seen[0], -seen[3] / seen[0] };
+            const double solid = at * dr * (2 * M_PI / FINE) * r * u / (length * length * length), f = pow(t * g, 4) * solid / (seen[0] * seen[0]) / M_PI;
+            const double all[10] = { f, f * from[0], f * from[1], f * from[2], f * from[0] * from[0], f * from[1] * from[1], f * from[2] * from[2],
+                                     f * from[0] * from[1], f * from[0] * from[2], f * from[1] * from[2] };
+            for (int m = 0; m < 10; m++)
+                sums[m] += all[m];
+        }
+        const float order[10] = { got[0], got[1], got[2], got[3], got[4], got[5], got[6], got[8], got[9], got[10] };
+        printf("moving %d: %.4g and %.4g\n", k, got[0], sums[0]);
+        for (int m = 0; m < 10; m++)
+            if (fabs(order[m] - sums[m]) > 0.02 * sums[0])
+                fail_msg("moment %d: %g, not %g, of %g", m, order[m], sums[m], sums[0]);
+    }
+}
+
+static void test_lit(void **state)
+{
+    (void)state;
+    static const double polar[] = { 20, 60, 140 };
+    for (int k = 0; k < 3; k++) {
+        struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":70,\"field_m\":30},\"spacetime\":{\"spin\":0},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":25,\"taper\":0},"
+                                         "\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
+        const double theta = polar[k] * M_PI / 180, phi = 2.6, r = 150, i = 70 * M_PI / 180, step = 30.0 / WIDTH;
+        const double at[3] = { r * sin(theta) * cos(phi), r * sin(theta) * sin(phi), r * cos(theta) };
+        struct kd_crowd *crowd = one(&(struct kd_seen_body) { .r = r, .u = cos(theta), .s = sin(theta), .phi = phi, .radius = 6, .temperature_k = 5000, .albedo = 0.5 }, 1);
+        /* Weakly bent: where it is seen, to a first guess that the picture is wide enough for. */
+        double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
+        const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]), more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
+        scene.camera.centre_alpha = image[0] * (1 + more);
+        scene.camera.centre_beta = image[1] * (1 + more);
+        kd_scene_show(&scene, crowd);
+        struct kd_frame frame = rendered(&scene);
+        double sum = 0, want = 0, most = 0;
+        for (int p = 0; p < PIXELS; p++) {
+            const double x = step * (p % WIDTH + 0.5 - 0.5 * WIDTH) / 6, y = -step * (p / WIDTH + 0.5 - 0.5 * HEIGHT) / 6, z = sqrt(fmax(1 - x * x - y * y, 0));
+            const double normal[3] = { z * sin(i) - y * cos(i), x, z * cos(i) + y * sin(i) };
+            most = fmax(most, layer_of(&frame, "intensity")[p]);
+            sum += layer_of(&frame, "intensity")[p];
+            if (x * x + y * y < 1)
+                want += 0.5 / M_PI * falls_on(&scene, at, normal) * pow(1 - 2 / r, 2); /* and by its own redshift, ^4 of the square root */
+        }
+        printf("polar angle %g: %.4g of light, %.4g by the whole integral, brightest %.2g\n", polar[k], sum, want, most);
+        assert_true(want > 0 && fabs(sum / want - 1) < 0.1);
+        kd_frame_finish(&frame);
+        kd_crowd_release(crowd);
+    }
+}
+
 /* All of them leave numbers in all pixels. */
 static void test_adversarial(void **state)
 {
@@ -324,6 +422,8 @@ int main(void)
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_as_a_scene_has_it),
         cmocka_unit_test(test_debris),
+        cmocka_unit_test(test_lit),
+        cmocka_unit_test(test_lit_moving),
         cmocka_unit_test(test_adversarial),
         cmocka_unit_test(test_off),
     };

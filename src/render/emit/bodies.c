@@ -66,7 +66,6 @@ size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out)
 
 static bool present(const struct kd_scene *scene) { return kd_bodies_count(scene); }
 
-static uint32_t traits(const struct kd_scene *scene) { return KD_TRAIT_AZIMUTH | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0); }
 
 static unsigned varies(const struct kd_scene *scene)
 {
@@ -99,9 +98,24 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
     return bodies;
 }
 
+/* Some throw back light of the disk, and there is one. */
+static bool is_lit(const struct kd_scene *scene)
+{
+    struct kd_lit lit;
+    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
+        if (scene->crowd.at->bodies[i].albedo > 0)
+            return kd_lit_of(scene, &lit);
+    return false;
+}
+
+static uint32_t traits(const struct kd_scene *scene)
+{
+    return KD_TRAIT_AZIMUTH | (scene->disk.band == KD_BAND_VISIBLE ? KD_TRAIT_VISIBLE : 0) | (is_lit(scene) ? KD_TRAIT_LIT : 0);
+}
+
 static struct kd_bodies_view view_of(const struct kd_scene *scene)
 {
-    return (struct kd_bodies_view) { scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180), kd_disk_peak_temperature(scene) * scene->disk.hardening };
+    return (struct kd_bodies_view) { scene->spacetime.spin, scene->camera.azimuth_deg * (M_PI / 180), kd_disk_peak_temperature(scene) * scene->disk.hardening, NULL };
 }
 
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -151,9 +165,12 @@ done:
 
 static enum kd_status prepare(const struct kd_own_work *work, const struct kd_scene *scene, struct kd_error *error)
 {
-    const struct kd_bodies_view view = view_of(scene);
+    struct kd_bodies_view view = view_of(scene);
+    struct kd_lit lit;
     size_t n;
     struct kd_seen_body *bodies = listed(scene, &n);
+    if (is_lit(scene) && kd_lit_of(scene, &lit))
+        view.lit = &lit;
     float *words = malloc(kd_bodies_words(n) * sizeof *words);
     enum kd_status status = bodies && words ? kd_bodies_pack(bodies, n, &view, words, error) : kd_error_set(error, KD_ENOMEM, "out of memory for bodies");
     if (!status)
@@ -201,6 +218,8 @@ static bool large(const struct kd_scene *scene, const struct kd_setting *rays)
 }
 
 static bool shown(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, scene->crowd.at && scene->crowd.at->n; }
+static bool lit_ones(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, is_lit(scene); }
+static bool dark(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, !is_lit(scene); }
 static bool by_potential(const struct kd_scene *scene, const struct kd_setting *rays) { return shown(scene, rays) && scene->crowd.at->approximate; }
 
 #define WHEN(name, condition)                                                                                  \
@@ -208,7 +227,9 @@ static bool by_potential(const struct kd_scene *scene, const struct kd_setting *
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
-    { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows, no light of the disk on them", NULL },
+    { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows", NULL },
+    { "bodies: no light of the disk falls on them", dark },
+    { "bodies: they throw back light of a smooth disk that nothing hides, straight from 16 rings of 24 places, evenly to all sides; three moments of its direction are kept", lit_ones },
     { "bodies: one whose radius is more than a tenth of its distance from the hole is drawn in the flat space of its centre, where a body has another shape", large },
     { "bodies: they shine as black bodies of one temperature, with a chosen linear law of limb darkening", NULL },
     { "bodies: fast light: shown where they are at one coordinate time, whatever the light's delay", NULL },

@@ -13,7 +13,15 @@
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* at most */
 
 /* Where all is seen from: the hole's spin, the observer's azimuth; temperature that the disk's brightness 1 is of. */
-struct kd_bodies_view { double spin, azimuth, peak_k; };
+struct kd_lit;
+struct kd_bodies_view { double spin, azimuth, peak_k; const struct kd_lit *lit; }; /* lit: NULL, the disk does not light them */
+
+/* The disk as it lights them (bodies_lit.c). False: there is no thin one. */
+enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
+struct kd_lit { struct kd_lit_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS]; };
+bool kd_lit_of(const struct kd_scene *scene, struct kd_lit *out);
+/* The light that a body throws back, as the kernels have it: 3 us. lapse: at its place. */
+void kd_lit_body(const struct kd_lit *lit, const struct kd_seen_body *body, double lapse, float out[12]);
 
 /* Counts the floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
@@ -22,7 +30,7 @@ size_t kd_bodies_words(size_t n);
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, float *words, struct kd_error *error);
 /* Finds the numbers that go with them. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct kd_bodies_block *out);
-#define KD_BODIES_CLEAR 1.05
+#define KD_BODIES_CLEAR 1.02
 
 /* Count and list those that a valid scene shows: its own as they are at its time, then those of its crowd. */
 size_t kd_bodies_count(const struct kd_scene *scene);

@@ -37,7 +37,7 @@ static double speed2(const struct kd_seen_body *b) { return b->velocity[0] * b->
 static bool is_seen(const struct kd_seen_body *b, double spin)
 {
     return b->radius > 0 && b->r >= KD_BODIES_CLEAR * kd_kerr_horizon(spin) && b->r <= 1e12 && fabs(b->u) <= 1 && b->s >= 0 && b->s <= 1 && isfinite(b->phi) &&
-           speed2(b) < 1 && isfinite(b->radius) && b->temperature_k > 0 && b->brightness >= 0;
+           speed2(b) < 1 && isfinite(b->radius) && b->albedo >= 0 && b->albedo <= 1 && b->temperature_k > 0 && b->brightness >= 0;
 }
 
 static double turn_of(const struct metric *g, const struct kd_seen_body *b) { return g->phi * b->s * g->omega / g->lapse; }
@@ -70,6 +70,7 @@ static void fill(float *w, const struct kd_seen_body *b, const struct kd_bodies_
     }
     for (int i = 0; i < 16; i++)
         w[12 + i] = (float)rest[i];
+    kd_lit_body(view->lit, b, g.lapse, w + 28);
 }
 
 static void swap(struct ball *a, struct ball *b)

@@ -44,6 +44,12 @@ double kd_disk_peak_temperature(const struct kd_scene *scene)
     return kd_disk_temperature(largest_flux(scene), a, scene->spacetime.mass_msun, scene->disk.mdot_edd);
 }
 
+double kd_disk_heat(const struct kd_scene *scene, double r)
+{
+    const double f = fmin(fmax((scene->disk.outer - r) / fmax(scene->disk.outer * scene->disk.taper, 1e-6), 0), 1), fade = f * f * (3 - 2 * f);
+    return r > kd_kerr_isco(scene->spacetime.spin) ? pow(scene->disk.opacity * fade * flux_of(scene)(scene->spacetime.spin, r) / largest_flux(scene), 0.25) : 0;
+}
+
 double kd_disk_inner(const struct kd_scene *scene)
 {
     return isinf(scene->disk.inner) ? kd_kerr_isco(scene->spacetime.spin) : scene->disk.inner;

@@ -117,6 +117,8 @@ uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* Finds the largest effective temperature of the disk in K, in the gas's own frame. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
+/* Gives the temperature over that at r whose black body is as bright as the smooth disk there, its fade and opacity included. */
+double kd_disk_heat(const struct kd_scene *scene, double r);
 /* Gives the inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);
 /* Fill in the colours of black bodies, and how luminous they are. No scene changes them; 15 ms each. */
