@@ -61,7 +61,6 @@ export const sentences = {
   'temperature in K of the black body that debris shines as in pictures': 'temperatura in K del corpo nero come cui i detriti splendono nelle immagini',
   "share of the disk's light that bodies throw back in pictures; 0: that is not looked for": 'quota della luce del disco che i corpi rimandano nelle immagini; 0: non la si cerca',
   'optical depth in pictures of the debris of one body, spread over 1000 M^2': 'profondità ottica, nelle immagini, dei detriti di un corpo sparsi su 1000 M²',
-  "share of the disk's light that bodies throw back in pictures; 0: that is not looked for": 'quota della luce del disco che i corpi rimandano nelle immagini; 0: non la si calcola',
   'of the directions that debris takes': 'delle direzioni che prendono i detriti',
   'in masses of the hole; 0: it pulls nothing': 'in masse del buco; 0: non attrae nulla',
   'in M; 0: a point, which touches nothing and has no tides': 'in M; 0: un punto, che non tocca nulla e non ha maree',
