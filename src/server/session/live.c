@@ -80,7 +80,7 @@ static enum MHD_Result bad_number(struct kd_request *request, const char *detail
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
 }
 
-enum MHD_Result kd_live_frame(struct kd_request *request, kd_session_find_fn *find)
+enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find)
 {
     uint64_t after, wait;
     enum MHD_Result refused;
@@ -275,6 +275,6 @@ enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *f
     return binary ? open_stream(request, find, BINARY, BINARY_TYPE) : open_stream(request, find, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
 }
 
-enum MHD_Result kd_handle_session_frame(struct kd_request *request) { return kd_live_frame(request, kd_session_of); }
+enum MHD_Result kd_handle_session_frame(struct kd_request *request) { return kd_live_newest(request, kd_session_of); }
 enum MHD_Result kd_handle_session_frames(struct kd_request *request) { return kd_live_frames(request, kd_session_of); }
 enum MHD_Result kd_handle_session_events(struct kd_request *request) { return open_stream(request, kd_session_of, EVENTS, "text/event-stream"); }

@@ -117,7 +117,7 @@ void kd_particles_job_destroy(struct kd_particles_job *job); /* particles.c; acc
 void kd_live_abandon(struct kd_request *request);            /* live.c: nobody waits for a frame any more */
 /* Answer with the newest frame, and with all of them, of the session that `find` gives, as kd_session_of does. */
 typedef struct kd_session *kd_session_find_fn(struct kd_request *request, enum MHD_Result *refused);
-enum MHD_Result kd_live_frame(struct kd_request *request, kd_session_find_fn *find);
+enum MHD_Result kd_live_newest(struct kd_request *request, kd_session_find_fn *find);
 enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *find);
 
 #endif
