@@ -29,7 +29,7 @@ class Saving(Browser):
             page.fill('#save-height', str(height))
 
     def save(self, page):
-        with page.expect_download(timeout=60000) as download:
+        with page.expect_download(timeout=240000) as download:
             page.click('#save')
         return download.value.suggested_filename, pathlib.Path(download.value.path()).read_bytes()
 
@@ -177,7 +177,7 @@ class Saving(Browser):
         self.choose(page, 'own', 2400, 1350)
         page.click('#save')
         self.assertTrue(daemon.eventually(lambda: page.evaluate('document.getElementById("save-bar").value') > 0, 20))
-        with page.expect_download(timeout=60000) as download:
+        with page.expect_download(timeout=240000) as download:
             page.reload()
         self.assertEqual(download.value.suggested_filename, 'kerrd-2400x1350.png')
         self.assertEqual(len(self.jobs()), 1)
