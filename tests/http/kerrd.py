@@ -260,9 +260,9 @@ class Kerrd(unittest.TestCase):
         session = self.open({'image': {'width': 1280, 'height': 720, 'samples': 'auto'}, 'disk': {'gas': {'amplitude': 0.8}}})
         path, number, seen, patched = '/v1/sessions/' + session['id'], 0, [], 0
         owner = {'Authorization': 'Bearer ' + session['token'], 'Content-Type': 'application/json'}
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 180
         while time.monotonic() < deadline:
-            frame = self.daemon.get(f'{path}/frame.png?after={number}&wait_ms=20000')
+            frame = self.daemon.get(f'{path}/frame.png?after={number}&wait_ms=55000')
             number = int(frame.header('Kerrd-Frame'))
             refined = 'pixel_error=' in frame.header('Kerrd-Accuracy')
             final = 'final=1' in frame.header('Kerrd-Quality')
