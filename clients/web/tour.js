@@ -105,9 +105,14 @@ export function buildTour(stage, scene) {
 
   let usual = new Map();
   async function begin() {
-    if (!box.hidden) return;
+    if (before) return;
     before = { document: scene.document({}, true), held: scene.held, lines: lines() };
-    await startAgain(scene);
+    try {
+      await startAgain(scene);
+    } catch (error) {
+      before = null;
+      throw error;
+    }
     scene.hold(true); // pictures at rest are the finest
     usual = new Map([...scene.fields.keys()].map(path => [path, scene.get(path)]));
     box.hidden = false;
@@ -121,6 +126,7 @@ export function buildTour(stage, scene) {
     scene.replace(before.document);
     scene.hold(before.held);
     draw(before.lines);
+    before = null;
     stage.focus();
   }
   box.addEventListener('keydown', event => event.key === 'Escape' && end());

@@ -3,13 +3,11 @@
 #include "cli/cli.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "playground/hole.h"
 #include "playground/json.h"
 #include "playground/show.h"
 #include "scene/sha256.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,17 +39,6 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
     return KD_OK;
 }
 
-/* As wide as its bodies are far out. */
-static enum kd_status widen(struct kd_scene *scene, const struct kd_playground *p, struct kd_error *error)
-{
-    double farthest = 0;
-    for (size_t i = 0; i < p->n; i++)
-        farthest = fmax(farthest, kd_playground_radius(p->bodies[i].x) + p->bodies[i].radius);
-    char text[40];
-    snprintf(text, sizeof text, "%.9g", fmin(fmax(2.4 * farthest, scene->camera.field_m), 1e6));
-    return kd_scene_set(scene, "camera.field_m", text, error);
-}
-
 /* A scene that nobody names has the spin that the playground has. */
 static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p, struct kd_scene *out, struct kd_error *error)
 {
@@ -60,7 +47,7 @@ static enum kd_status load(struct kd_pictures_asked *asked, const char *view, co
         return kd_scene_options_load(&asked->scene, out, error);
     kd_scene_defaults(out);
     out->spacetime.spin = p->params.spin;
-    status = view ? kd_scene_from_json(out, view, strlen(view), error) : widen(out, p, error);
+    status = view ? kd_scene_from_json(out, view, strlen(view), error) : kd_playground_widen(p, out, error);
     return status ? status : kd_scene_options_merge(&asked->scene, out, error);
 }
 

@@ -3,6 +3,7 @@
 #include "playground/hole.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -184,4 +185,14 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
         return kd_error_field(error, "/spacetime/spin", "spacetime.spin is %.9g, allowed is %.9g: the playground's bodies move round a hole of that spin",
                               scene->spacetime.spin, p->params.spin);
     return KD_OK;
+}
+
+enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error)
+{
+    double farthest = 0;
+    char text[40];
+    for (size_t i = 0; i < p->n; i++)
+        farthest = fmax(farthest, kd_playground_radius(p->bodies[i].x) + p->bodies[i].radius);
+    snprintf(text, sizeof text, "%.9g", fmin(fmax(2.4 * farthest, scene->camera.field_m), 1e6));
+    return kd_scene_set(scene, "camera.field_m", text, error);
 }

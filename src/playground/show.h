@@ -12,11 +12,14 @@
 #include "scene/crowd.h"
 #include "scene/scene.h"
 
-/* 0.3 ms of 4096 bodies, 30 ns a piece of debris. The caller holds *out. */
+/* The caller holds *out. */
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd **out, struct kd_error *error);
 
 /* KD_EINVAL where the scene is not one to show it in: with gravity "kerr" the spins must be the same. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene, struct kd_error *error);
+
+/* Makes a scene at infinity as wide as shows all bodies, and no narrower than it is. */
+enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error);
 
 /* Private to src/playground, and for tests. Where pieces are in (ln r, azimuth), which grid has them, at most KD_SHOW_NODES, and what each of its nodes has. */
 enum { KD_SHOW_NODES = 1 << 20, KD_SHOW_TURN_LEAST = 512, KD_SHOW_TURN_MOST = 8192 };

@@ -1,12 +1,10 @@
 #include "server/playground/document.h"
 
 #include "playground/fields.h"
-#include "playground/hole.h"
 #include "playground/preset.h"
 #include "playground/show.h"
 #include "scene/tree.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -47,19 +45,14 @@ enum kd_status kd_play_usual_scene(const cJSON *tree, const struct kd_playground
 {
     static const char size[] = "{\"image\":{\"width\":640,\"height\":360}}";
     const struct kd_playground_preset *preset = preset_of(tree);
-    double farthest = 0;
-    char width[40];
     enum kd_status status;
     kd_scene_defaults(out);
     KD_TRY(kd_scene_patch(out, size, sizeof size - 1, error));
     if (preset)
         KD_TRY(kd_scene_patch(out, preset->scene, strlen(preset->scene), error));
     out->spacetime.spin = p->params.spin;
-    for (size_t i = 0; i < p->n; i++)
-        farthest = fmax(farthest, kd_playground_radius(p->bodies[i].x) + p->bodies[i].radius);
-    snprintf(width, sizeof width, "%.9g", fmin(fmax(2.4 * farthest, out->camera.field_m), 1e6));
     if (!preset)
-        KD_TRY(kd_scene_set(out, "camera.field_m", width, error));
+        KD_TRY(kd_playground_widen(p, out, error));
     KD_TRY(kd_scene_validate(out, error));
 done:
     return status;
