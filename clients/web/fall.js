@@ -6,7 +6,8 @@ import { physics } from './server.js';
 
 const begin_r = 20; // M, where the camera is not near
 const wide_deg = 100;
-const fold_s = 3; // seconds of watching in which the time that is left to the end becomes 1/e of itself, nearly:
+const fold_s = 3; // seconds of watching in which the time that is left to the end becomes 1/e of itself, nearly,
+const fold_pictures = 5; // and no fewer pictures than these, so that a slow server shows the way, too:
 const fastest = 1e6; // M a second: there is no faster one
 const uneven = 0.1; // its pace is that of a moment ago, by so much at most
 
@@ -40,7 +41,9 @@ export function buildFall(scene) {
     left = 0, // of its own time, to the end
     r = 0, // where it is
     given = 0, // the radius that the scene was given
-    rate = 0; // the pace that it was given
+    rate = 0, // the pace that it was given
+    seen = 0, // when the last picture of it came, by performance.now()
+    gap = 0; // seconds between its pictures: the longest of late
 
   const ended = () => r <= way.last;
 
@@ -79,7 +82,7 @@ export function buildFall(scene) {
 
   // So fast that what is left falls by the same part every second; not told anew with each picture.
   function keepPace() {
-    const now = Math.min(fastest, Number((left / fold_s).toPrecision(3)));
+    const now = Math.min(fastest, Number((left / Math.max(fold_s, fold_pictures * gap)).toPrecision(3)));
     if (Math.abs(Math.log(now / rate)) < uneven) return;
     rate = now;
     scene.change({ [pace]: rate });
@@ -99,6 +102,7 @@ export function buildFall(scene) {
 
   function run() {
     if (ended()) put(way.r, way);
+    seen = performance.now();
     keepPace();
     if (scene.held) scene.hold(false);
   }
@@ -131,7 +135,7 @@ export function buildFall(scene) {
     }
     before = Object.fromEntries(taken.map(path => [path, scene.get(path)]));
     held = scene.held;
-    rate = 0;
+    [rate, gap, seen] = [0, 0, performance.now()];
     r = given = from;
     left = way.proper_time_to_end;
     scene.change({
@@ -176,6 +180,9 @@ export function buildFall(scene) {
       given = scene.begun('camera.r'); // the server moves it, too
       show(clock);
       if (scene.held) return;
+      const now = performance.now();
+      gap = Math.max((now - seen) / 1e3, 0.7 * gap);
+      seen = now;
       ended() ? scene.hold(true) : keepPace(); // from the first picture of it on
     },
   };
