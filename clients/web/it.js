@@ -624,6 +624,8 @@ export const sentences = {
     'colore: i corpi neri fuori dal gamut sRGB sono portati al suo bordo a pari luminanza',
   "ringdown: an illustration: a struck hole's metric rings; here only the light of orders 1 and up does, all of it at the picture's time":
     'oscillazione smorzata: un’illustrazione: di un buco percosso oscilla la metrica; qui solo la luce degli ordini da 1 in su, tutta al tempo dell’immagine',
+  'ringdown: light of volumes has the order of the crossing of the plane that is nearest on its ray, from where cos(theta) turns before it to where it turns behind it':
+    'oscillazione smorzata: la luce dei volumi ha l’ordine dell’attraversamento del piano più vicino sul suo raggio, da dove cos(theta) inverte prima a dove inverte dopo',
   'sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift':
     'cielo: un reticolo celeste disegnato; la sua lente è esatta, la sua luminosità non porta redshift',
   'sky: stars are made up, as many of each magnitude as there are in truth': 'cielo: le stelle sono inventate, tante di ogni magnitudine quante ce ne sono davvero',

@@ -8,5 +8,5 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-float kd_ringdown_over(kd_sample s) { return s.order > 0 ? emission.ringdown.factor : 1.0; }
+float kd_ringdown_over(uint order) { return order > 0u ? emission.ringdown.factor : 1.0; }
 #endif

@@ -47,7 +47,7 @@ vec3 kd_thick_gradient(uint point)
     return vec3(float(int(h)), float(int(h << 10)), float(int(h << 20)));
 }
 
-/* Of one plane of the lattice: noise by the gradients, and by those turned by a quarter about the third axis. */
+/* One plane of the lattice gives noise by its gradients, and noise by those turned by a quarter about the third axis. */
 vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
 {
     vec3 a = kd_thick_gradient(x0 ^ y0 ^ z), b = kd_thick_gradient(x1 ^ y0 ^ z), c = kd_thick_gradient(x0 ^ y1 ^ z), f = kd_thick_gradient(x1 ^ y1 ^ z);

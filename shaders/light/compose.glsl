@@ -16,8 +16,9 @@ struct kd_spread { vec3 plane, rise; };
 /* This is a place in a volume that the ray goes through. w = 1/r, u = cos(theta), and what they grow by in Mino time as the ray is traced, against the
  * light: the arriving photon has p_r = dw/kd_delta(w), p_theta = du/sin(theta) and the E, L and Q of `energy`, `momentum`, `q`, by the energy that
  * the observer measures. speed: M of length in (r, r n) a unit of Mino time, n being the direction from the hole, as if space were flat: what a
- * grain is counted in. phi: azimuth, source minus observer; spread: what the ray stands for: both 0 but for KD_TRAIT_AZIMUTH. */
-struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; kd_spread spread; };
+ * grain is counted in. phi: azimuth, source minus observer; spread: what the ray stands for: both 0 but for KD_TRAIT_AZIMUTH. order: of the crossing of the plane
+ * that is nearest on the ray, as it has one up to where its cos(theta) turns: 0 where nothing asks for it. */
+struct kd_midst { float w, u, dw, du, energy, momentum, q, speed, phi; kd_spread spread; uint order; };
 /* That is what is there. light: what is added to the light, and depth: optical depth, of a unit of the affine parameter by the observer's energy:
  * along a ray, d lambda = (r^2 + a^2 u^2) d tau, matter of velocity U sees the way -k.U d lambda, so that of its emissivity j and opacity alpha, by
  * its own length, depth = alpha (-k.U), and bolometric light = j (-k.U)^-3, 1/(-k.U) being g. grain: M along the ray over which it changes by about
@@ -52,6 +53,9 @@ const bool KD_APART = (KD_ALL_TRAITS & KD_TRAIT_APART) != 0u;
 const uint KD_ALONG_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_);
 const uint KD_MET_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
 const bool KD_MARCHES = (KD_ALONG_TRAITS & KD_TRAIT_PRESENT) != 0u, KD_MEETS = (KD_MET_TRAITS & KD_TRAIT_PRESENT) != 0u;
+/* This says whether light changes by its order. */
+const uint KD_OVER_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
+const bool KD_OVERS = (KD_OVER_TRAITS & KD_TRAIT_PRESENT) != 0u;
 /* This says whether anything shines where rays end. */
 const uint KD_END_TRAITS = 0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
@@ -61,7 +65,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
     KD_TELL_PLACE(s, beam.through)
-#define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s);
+#define KD_OVER_(number, name) if (KD_HAS(name)) seen *= kd_##name##_over(s.order);
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 #define KD_GLOW_(number, name)                                                                                 \
     if (KD_HAS(name)) {                                                                                        \
@@ -81,9 +85,13 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 kd_medium kd_medium_at(kd_midst p)
 {
     kd_medium sum = kd_medium(vec3(0.0), 0.0, 1e30);
+    float over = 1.0;
+#define KD_OVER_ALONG_(number, name) if (KD_HAS(name)) over *= kd_##name##_over(p.order);
+    KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OVER_ALONG_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 #define KD_ALONG_(number, name)                                                                                \
     if (KD_HAS(name)) {                                                                                        \
         kd_medium one = kd_##name##_along(p);                                                                  \
+        one.light *= KD_OVERS ? over : 1.0;                                                                    \
         KD_TELL_MEDIUM(name, one)                                                                              \
         sum.light += one.light;                                                                                \
         sum.depth += one.depth;                                                                                \

@@ -159,14 +159,14 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     return kd_spread(known * kd_march_shorter(across, d, less), known * rise * vec3(md - less * dd * d, rise * dd));
 }
 
-kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, float t)
+kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float t)
 {
     float w = kd_quintic_at(s.w, t), u = kd_quintic_at(s.u, t), dw = kd_quintic_slope(s.w, t) / s.h, du = kd_quintic_slope(s.u, t) / s.h;
     float r = 1.0 / w, fall = dw * r, turn = max(m.q + m.momentum * m.momentum + m.energy2 * u * u, 0.0);
     float phi = 0.0;
     if (KD_MARCH_TURNS)
         phi = -(kd_atan2(kd_quintic_at(s.y, t), kd_quintic_at(s.x, t)) + s.c0 + t * (s.c1 + t * (s.c2 + t * s.c3)) + s.way * kd_drag_fall(w, cam.spin, cam.root));
-    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread);
+    return kd_midst(w, u, dw, du, ray.e, m.momentum, m.q, r * sqrt(fall * fall + turn), phi, spread, order);
 }
 
 /* A place's light was dimmed by half its own depth and all of those before it. By Gauss's method of three stages (Hairer, Norsett & Wanner 1993,
@@ -197,7 +197,7 @@ void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
 }
 
 /* Goes through a part of a step that lies in the volumes. What it adds is summed up by itself, and what comes through it is the exponential of its depth. */
-void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, float from, float to, inout float stretch, inout bool lost)
+void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from, float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0);
@@ -212,7 +212,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three */
         for (int k = 0; k < 3; k++) {
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
-            kd_midst p = kd_midst_of(m, ray, s, spread, from + x * length_);
+            kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
             kd_medium medium = kd_medium_at(p);
             float r = 1.0 / p.w, au = cam.spin * p.u, way = (r * r + au * au) * s.h;
             kd_beam_along(trial, medium, weight * length_ * way);
@@ -333,13 +333,16 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
         kd_quintic_clip(s.u, up * emission.frame.along_u, -up, from, to);
         kd_quintic_clip(s.u, up * (emission.frame.along_hollow > 0.0 ? emission.frame.along_hollow : -1.0), up, from, to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
-        if (KD_MARCH_TURNS && ORDERS > 0) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
+        uint order = 0u;
+        if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) { /* of the crossing ahead, or of that behind where the ray leaves the plane */
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves = passed > 0u && kd_quintic_at(s.u, 0.5 * (from + to)) * kd_quintic_slope(s.u, 0.5 * (from + to)) > 0.0;
-            spread = kd_march_spread(y.m, ray, leaves ? passed - 1u : passed, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
+            order = leaves ? passed - 1u : passed;
         }
+        if (KD_MARCH_TURNS && ORDERS > 0)
+            spread = kd_march_spread(y.m, ray, order, at, kd_quintic_slope(s.w, 0.5 * (from + to)) < 0.0 ? 1.0 : -1.0);
         KD_TELL_BEFORE(beam)
-        kd_march_part(beam, y.m, ray, s, spread, from, to, y.stretch, y.lost);
+        kd_march_part(beam, y.m, ray, s, spread, order, from, to, y.stretch, y.lost);
         KD_TELL_STRETCH(s, from, to, beam)
         if (end == plane && KD_GLOWS && y.crossed < ORDERS && beam.through > 0.0) {
             float w = lens[at + y.crossed * slice.stride];

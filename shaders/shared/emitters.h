@@ -3,7 +3,7 @@
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
  *   PART          nothing of its own: another emitter calls its functions, so that what both compute is computed once
- *   OVER          kd_name_over(sample): a factor of all light of a crossing
+ *   OVER          kd_name_over(order): a factor of all light of a crossing of that order, and of what light volumes have of it (kd_midst)
  *   ALONG         kd_name_along(point): what there is at a place of the ray, which shines and takes light away all along it (a kd_medium of
  *                 light/compose.glsl). Scenes that have one are lit by the march (light/march.glsl), which takes as many places as the emitter's grain,
  *                 its depth and the ray's bending ask for; its C file says between which radii and latitudes it is

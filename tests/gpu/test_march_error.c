@@ -65,7 +65,7 @@ static const struct { const char *preset, *json; } scenes[] = {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* Of a hundred rays nine of ten are 80 to 96 of a hundred pixels (two deviations), and what twice as many stretches leave is half of the error at most. */
+/* Nine of ten of a hundred rays stand for 80 to 96 of a hundred pixels (two deviations), and what twice as many stretches leave is half of the error at most. */
 static void test_said(void **state)
 {
     (void)state;

@@ -261,7 +261,7 @@ static void layers(void **state)
     assert_true(compared > 3);
 }
 
-/* Of a pair of eyes, the one whose pixel it is; of a band that is not kept; of a ring. */
+/* A pixel may be one eye's of a pair, one of a band that is not kept, or one of a ring. */
 static void other_pictures(void **state)
 {
     static const uint32_t columns[] = { 20, WIDTH + 20 };
@@ -471,7 +471,7 @@ static void judge_volumes(const struct kd_told_ray *told)
     assert_true(told->n_stretches == 0 || (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
 }
 
-/* Of two volumes in the same place each is told to have the depth that it has alone, and, where nothing is hidden, the light: that of a picture without
+/* Two volumes in the same place are each told to have the depth that they have alone, and, where nothing is hidden, the light: that of a picture without
  * the other, which adds up one volume only. The shell's edges lie within the jets' bounds, where they are found to a part of the stretch: without that
  * this is 1 % off. */
 static void volumes(void **state)

@@ -161,6 +161,55 @@ static void test_lumps(void **state)
     }
 }
 
+/* How much light a ringing hole adds to that of a disk, over all samples, and how far it is off from what another disk's has. */
+struct change { double sum, off; };
+
+static struct kd_frame at_time(struct kd_scene scene, double t, double amplitude)
+{
+    scene.top.time = STRUCK + t;
+    scene.style.ringdown = amplitude;
+    return rendered(&scene);
+}
+
+static struct change changed(const struct kd_scene *scene, double t, double *last, bool compare)
+{
+    struct kd_frame still = at_time(*scene, t, 0), rung = at_time(*scene, t, 1);
+    struct change c = { 0 };
+    for (size_t i = 0; i < samples(&rung); i++) {
+        const double more = light(&rung, i) - light(&still, i);
+        c.off += compare ? fabs(more - last[i]) : 0;
+        c.sum += more;
+        last[i] = more;
+    }
+    kd_frame_finish(&still);
+    kd_frame_finish(&rung);
+    return c;
+}
+
+/* A thick disk of next to no height rings where the thin one does, as much, and all its light by one factor; one of some height by the same factor. */
+static void test_thick(void **state)
+{
+    static const double times[] = { 0, 1, 7.5 };
+    (void)state;
+    struct kd_scene scene = scene_of(0.5);
+    scene.image.width = 48;
+    scene.image.height = 32;
+    double *last = calloc((size_t)scene.image.width * (size_t)scene.image.height * 3, sizeof *last);
+    assert_non_null(last);
+    scene.accuracy.orders = 8; /* the march goes along all of them */
+    const struct change flat = changed(&scene, 0, last, false);
+    for (int high = 0; high < 2; high++) {
+        scene.disk.height = high ? 0.1 : 5e-5;
+        const struct change first = changed(&scene, 0, last, !high);
+        printf("height %g: %.4g of light rings, of the thin disk %.4g; apart by %.2g\n", scene.disk.height, first.sum, flat.sum, first.off / flat.sum);
+        assert_true(first.sum > 1);
+        assert_true(high || (fabs(first.sum / flat.sum - 1) < 0.01 && first.off < 0.02 * flat.sum));
+        for (size_t k = 1; k < sizeof times / sizeof *times; k++)
+            assert_float_equal(changed(&scene, times[k], last, false).sum / first.sum, expected(0.5, times[k]), 2e-3);
+    }
+    free(last);
+}
+
 /* What is off is not said. */
 static void test_said(void **state)
 {
@@ -189,6 +238,7 @@ int main(void)
         cmocka_unit_test(test_spins),
         cmocka_unit_test(test_paths),
         cmocka_unit_test(test_lumps),
+        cmocka_unit_test(test_thick),
         cmocka_unit_test(test_said),
     };
     return close_renderer(cmocka_run_group_tests_name("ringdown", tests, NULL, NULL));

@@ -117,7 +117,7 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-/* Of a pixel it tells that its light and that of all its rays is a quarter, and nothing of what gave it. */
+/* This tells of a pixel that its light and that of all its rays is a quarter, and nothing of what gave it. */
 static struct kd_told *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->side;

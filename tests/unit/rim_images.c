@@ -84,7 +84,8 @@ static double above_of(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* Of a star, cos(psi) along the way to the observer and sin(psi) to its side at `angle` from the picture's right, all images within the rim, by how much their rays sweep. */
+/* A star lies cos(psi) along the way to the observer and sin(psi) to its side, at `angle` from the picture's right: this finds all of its images within the rim, by how
+ * much their rays sweep. */
 static size_t judge(double psi, double angle, double *place, double *area)
 {
     size_t images = 0;

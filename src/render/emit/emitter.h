@@ -47,10 +47,10 @@ struct kd_emitter {
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which it shines or hides, M; NULL: anywhere. Crossings beyond those of all emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
-    /* Of one ALONG: the least and the largest |cos(theta)| there; NULL: 0 and 1. The march finds these edges and those of `reach` to a float's accuracy, of all volumes of a
-     * scene together: an edge inside those bounds is as sharp as the emitter's grain tells. */
+    /* Emitters that are ALONG rays say here the least and the largest |cos(theta)| at which they are; NULL: 0 and 1. The march finds these edges and those of `reach`
+     * to a float's accuracy, of all volumes of a scene together: an edge inside those bounds is as sharp as the emitter's grain tells. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
-    /* Of one ALONG: r of a sphere within its reach where its light or its depth has an edge, M, which the march finds as well; 0 or NULL: none. */
+    /* They say here the r of a sphere within their reach where their light or their depth has an edge, M, which the march finds as well; 0 or NULL: none. */
     double (*knot)(const struct kd_scene *scene);
     /* Fill in numbers; and tables, which may take milliseconds. They are called anew when a part of the scene that they depend on
      * has changed. */

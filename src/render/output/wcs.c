@@ -9,8 +9,8 @@
 #define DEGREE (M_PI / 180)
 #define MICROARCSECOND (1 / 3.6e9) /* degrees */
 
-/* Of a place (x, y) right of and above the middle, in pixels, alpha - centre_alpha = step (cos x + sin y), beta - centre_beta = step (cos y - sin x): the
- * camera rolls clockwise. The pixel of reference is where both are 0. */
+/* A place x pixels right of the middle and y above it has alpha - centre_alpha = step (cos x + sin y) and beta - centre_beta = step (cos y - sin x), the cosine and
+ * the sine being those of the camera's clockwise roll. The pixel of reference is where alpha and beta are 0. */
 static struct kd_wcs plane(const struct kd_scene *scene)
 {
     const struct kd_camera *c = &scene->camera;

@@ -212,7 +212,7 @@ static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *befor
     return has_before && has_after ? d : times(2, d);
 }
 
-/* Of the sky about a ray, times four; below 0 where it is mirrored. */
+/* This is the area of the sky about a ray, times four; it is below 0 where the sky is mirrored. */
 static double area_at(const struct kd_sky_map *map, const struct rows *rows, int row, uint32_t x)
 {
     const uint32_t width = map->width;

@@ -11,7 +11,7 @@ enum {
     ACROSS = 96, ACROSS_LEAST = 12,          /* intervals across it, at most and to begin with */
 };
 
-/* Of a ray: turn, drag, t_theta, t_phi. */
+/* A ray has four angles: turn, drag, t_theta, t_phi. */
 enum { ANGLES = 4 };
 struct angles { double of[ANGLES]; };
 
