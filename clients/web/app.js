@@ -233,6 +233,8 @@ async function watch(scene) {
       input.dispatchEvent(new Event('change'));
     }
   });
+  scene.addEventListener('drift', () => source.refresh());
+  if (!byId('welcome').hidden) import('./drift.js').then(({ begin }) => begin(scene), () => {});
   buildFull(stage);
   buildHistory(scene);
   buildKeys();

@@ -24,6 +24,7 @@ export function buildHistory(scene) {
 
   function note() {
     clearTimeout(timer);
+    timer = 0;
     const changed = whole();
     if (changed === now) return;
     past.push(now);
@@ -49,6 +50,8 @@ export function buildHistory(scene) {
     clearTimeout(timer);
     timer = setTimeout(note, together_ms);
   });
+  // What the server has changed, and where a camera has drifted to, is where the next change begins.
+  scene.addEventListener('settle', () => timer || (now = whole()));
   buttons[0].addEventListener('click', () => go(past, future));
   buttons[1].addEventListener('click', () => go(future, past));
   document.addEventListener('keydown', event => {

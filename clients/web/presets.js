@@ -1,4 +1,4 @@
-// The box of presets. It names the one that the scene is, whatever its time; a link remembers the name.
+// The box of presets. It names the one that the scene is, at whatever time and from whichever side; a link remembers the name.
 import { byId, el } from './dom.js';
 import { preset, t } from './i18n.js';
 import * as link from './link.js';
@@ -20,7 +20,7 @@ export async function startAgain(scene) {
 export async function openPreset(scene) {
   const name = link.get('preset') ?? first_view,
     held = scene.held;
-  if (!name || name === plain || essence(scene, scene.document()) !== '{}') return;
+  if (!name || name === plain || essence(scene, scene.document(), true) !== '{}') return;
   const document = await document_of(name).catch(error => {
     if (error.status !== 404) throw error;
     scene.unknown.push('preset');
@@ -29,13 +29,13 @@ export async function openPreset(scene) {
   if (held) scene.hold(true);
 }
 
-// What makes a scene another one, in the order of the fields.
-function essence(scene, document) {
+// What makes a scene another one, in the order of the fields; exact: it is another from another side, too.
+function essence(scene, document, exact = false) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {
     const [section] = path.split('.'),
       value = valueAt(document, path);
-    if (value != null && value !== usual && section !== 'image' && section !== 'time') own[path] = value;
+    if (value != null && value !== usual && section !== 'image' && section !== 'time' && (exact || path !== 'camera.azimuth_deg')) own[path] = value;
   }
   return JSON.stringify(own);
 }
@@ -59,7 +59,7 @@ export async function buildPresets(scene) {
   }
 
   function follow() {
-    const now = essence(scene, scene.document()),
+    const now = essence(scene, scene.document({}, true)),
       name = [...known].find(([, text]) => text === now)?.[0];
     own.hidden = name != null;
     select.value = name ?? 'own';

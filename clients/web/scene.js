@@ -72,6 +72,7 @@ export class Scene extends EventTarget {
   unknown = []; // what of the link means nothing here
   jumps = 0; // how often somebody set the time
   jumped = new Set(); // paths of what was moved, and has been set by somebody since
+  drift = 0; // degrees a second that the camera goes round until somebody touches anything (drift.js)
 
   static async load() {
     const schema = await getJson('v1/schema'),
@@ -142,12 +143,30 @@ export class Scene extends EventTarget {
 
   // What was moved stays where it is seen.
   land() {
-    for (const [path, value] of this.#moved) this.#put(path, value);
-    this.#moved.clear();
+    if (this.#moved.size) this.settle(Object.fromEntries(this.#moved));
+  }
+
+  // Where the camera has drifted to it stays when it stops.
+  drifts(rate) {
+    if (rate === this.drift) return;
+    this.drift = rate;
+    const path = 'camera.azimuth_deg',
+      there = this.#moved.get(path);
+    if (!rate && there != null) {
+      this.jumped.add(path);
+      this.settle({ [path]: there });
+    }
+    this.dispatchEvent(new Event('drift'));
+  }
+
+  // Degrees a second that the camera goes round.
+  turns() {
+    return this.held ? 0 : this.drift || this.get('motion.azimuth_rate_deg');
   }
 
   // The changes: { 'camera.r': 30 }; null is the default. A style sets its fields, but for those that are among the changes.
   change(values) {
+    this.drifts(0);
     if ('time' in values) (this.jumps++, (this.#now = null));
     const all = { ...this.#styles[values['style.name']], ...values };
     for (const path of this.#moved.keys()) if (path in all) (this.#moved.delete(path), this.jumped.add(path));
@@ -173,6 +192,7 @@ export class Scene extends EventTarget {
 
   // Whether what moves by itself moves.
   hold(held) {
+    this.drifts(0);
     this.held = held;
     link.set('pause', held ? '1' : null);
     link.flush();
@@ -180,7 +200,7 @@ export class Scene extends EventTarget {
   }
 
   goesOn() {
-    return !this.held && ['time_rate', 'azimuth_rate_deg', 'proper_time_rate'].some(name => this.get(`motion.${name}`) !== 0);
+    return this.turns() !== 0 || (!this.held && ['time_rate', 'proper_time_rate'].some(name => this.get(`motion.${name}`) !== 0));
   }
 
   // What the server says of values that it changed.

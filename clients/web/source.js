@@ -67,6 +67,7 @@ export function openSource(scene, size, shown, failed) {
       'image.width': width,
       'image.height': height,
       'image.samples': samples(scene),
+      ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
       ...(scene.held ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 } : {}),
     };
     return scene.document(over, true);
@@ -154,7 +155,10 @@ export function openSource(scene, size, shown, failed) {
       current = revision >= from.revision,
       final = quality.final === 1 && current;
     const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock'));
-    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final, clock && current && scene.get('motion.proper_time_rate') ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg } : {});
+    const falls = clock && scene.get('motion.proper_time_rate'),
+      azimuth = Number(get('Kerrd-Azimuth'));
+    const moved = falls ? { 'camera.r': clock.r, 'camera.azimuth_deg': clock.azimuth_deg } : scene.turns() ? { 'camera.azimuth_deg': Number(azimuth.toFixed(3)) } : {};
+    if (scene.goesOn()) scene.tick(Number(get('Kerrd-Time')), final, current ? moved : {});
     from.frame = Number(get('Kerrd-Frame'));
     recent = [...recent.filter(time => time > performance.now() - 2000), performance.now()];
     await shown({
@@ -168,7 +172,7 @@ export function openSource(scene, size, shown, failed) {
       approximations: sentences(get('Kerrd-Approximations')),
       passes: passes(get('Server-Timing')),
       clock,
-      azimuth: Number(get('Kerrd-Azimuth')),
+      azimuth,
     });
   }
 
@@ -188,6 +192,17 @@ export function openSource(scene, size, shown, failed) {
     }
     pulling = false;
   }
+
+  // A camera that drifts stands where it was last seen while nobody looks.
+  function doze() {
+    if (!session || !scene.drift || (!document.hidden && document.body.dataset.view === 'lensing')) return;
+    const { motion, ...rest } = session.document,
+      patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } };
+    session.document = { ...rest, motion: { ...motion, azimuth_rate_deg: 0 } };
+    fetch(session.url, { method: 'PATCH', headers: headers(), body: JSON.stringify(patch), keepalive: true }).catch(() => {});
+    put();
+  }
+  for (const gone of ['visibilitychange', 'viewchange']) document.addEventListener(gone, doze);
 
   addEventListener('pagehide', () => {
     const left = session,

@@ -63,7 +63,7 @@ export function buildStars(stage, scene) {
     pace = 0, // of the star that is named, pixels a degree
     asked = 0;
 
-  const turns = () => azimuth != null && scene.goesOn() && scene.get('motion.azimuth_rate_deg') !== 0;
+  const turns = () => azimuth != null && scene.turns() !== 0;
   const gone = list => (turns() ? ((azimuth - list.azimuth_deg + 540) % 360) - 180 : 0);
 
   function clear() {

@@ -30,7 +30,15 @@ class First(Browser):
             page.wait_for_selector('#stage[data-final]', timeout=60000, state='attached')
             self.assertTrue(daemon.eventually(lambda: page.input_value('#preset') == 'gas-stars'))
             self.assertTrue(daemon.eventually(lambda: page.inner_text('#clock') and float(page.inner_text('#clock').split()[2].replace(',', '.')) > 1, 20))
-            page.click('#play')
+            linked = lambda: float((re.search(r'camera\.azimuth_deg=([-\d.]+)', page.evaluate('location.hash')) or [0, '0'])[1])
+            self.assertTrue(daemon.eventually(lambda: linked() > 0.5, 30), 'the camera drifts, and the link with it')
+            page.click('#play') # the first touch
+            page.wait_for_selector(AT_REST, timeout=60000)
+            seen = page.evaluate("import('./web/link.js').then(({ get }) => Number(get('camera.azimuth_deg')))")
+            self.assertEqual((float(self.field(page, 'camera.azimuth_deg')), page.is_disabled('#undo'), page.input_value('#preset')), (seen, True, 'gas-stars'))
+            page.click('#nearer')
+            page.click('#undo')
+            self.assertEqual(float(self.field(page, 'camera.azimuth_deg')), seen, 'undo goes back to where it was touched')
             page.wait_for_selector(AT_REST, timeout=60000)
             self.shot(page, f'first-{lang}')
             bright, black, wide = page.evaluate('''() => {
@@ -86,6 +94,10 @@ class First(Browser):
         page.goto(self.base + '#lang=en&preset=living-disk')
         page.wait_for_selector(AT_REST)
         self.assertEqual(page.inner_text('#play'), 'Play')
+        page.goto('about:blank')
+        page.goto(self.base + '#lang=en')
+        page.wait_for_selector(AT_REST, timeout=60000)
+        self.assertEqual((page.inner_text('#play'), page.locator('#welcome').is_visible(), float(self.field(page, 'camera.azimuth_deg'))), ('Play', True, 0))
 
 
 if __name__ == '__main__':
