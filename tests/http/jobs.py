@@ -1,79 +1,19 @@
-"""Jobs: what is asked, progress by asking and as events, results of every form, ends, limits, restarts. In the fake renderer's scenes
-`time` is how many milliseconds a frame takes."""
-import contextlib
+"""Jobs: what is asked, progress by asking and as events, results of every form, ends, limits. In the fake renderer's scenes `time` is how
+many milliseconds a frame takes."""
 import http.client
 import io
 import json
-import os
 import select
-import shutil
-import signal
-import struct
-import subprocess
-import tempfile
 import threading
 import time
-import unittest
 import zipfile
-import zlib
 
 import daemon
-
-IMAGE = {'width': 32, 'height': 18}
-SCENE = {'image': IMAGE, 'time': 5}
-SLOW = {'image': IMAGE, 'time': 30000}
-
+from job_case import IMAGE, SCENE, SLOW, Case, scene_of, size, text_of
 
 # test_smooth expects these, by scipy.interpolate:
 #   x, y = [0, 10, 15, 40, 50], [10, 20, 80, 75, 75]; d = PchipInterpolator(x, y).derivative()(x); d[0] = d[-1] = 0; CubicHermiteSpline(x, y, d)
 SMOOTH = {0: 10, 4: 11.56377358490566, 9: 18.06943396226415, 10: 20, 12: 42.587169811320756, 15: 80, 30: 76.76, 45: 75, 50: 75}
-
-
-def size(png):
-    return struct.unpack('>II', png[16:24])
-
-
-def text_of(png, name):
-    """One of the texts of a picture, which is not compressed."""
-    start = png.index(b'tEXt' + name.encode() + b'\0') + 5 + len(name)
-    length = struct.unpack('>I', png[start - 9 - len(name):start - 5 - len(name)])[0]
-    return png[start:start + length - len(name) - 1].decode()
-
-
-def scene_of(png):
-    """The scene that a picture says it shows."""
-    at = 8
-    while at < len(png):
-        n, kind = struct.unpack('>I4s', png[at:at + 8])
-        data = png[at + 8:at + 8 + n]
-        if kind == b'tEXt' and data.startswith(b'kerrd:scene\0'):
-            return json.loads(data.split(b'\0', 1)[1])
-        if kind == b'zTXt' and data.startswith(b'kerrd:scene\0'):
-            return json.loads(zlib.decompress(data.split(b'\0', 1)[1][1:]))
-        if kind == b'iTXt' and data.startswith(b'kerrd:scene\0'):
-            packed, text = data[12], data[14:].split(b'\0', 2)[2]
-            return json.loads(zlib.decompress(text) if packed else text)
-        at += 12 + n
-    raise AssertionError('a picture without a scene')
-
-
-class Case(daemon.Owned):
-    kind, made = '/v1/jobs', 202
-
-    def until(self, job, state, server=None, timeout=20):
-        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['state'] == state, timeout), self.status(job, server))
-        return self.status(job, server)
-
-    def frames(self, job, first=0):
-        """number -> png, of a stream to its end"""
-        body = self.daemon.get(self.at(job, f'/result?format=stream&frame={first}')).body
-        found = {}
-        while body:
-            n, number, zero, none = struct.unpack('<4I', body[:16])
-            self.assertEqual((zero, none), (0, 0))
-            found[number] = body[16:16 + n]
-            body = body[16 + n:]
-        return found
 
 
 class Jobs(Case):
@@ -191,82 +131,6 @@ class Jobs(Case):
                          'keyframes': [{'frame': 2, 'scene': {'camera': {'r': 10, 'azimuth_deg': 90}}}]})
         cameras = [scene_of(png)['camera'] for png in self.frames(job).values()]
         self.assertEqual([(round(c['r'], 9), c['azimuth_deg']) for c in cameras], [(1000, 0), (100, 45), (10, 90)])
-
-    def test_a_sweep(self):
-        """Axes in the order given, the last one fastest, whatever the order in which their frames are rendered."""
-        asked = {'scene': {'image': IMAGE}, 'axes': {'style.exposure': [0, 1], 'spacetime.spin': '0:0.9:0.3', 'sky.model': ['none', 'grid']}}
-        job = self.make(asked)
-        self.assertEqual(job['axes'], {'style.exposure': 2, 'spacetime.spin': 4, 'sky.model': 2})
-        done = self.until(job, 'done')
-        self.assertEqual((done['frames'], done['axes']), (16, job['axes']))
-        answer = self.daemon.get(self.at(job, '/result'))
-        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/zip'))
-        with zipfile.ZipFile(io.BytesIO(answer.body)) as z:
-            self.assertIsNone(z.testzip())
-            index = json.loads(z.read('index.json'))
-            self.assertEqual(z.namelist(), ['index.json', *index['files']])
-            self.assertEqual(index['axes'], {'style.exposure': [0, 1], 'spacetime.spin': [0, 0.3, 0.6, 0.9], 'sky.model': ['none', 'grid']})
-            self.assertEqual(index['scene']['image']['width'], 32)
-            self.assertEqual(index['files'][11], '000011 exposure=1 spin=0.3 model=grid.png')
-            found = [scene_of(z.read(name)) for name in index['files']]
-            self.assertEqual(self.daemon.get(self.at(job, '/result?format=png&frame=11')).body, z.read(index['files'][11]))
-        self.assertEqual([(s['style']['exposure'], s['spacetime']['spin'], s['sky']['model']) for s in found],
-                         [(e, a, m) for e in (0, 1) for a in (0, 0.3, 0.6, 0.9) for m in ('none', 'grid')])
-        self.assertEqual(self.daemon.get(self.at(job, '/result')).body, answer.body)
-        self.assertEqual(len(self.frames(job)), 16)
-        head = self.daemon.request('HEAD', self.at(job, '/result'))
-        self.assertEqual((head.status, head.header('Content-Type'), head.body), (200, 'application/zip', b''))
-
-    def test_lens_maps_are_the_outermost_loop(self):
-        """The fake renderer keeps one lens map: what shares it follows at once, though its axis is the outermost one here."""
-        job = self.make({'scene': {'image': IMAGE}, 'axes': {'style.exposure': '0:4:1', 'camera.inclination_deg': [10, 50, 90], 'disk.outer': [20, 30]}})
-        self.assertEqual(self.until(job, 'done')['lens_maps_traced'], 3)
-        listed = self.make({'scenes': [{'image': IMAGE, 'camera': {'inclination_deg': 10 + 40 * (i % 2)}} for i in range(6)]})
-        self.assertEqual(self.until(listed, 'done')['lens_maps_traced'], 6)
-
-    def test_a_sweep_of_light(self):
-        """The fake renderer's light at time t: flux t."""
-        job = self.make({'scene': {'image': IMAGE}, 'output': 'light-curve', 'axes': {'image.layers': [['rgb'], ['rgb', 'g']], 'time': [1, 2.5]}})
-        self.until(job, 'done')
-        table = self.daemon.get(self.at(job, '/result?format=csv')).body.decode().split('\n')
-        self.assertEqual(table[0].split(',')[:5], ['frame', 'image.layers', 'time', 't', 'flux'])
-        self.assertEqual(table[3:], ['2,"rgb,g",1,1,1,0.5,-1,0.25,3,0.25,32,18', '3,"rgb,g",2.5,2.5,2.5,1.25,-2.5,0.625,3,0.25,32,18', ''])
-        frames = self.daemon.get(self.at(job, '/result')).json()['frames']
-        self.assertEqual([(f['image.layers'], f['time'], f['flux']) for f in frames], [('rgb', 1, 1), ('rgb', 2.5, 2.5), ('rgb,g', 1, 1), ('rgb,g', 2.5, 2.5)])
-
-    def test_what_a_sweep_may_cost(self):
-        """Not how many scenes it has, but what they are estimated to take, of time and of bytes."""
-        many = {'camera.inclination_deg': '1:100:1', 'spacetime.spin': '0:0.95:0.05', 'style.exposure': '0:4:1'}
-        job = self.make({'scene': {'image': {'width': 2, 'height': 2}}, 'axes': many})
-        self.assertEqual(job['frames'], 10000)
-        self.delete(job)
-        more = {**many, 'camera.azimuth_deg': '0:80:10'}
-        self.delete(self.make({'scene': {'image': {'width': 2, 'height': 2}}, 'axes': more}))
-        large = {'scene': {'image': {'width': 4000, 'height': 4000}}, 'axes': more}
-        self.assertIn('more than the 86400 s a job may take', self.assertProblem(self.daemon.post('/v1/jobs', large), 422, 'too-large')['detail'])
-        numbers = {'scene': {'image': {'width': 2000, 'height': 1000, 'layers': ['rgb', 'g']}}, 'output': 'cube', 'axes': {'style.exposure': '0:10/1000'}}
-        self.assertIn('GB, more than', self.assertProblem(self.daemon.post('/v1/jobs', numbers), 422, 'too-large')['detail'])
-
-    def test_how_many_cubes_are_fetched_at_once(self):
-        """Three by one client; who has been told to wait may come when one of them has left."""
-        job = self.make({'scene': {'image': {'width': 1000, 'height': 1000, 'layers': ['rgb']}}, 'output': 'cube', 'axes': {'style.exposure': [0, 1]}})
-        self.until(job, 'done')
-        path = self.at(job, '/result?format=fits')
-        whole = self.daemon.get(path).body
-        self.assertGreater(len(whole), 24e6)
-        with contextlib.ExitStack() as stack:
-            readers = [stack.enter_context(self.daemon.connect()) for _ in range(3)]
-            for reader in readers:  # they take the first bytes, and what the buffers hold is less than the file
-                reader.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n'.encode())
-                self.assertEqual(reader.recv(12), b'HTTP/1.1 200')
-            refused = self.daemon.get(path)
-            self.assertEqual(refused.status, 429)
-            problem = self.assertProblem(refused, 429, 'quota')
-            self.assertIn('cubes are being fetched as one client may have', problem['detail'])
-            self.assertEqual(self.daemon.request('HEAD', path).status, 200)
-            self.assertEqual(self.daemon.get(self.at(job, '/result?format=zip')).status, 200, 'no cube')
-            readers[1].close()
-            self.assertTrue(daemon.eventually(lambda: self.daemon.get(path).body == whole))
 
     def test_light_curve(self):
         """The fake renderer's light at time t: flux t at (t/2, -t), of which spots t/4 at (3, 1/4); none at 0."""
@@ -570,135 +434,6 @@ class Quota(Case):
     def test_of_bytes(self):
         failed = self.until(self.make({'scenes': [{'image': {'width': 64, 'height': 64, 'samples': 2}}] * 3}), 'failed')
         self.assertIn('bytes', failed['error'])
-
-
-class State(Case):
-    def setUp(self):
-        super().setUp()
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def start(self):
-        server = daemon.Daemon('--drain-ms', 10, '--state', self.folder)
-        self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
-        return server
-
-    def folders(self):
-        return sorted(n for n in os.listdir(os.path.join(self.folder, 'jobs')) if n != 'lock')
-
-    def test_goes_on(self):
-        for kill in (False, True):
-            with self.subTest(kill=kill):
-                server = self.start()
-                ended = self.make({'scene': SCENE}, server=server)
-                self.until(ended, 'done', server)
-                job = self.make({'scenes': [{**SCENE, 'time': 150 + i} for i in range(8)]}, server=server)
-                next_one = self.make({'scene': SCENE}, server=server)
-                self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 2))
-                first = server.get(self.at(job, '/result?format=png')).body
-                if kill:
-                    server.process.send_signal(signal.SIGKILL)
-                    server.wait()
-                else:
-                    self.assertEqual(server.stop(), 0)
-                written = os.stat(os.path.join(self.folder, 'jobs', job['id'], '000000.png')).st_mtime_ns
-                server = self.start()
-                again = self.status(job, server)
-                self.assertTrue(2 <= again['finished'] < 8 and again['state'] == 'running', again)
-                self.assertEqual(self.status(next_one, server)['place'], 1)
-                self.until(job, 'done', server)
-                self.until(next_one, 'done', server)
-                with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
-                    self.assertEqual([scene_of(z.read(n))['time'] for n in z.namelist()], list(range(150, 158)))
-                    self.assertEqual(z.read('000000.png'), first)
-                self.assertEqual(os.stat(os.path.join(self.folder, 'jobs', job['id'], '000000.png')).st_mtime_ns, written)
-                self.assertEqual(server.get(self.at(ended, '/result')).status, 200)
-                for j in (job, next_one, ended):
-                    self.assertEqual(self.delete(j, server).status, 204)
-                self.assertTrue(daemon.eventually(lambda: not self.folders()))
-                self.assertEqual(server.stop(), 0)
-
-    def test_its_preset_outlives_the_server(self):
-        server = self.start()
-        job = self.make({'scenes': [{**SCENE, 'time': 200}] * 4}, '?preset=schwarzschild', server)
-        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 1))
-        self.assertEqual(server.stop(), 0)
-        server = self.start()
-        self.until(job, 'done', server)
-        with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
-            self.assertEqual({scene_of(z.read(n))['spacetime']['spin'] for n in z.namelist()}, {0})
-        self.assertEqual(server.stop(), 0)
-
-    def test_what_ends_the_server_makes_way(self):
-        server = self.start()
-        job = self.make({'scenes': [SCENE, {**SCENE, 'time': -1}]}, server=server)
-        for i in range(3):
-            self.assertEqual(server.wait(), 1)
-            try:
-                server = self.start()
-            except RuntimeError:
-                self.fail('it did not start')
-        # The frame before it came when the server was started first, so that only the later starts were without one.
-        if 'delayed' not in self.status(job, server):
-            self.assertEqual(server.wait(), 1)
-            server = self.start()
-        waiting = self.status(job, server)
-        self.assertEqual((waiting['state'], waiting['finished']), ('waiting', 1), waiting)
-        self.assertIn('ended 3 times', waiting['delayed'])
-        self.until(self.make({'scene': SCENE}, server=server), 'done', server)
-        self.assertEqual(server.stop(), 0)
-
-    def test_any_number_of_restarts_with_a_frame_between(self):
-        server = self.start()
-        job = self.make({'scenes': [{**SCENE, 'time': 150}] * 8}, server=server)
-        for finished in range(1, 6):
-            self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= finished))
-            server.process.send_signal(signal.SIGKILL)
-            server.wait()
-            server = self.start()
-        self.until(job, 'done', server)
-        self.assertEqual(server.stop(), 0)
-
-    def test_remains(self):
-        server = self.start()
-        kept = self.make({'scene': SCENE}, server=server)
-        self.until(kept, 'done', server)
-        self.assertEqual(server.stop(), 0)
-        jobs = os.path.join(self.folder, 'jobs')
-        deleted = {'id': '0123456789abcdef', 'token': 'a' * 32, 'format': 1, 'state': 'done', 'error': ''}
-        for name, files in (('0123456789abcdef', {'000000.png': 'x', 'job.json': json.dumps(deleted)}), ('notes', {'mine.txt': 'x'})):
-            os.mkdir(os.path.join(jobs, name))
-            for file, text in files.items():
-                with open(os.path.join(jobs, name, file), 'w', encoding='ascii') as f:
-                    f.write(text)
-        server = self.start()
-        self.assertEqual(self.folders(), sorted([kept['id'], 'notes']))
-        self.assertEqual(server.stop(), 0)
-
-    def test_one_server_a_folder(self):
-        server = self.start()
-        second = subprocess.run([*daemon.COMMAND, '--port', '0', '--state', self.folder], capture_output=True, text=True, timeout=20)
-        self.assertEqual(second.returncode, 1)
-        self.assertIn('another server', second.stderr)
-        self.assertEqual(server.stop(), 0)
-
-    def test_without_a_folder_nothing_stays(self):
-        tmp = os.environ.get('TMPDIR')
-        os.environ['TMPDIR'] = self.folder
-        try:
-            server = daemon.Daemon('--drain-ms', 10)
-        finally:
-            os.environ.pop('TMPDIR')
-            if tmp:
-                os.environ['TMPDIR'] = tmp
-        self.until(self.make({'scenes': [SCENE] * 3}, server=server), 'done', server)
-        job = self.make({'scene': SLOW}, server=server)
-        self.assertEqual(len(os.listdir(self.folder)), 1)
-        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['fraction'] > 0))
-        begun = time.monotonic()
-        self.assertEqual(server.stop(), 0)
-        self.assertLess(time.monotonic() - begun, 15)  # the frame, of 30, has been dropped
-        self.assertEqual(os.listdir(self.folder), [])
 
 
 if __name__ == '__main__':

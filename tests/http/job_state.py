@@ -1,0 +1,146 @@
+"""Jobs of a server that ends, by itself or by a signal, and of the next one with its folder."""
+import io
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import zipfile
+
+import daemon
+from job_case import SCENE, SLOW, Case, scene_of
+
+
+class State(Case):
+    def setUp(self):
+        super().setUp()
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def start(self):
+        server = daemon.Daemon('--drain-ms', 10, '--state', self.folder)
+        self.addCleanup(lambda: server.process.poll() is None and (server.process.kill(), server.wait()))
+        return server
+
+    def folders(self):
+        return sorted(n for n in os.listdir(os.path.join(self.folder, 'jobs')) if n != 'lock')
+
+    def test_goes_on(self):
+        for kill in (False, True):
+            with self.subTest(kill=kill):
+                server = self.start()
+                ended = self.make({'scene': SCENE}, server=server)
+                self.until(ended, 'done', server)
+                job = self.make({'scenes': [{**SCENE, 'time': 150 + i} for i in range(8)]}, server=server)
+                next_one = self.make({'scene': SCENE}, server=server)
+                self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 2))
+                first = server.get(self.at(job, '/result?format=png')).body
+                if kill:
+                    server.process.send_signal(signal.SIGKILL)
+                    server.wait()
+                else:
+                    self.assertEqual(server.stop(), 0)
+                written = os.stat(os.path.join(self.folder, 'jobs', job['id'], '000000.png')).st_mtime_ns
+                server = self.start()
+                again = self.status(job, server)
+                self.assertTrue(2 <= again['finished'] < 8 and again['state'] == 'running', again)
+                self.assertEqual(self.status(next_one, server)['place'], 1)
+                self.until(job, 'done', server)
+                self.until(next_one, 'done', server)
+                with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+                    self.assertEqual([scene_of(z.read(n))['time'] for n in z.namelist()], list(range(150, 158)))
+                    self.assertEqual(z.read('000000.png'), first)
+                self.assertEqual(os.stat(os.path.join(self.folder, 'jobs', job['id'], '000000.png')).st_mtime_ns, written)
+                self.assertEqual(server.get(self.at(ended, '/result')).status, 200)
+                for j in (job, next_one, ended):
+                    self.assertEqual(self.delete(j, server).status, 204)
+                self.assertTrue(daemon.eventually(lambda: not self.folders()))
+                self.assertEqual(server.stop(), 0)
+
+    def test_its_preset_outlives_the_server(self):
+        server = self.start()
+        job = self.make({'scenes': [{**SCENE, 'time': 200}] * 4}, '?preset=schwarzschild', server)
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= 1))
+        self.assertEqual(server.stop(), 0)
+        server = self.start()
+        self.until(job, 'done', server)
+        with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, '/result')).body)) as z:
+            self.assertEqual({scene_of(z.read(n))['spacetime']['spin'] for n in z.namelist()}, {0})
+        self.assertEqual(server.stop(), 0)
+
+    def test_what_ends_the_server_makes_way(self):
+        server = self.start()
+        job = self.make({'scenes': [SCENE, {**SCENE, 'time': -1}]}, server=server)
+        for i in range(3):
+            self.assertEqual(server.wait(), 1)
+            try:
+                server = self.start()
+            except RuntimeError:
+                self.fail('it did not start')
+        # The frame before it came when the server was started first, so that only the later starts were without one.
+        if 'delayed' not in self.status(job, server):
+            self.assertEqual(server.wait(), 1)
+            server = self.start()
+        waiting = self.status(job, server)
+        self.assertEqual((waiting['state'], waiting['finished']), ('waiting', 1), waiting)
+        self.assertIn('ended 3 times', waiting['delayed'])
+        self.until(self.make({'scene': SCENE}, server=server), 'done', server)
+        self.assertEqual(server.stop(), 0)
+
+    def test_any_number_of_restarts_with_a_frame_between(self):
+        server = self.start()
+        job = self.make({'scenes': [{**SCENE, 'time': 150}] * 8}, server=server)
+        for finished in range(1, 6):
+            self.assertTrue(daemon.eventually(lambda: self.status(job, server)['finished'] >= finished))
+            server.process.send_signal(signal.SIGKILL)
+            server.wait()
+            server = self.start()
+        self.until(job, 'done', server)
+        self.assertEqual(server.stop(), 0)
+
+    def test_remains(self):
+        server = self.start()
+        kept = self.make({'scene': SCENE}, server=server)
+        self.until(kept, 'done', server)
+        self.assertEqual(server.stop(), 0)
+        jobs = os.path.join(self.folder, 'jobs')
+        deleted = {'id': '0123456789abcdef', 'token': 'a' * 32, 'format': 1, 'state': 'done', 'error': ''}
+        for name, files in (('0123456789abcdef', {'000000.png': 'x', 'job.json': json.dumps(deleted)}), ('notes', {'mine.txt': 'x'})):
+            os.mkdir(os.path.join(jobs, name))
+            for file, text in files.items():
+                with open(os.path.join(jobs, name, file), 'w', encoding='ascii') as f:
+                    f.write(text)
+        server = self.start()
+        self.assertEqual(self.folders(), sorted([kept['id'], 'notes']))
+        self.assertEqual(server.stop(), 0)
+
+    def test_one_server_a_folder(self):
+        server = self.start()
+        second = subprocess.run([*daemon.COMMAND, '--port', '0', '--state', self.folder], capture_output=True, text=True, timeout=20)
+        self.assertEqual(second.returncode, 1)
+        self.assertIn('another server', second.stderr)
+        self.assertEqual(server.stop(), 0)
+
+    def test_without_a_folder_nothing_stays(self):
+        tmp = os.environ.get('TMPDIR')
+        os.environ['TMPDIR'] = self.folder
+        try:
+            server = daemon.Daemon('--drain-ms', 10)
+        finally:
+            os.environ.pop('TMPDIR')
+            if tmp:
+                os.environ['TMPDIR'] = tmp
+        self.until(self.make({'scenes': [SCENE] * 3}, server=server), 'done', server)
+        job = self.make({'scene': SLOW}, server=server)
+        self.assertEqual(len(os.listdir(self.folder)), 1)
+        self.assertTrue(daemon.eventually(lambda: self.status(job, server)['fraction'] > 0))
+        begun = time.monotonic()
+        self.assertEqual(server.stop(), 0)
+        self.assertLess(time.monotonic() - begun, 15)  # the frame, of 30, has been dropped
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == '__main__':
+    daemon.main()
