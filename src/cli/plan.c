@@ -1,9 +1,10 @@
 /* kerrd plan says what a scene would cost on this device. */
 #include "cli/cli.h"
 #include "cli/scene_options.h"
-#include "render/plan/sweep_plan.h"
+#include "render/output/cost.h"
 #include "render/render.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 struct arguments {
@@ -36,13 +37,15 @@ static enum kd_status plan_sweep(struct arguments *arguments, const struct kd_sc
 {
     const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
     struct kd_sweep *sweep = NULL;
+    struct kd_cost cost = { 0 };
     enum kd_status status;
     KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, scene, &assets, &sweep, error));
     KD_TRY(kd_asset_options_check(&arguments->scene.assets, error));
-    KD_TRY(kd_sweep_plan_json(sweep, capacity, out, error));
-    if (kd_buffer_printf(out, "\n"))
+    KD_TRY(kd_cost_sweep(&cost, kd_series_all[0], sweep, capacity, INFINITY, error));
+    if (kd_cost_json(&cost, sweep, out) || kd_buffer_printf(out, "\n"))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the plan"));
 done:
+    kd_cost_finish(&cost);
     kd_sweep_free(sweep);
     return status;
 }

@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -155,4 +156,49 @@ enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct
 enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error)
 {
     return scan(text, start, end, KD_SCAN_FEW, error);
+}
+
+/* Gives the place of the quote that ends the string that begins at `at`, or the length. */
+static size_t end_of(const char *text, size_t length, size_t at)
+{
+    for (at++; at < length && text[at] != '"'; at++)
+        at += text[at] == '\\';
+    return at < length ? at : length;
+}
+
+/* Whether the text of a string is a name; any letter may be written as \u0061. */
+static bool spells(const char *text, size_t n, const char *name)
+{
+    char digits[5] = "";
+    for (; n && *name; name++) {
+        const bool escaped = n >= 6 && text[0] == '\\' && text[1] == 'u';
+        if (escaped)
+            memcpy(digits, text + 2, 4);
+        if ((escaped ? (char)strtoul(digits, NULL, 16) : *text) != *name)
+            return false;
+        text += escaped ? 6 : 1;
+        n -= escaped ? 6 : 1;
+    }
+    return !n && !*name;
+}
+
+bool kd_scan_names(const char *text, size_t length, const char *name)
+{
+    size_t depth = 0;
+    for (size_t at = 0; at < length; at++) {
+        if (text[at] == '{' || text[at] == '[')
+            depth++;
+        if (text[at] == '}' || text[at] == ']')
+            depth--;
+        if (text[at] != '"')
+            continue;
+        const size_t start = at + 1;
+        at = end_of(text, length, at);
+        size_t next = at + 1;
+        while (next < length && strchr(" \t\r\n", text[next]) && text[next])
+            next++;
+        if (depth == 1 && next < length && text[next] == ':' && spells(text + start, at - start, name))
+            return true;
+    }
+    return false;
 }

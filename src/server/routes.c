@@ -18,7 +18,7 @@ const struct kd_route kd_routes[] = {
     { "/v1/presets/{name}", KD_GET, kd_handle_kept, JSON, "The scene of a preset", .status = { 200, 304 } },
     { "/v1/schema", KD_GET, kd_handle_kept, "application/schema+json", "JSON Schema of a scene", .status = { 200, 304 } },
     { "/v1/plan", KD_POST, kd_handle_plan, JSON,
-      "What a scene requires: passes, rays, bytes, estimated time, approximations", KD_TAKES_SCENE },
+      "What a scene requires: passes, rays, bytes, estimated time, approximations; or, with axes, what all scenes of a sweep take together", KD_TAKES_PLAN },
     { "/v1/rays", KD_POST, kd_handle_rays, JSON,
       "End points of listed rays: equatorial crossings, redshift, delay, direction of escape, error", KD_TAKES_RAYS },
     { "/v1/physics", KD_GET, kd_handle_kept, JSON, "The quantities that /v1/physics/NAME gives",

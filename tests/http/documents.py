@@ -83,7 +83,7 @@ class Documents(unittest.TestCase):
         self.run_all('docs/jobs.md', 2)
 
     def test_sweeps(self):
-        self.run_all('docs/sweeps.md', 2)
+        self.run_all('docs/sweeps.md', 3)
         folder = pathlib.Path(self.folder.name)
         self.assertEqual(folder.joinpath('cube.npz').read_bytes(), folder.joinpath('same.npz').read_bytes())
 

@@ -1,7 +1,8 @@
-"""Sweeps: jobs with axes and the files that come of them."""
+"""Sweeps: jobs with axes, the files that come of them, and what POST /v1/plan says that they would take."""
 import contextlib
 import io
 import json
+import select
 import zipfile
 
 import daemon
@@ -84,6 +85,109 @@ class Sweeps(Case):
             self.assertEqual(self.daemon.get(self.at(job, '/result?format=zip')).status, 200, 'no cube')
             readers[1].close()
             self.assertTrue(daemon.eventually(lambda: self.daemon.get(path).body == whole))
+
+
+def pair(scene, **axes):
+    return {'scene': scene, 'axes': {name.replace('__', '.'): values for name, values in axes.items()}}
+
+
+MOST = pair({'image': {'width': 2, 'height': 2}}, camera__inclination_deg='1:100:1', spacetime__spin='0:0.99/100', style__exposure='0:9:1')  # as many scenes as there may be
+
+
+class Plans(Case):
+    """POST /v1/plan of what a job with axes takes."""
+    options = ('--queue', 2)
+
+    def plan(self, body, query=''):
+        answer = self.daemon.post('/v1/plan' + query, body)
+        self.assertEqual((answer.status, answer.header('Content-Type')), (200, 'application/json'), answer.body)
+        return answer.json()
+
+    def test_what_all_scenes_take_together(self):
+        """As much as the scenes one by one, but for lens maps that are there already: those of the second exposure."""
+        scene = {'image': {**IMAGE, 'samples': 2}}
+        plan = self.plan(pair(scene, style__exposure=[0, 1], spacetime__spin=[0, 0.5, 0.9], image__width=[32, 64]))
+        alone = [self.plan({'image': {**scene['image'], 'width': w}, 'style': {'exposure': e}, 'spacetime': {'spin': a}})
+                 for e in (0, 1) for a in (0, 0.5, 0.9) for w in (32, 64)]
+        traced = sum(p['estimate_ms'] for one in alone[6:] for p in one['passes'] if p['name'] == 'trace')
+        self.assertGreater(traced, 0)
+        self.assertEqual((plan['scenes'], plan['lens_maps']), (12, 6))
+        self.assertEqual(plan['rays'], sum(p['rays'] + p['critical_rays'] for p in alone))
+        self.assertAlmostEqual(plan['shared_ms'] / traced, 1, places=9)
+        self.assertAlmostEqual((plan['estimate_ms'] + plan['shared_ms']) / sum(p['estimate_ms'] for p in alone), 1, places=9)
+        self.assertEqual(plan['bytes']['device'], max(p['bytes']['device'] for p in alone))
+        self.assertEqual(plan['axes'], {'style.exposure': [0, 1], 'spacetime.spin': [0, 0.5, 0.9], 'image.width': [32, 64]})
+
+    def test_it_is_the_body_of_a_job(self):
+        """Preset and output too; of numbers it says how many bytes their files are."""
+        body = {**pair({'image': {**IMAGE, 'layers': ['rgb']}}, style__exposure='0:4:1'), 'output': 'cube'}
+        plan = self.plan(body)
+        self.assertEqual(plan['bytes']['files'], 5 * 3 * 4 * 32 * 18)
+        job = self.make(body)
+        self.assertEqual(self.until(job, 'done')['lens_maps_traced'], plan['lens_maps'])
+        face_on = self.plan({'axes': {'image.width': [32]}}, '?preset=face-on')
+        self.assertEqual(face_on['rays'], sum(self.daemon.post('/v1/plan?preset=face-on', {'image': {'width': 32}}).json()[n] for n in ('rays', 'critical_rays')))
+        self.assertNotIn('files', face_on['bytes'])
+        escaped = json.dumps(pair({}, time=[1, 2])).replace('axes', '\\u0061xe\\u0073')
+        self.assertEqual(self.plan(escaped)['scenes'], 2)
+
+    def test_errors_name_the_field(self):
+        for body, pointer in (
+                ({'scene': {}, 'axes': {}}, '/axes'), ({'scene': {}, 'axes': None}, '/axes'), ({'axes': {'spacetime.spin': [0, 2]}}, '/axes/spacetime.spin/1'),
+                ({'axes': {'a/b~': [0]}}, '/axes/a~1b~0'), ({'axes': {'time': '0:1'}}, '/axes/time'), ({'axes': {'time': [0]}, 'frames': 2}, '/axes'),
+                ({'scene': {'camera': {'inclination_deg': 181}}, 'axes': {'time': [0]}}, '/scene/camera/inclination_deg'),
+                ({'scenes': [{}], 'axes': {'time': [0]}}, '/scenes'), ({'axes': {'time': [0]}, 'x': 1}, '/x'),
+                ({'axes': {'spacetime.spin': [0.998, 0], 'disk.inner': [2]}}, '/axes'), ({'axes': {'time': [0]}, 'output': 'film'}, '/output'),
+                ({'output': 'cube', 'axes': {'image.width': [32, 64]}}, '/axes/image.width'),
+                ({'axes': {**MOST['axes'], 'disk.outer': [20, 30]}}, '/axes/disk.outer'), ('{"axes":{"time":[0]},"axes":{}}', '/axes')):
+            with self.subTest(str(body)[:100]):
+                self.assertProblem(self.daemon.post('/v1/plan', body), 422, 'invalid-job', pointer)
+        self.assertIn('100000', self.daemon.post('/v1/plan', {'axes': {**MOST['axes'], 'disk.outer': [20, 30]}}).json()['detail'])
+        for query, pointer in (('preset=x', '/preset'), ('spacetime.spin=0', '/spacetime/spin')):
+            self.assertProblem(self.daemon.post('/v1/plan?' + query, {'axes': {'time': [0]}}), 422, 'invalid-job', pointer)
+        too_large = self.assertProblem(self.daemon.post('/v1/plan', {'axes': {'image.width': [32, 32768], 'image.height': [32768]}}), 422, 'too-large', '/axes')
+        self.assertIn('scene 1', too_large['detail'])
+        self.assertProblem(self.daemon.post('/v1/plan', '{"axes":{"time":[0]}'), 400, 'malformed-json')
+        for body, pointer in (({'disk': {'axes': [0]}}, '/disk/axes'), ({'sky': {'model': 'axes'}}, '/sky/model')):
+            self.assertProblem(self.daemon.post('/v1/plan', body), 422, 'invalid-scene', pointer)
+
+    def begin_the_largest(self, stack):
+        body = json.dumps(MOST).encode()
+        s = stack.enter_context(self.daemon.connect())
+        s.sendall(b'POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n' % len(body) + body)
+        return s
+
+    def tearDown(self):
+        self.assertTrue(daemon.eventually(lambda: self.unfinished() == 0))
+        super().tearDown()
+
+    def unfinished(self):
+        return self.daemon.metrics()['kerrd_turns_unfinished']
+
+    def test_others_are_answered_meanwhile(self):
+        """By the thread that took it, while the scenes are planned; as many at once as workers take."""
+        few = pair(MOST['scene'], **{**MOST['axes'], 'spacetime.spin': '0:0.9:0.1'})
+        with contextlib.ExitStack() as stack:
+            largest = self.begin_the_largest(stack)
+            self.assertTrue(daemon.eventually(lambda: self.unfinished() == 1))
+            for _ in range(5):
+                self.assertEqual(self.daemon.get('/v1/device').status, 200)
+            plan = self.plan(few)
+            self.assertEqual(select.select([largest], [], [], 0)[0], [], 'it is planned still, and another of a tenth has not waited for it')
+            self.assertTrue(daemon.eventually(lambda: self.unfinished() == 1))
+            self.begin_the_largest(stack)
+            self.assertTrue(daemon.eventually(lambda: self.unfinished() == 2))
+            self.assertProblem(self.daemon.post('/v1/plan', few), 503, 'queue-full')
+            self.assertEqual(self.daemon.post('/v1/plan', {}).status, 200)
+        self.assertEqual((plan['scenes'], plan['lens_maps']), (10000, 1000))
+
+    def test_a_client_that_leaves(self):
+        """What it has asked for ends with it, for which tearDown looks."""
+        for _ in range(2):
+            with contextlib.ExitStack() as stack:
+                largest = self.begin_the_largest(stack)
+                self.assertTrue(daemon.eventually(lambda: self.unfinished() > 0))
+                daemon.vanish(largest)
 
 
 if __name__ == '__main__':

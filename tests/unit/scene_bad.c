@@ -1,6 +1,8 @@
 /* Documents that must be refused, each with its pointer and its reason; and random damage to good ones. */
 #include "scene_support.h"
 
+#include "scene/scan.h"
+
 struct bad {
     const char *text, *pointer, *fragment;
 };
@@ -210,6 +212,25 @@ static void depth_limit_is_exact(void **state)
     expect_refused(text, strlen(text), "", "deeper than 32");
 }
 
+/* A member of the outermost object alone, however its name is written. */
+static void names_are_found(void **state)
+{
+    (void)state;
+    static const struct { const char *text; bool there; } cases[] = {
+        { "{\"axes\":1}", true }, { " {\"a\":{\"b\":[1,\"}\"]}, \"axes\"\n:\t{}}", true }, { "{\"\\u0061x\\u0065s\":1}", true }, { "{\"a\":\"\\\\\",\"axes\":1}", true },
+        { "{\"a\":{\"axes\":1}}", false }, { "{\"a\":\"axes\"}", false }, { "{\"a\":[\"axes\"]}", false }, { "[\"axes\"]", false }, { "{\"axe\":1}", false },
+        { "{\"axess\":1}", false }, { "{\"a\":\"\\\"axes\\\":\"}", false }, { "", false }, { "{\"axes\"", false }, { "{\"axes", false }, { "{\"\\", false }, { "{\"\\u00", false },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t length = strlen(cases[i].text);
+        char *exact = malloc(length ? length : 1); /* so that a read past the end is seen */
+        memcpy(exact, cases[i].text, length);
+        if (kd_scan_names(exact, length, "axes") != cases[i].there)
+            fail_msg("%s", cases[i].text);
+        free(exact);
+    }
+}
+
 /* A key too long for a pointer leaves the pointer at its parent; messages stay whole UTF-8. */
 static void long_names_are_cut(void **state)
 {
@@ -319,7 +340,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(syntax_is_strict),          cmocka_unit_test(fields_are_strict),
         cmocka_unit_test(every_prefix_is_refused),   cmocka_unit_test(bombs_are_refused),
-        cmocka_unit_test(depth_limit_is_exact),      cmocka_unit_test(long_names_are_cut),
+        cmocka_unit_test(depth_limit_is_exact),      cmocka_unit_test(names_are_found),
+        cmocka_unit_test(long_names_are_cut),
         cmocka_unit_test(random_damage_is_harmless),
     };
     return cmocka_run_group_tests_name("scene refusals", tests, NULL, NULL);

@@ -15,6 +15,7 @@ enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* H
 enum kd_takes {
     KD_TAKES_NOTHING,
     KD_TAKES_SCENE, /* in the body, or with GET in the query */
+    KD_TAKES_PLAN,  /* a scene, or one with axes, in the body */
     KD_TAKES_RAYS,  /* in the body, JSON or NPY */
     KD_TAKES_ORBITS,
     KD_TAKES_JOB,
@@ -67,8 +68,8 @@ enum MHD_Result kd_handle_ready(struct kd_request *request);
 enum MHD_Result kd_handle_metrics(struct kd_request *request); /* answers/metrics.c */
 enum MHD_Result kd_handle_device(struct kd_request *request);
 enum MHD_Result kd_handle_kept(struct kd_request *request); /* what openapi/kept.h has */
-enum MHD_Result kd_handle_plan(struct kd_request *request);    /* render/renders.c */
-enum MHD_Result kd_handle_render(struct kd_request *request);
+enum MHD_Result kd_handle_plan(struct kd_request *request);   /* answers/plan.c */
+enum MHD_Result kd_handle_render(struct kd_request *request); /* render/renders.c */
 enum MHD_Result kd_handle_pixel(struct kd_request *request);
 enum MHD_Result kd_handle_rays(struct kd_request *request); /* answers/rays.c */
 enum MHD_Result kd_handle_orbits(struct kd_request *request); /* answers/orbits.c */

@@ -240,9 +240,9 @@ enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, con
     if (!job || !kd_secret_make(job->record.id, sizeof job->record.id) || !kd_secret_make(job->record.token, sizeof job->record.token)) {
         status = kd_error_set(error, KD_ENOMEM, "no memory, or no random numbers, for a job");
     } else {
-        job->order = draft->order;
-        draft->order = (struct kd_sweep_order) { 0 };
-        job->estimate_ms = draft->ms;
+        job->order = draft->cost.order;
+        draft->cost.order = (struct kd_sweep_order) { 0 };
+        job->estimate_ms = draft->cost.ms - draft->cost.shared_ms;
         job->record.created = kd_job_now_s();
         job->record.frames = job->frames;
         job->record.series = job->series;

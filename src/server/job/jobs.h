@@ -6,8 +6,7 @@
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
-#include "render/output/gather.h"
-#include "render/plan/sweep_order.h"
+#include "render/output/cost.h"
 #include "server/job/spec.h"
 #include "server/job/store.h"
 #include "server/render/queue.h"
@@ -43,12 +42,7 @@ void kd_jobs_destroy(struct kd_jobs *all);
  * time. */
 struct kd_job_draft {
     struct kd_job_spec spec;
-    unsigned checked; /* frames; spec.frames: all */
-    double ms;        /* that they take, by their plans; of a sweep with the lens maps that it shares counted once, when all are checked; */
-    double trace_ms;  /* and of that lens maps, until then */
-    double bytes;     /* of their files, where a format has as many for each picture of a size */
-    struct kd_sweep_order order;
-    struct kd_cube_shape shape; /* that all scenes of a cube have */
+    struct kd_cost cost; /* of the frames that have been looked at: cost.frames of spec.frames */
     char preset[32];  /* as the spec was parsed with */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);

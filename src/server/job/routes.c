@@ -131,7 +131,7 @@ static enum kd_turn_end work(struct kd_task *task, double until_ms)
         KD_TRY(kd_job_spec_parse(text, body->size, d->draft.preset, assets, &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
-    if (d->draft.checked < d->draft.spec.frames)
+    if (d->draft.cost.frames < d->draft.spec.frames)
         return KD_TURN_MORE;
     KD_TRY(kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &task->quota, &d->job, &error));
 done:

@@ -228,65 +228,43 @@ static void done(struct kd_render_job *render)
 void kd_job_draft_finish(struct kd_job_draft *draft)
 {
     kd_job_spec_finish(&draft->spec);
-    kd_sweep_order_finish(&draft->order);
-}
-
-/* What a frame costs, beside what its plan says. */
-static enum kd_status count(struct kd_job_draft *draft, const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error)
-{
-    const struct kd_words *layers = &scene->image.layers;
-    uint64_t group;
-    double trace_ms = 0;
-    for (size_t i = 0; i < plan->n_passes; i++)
-        trace_ms += plan->cacheable && !strcmp(plan->passes[i].name, kd_passes[KD_PASS_TRACE].name) ? plan->passes[i].estimate_ms : 0;
-    for (int i = 0; i < layers->count && draft->spec.series->frame->carries & KD_CARRIES_LAYERS; i++)
-        draft->bytes += 4. * (layers->at[i].word == KD_LAYER_rgb ? 3 : 1) * (plan->eyes ? plan->eyes : 1) * plan->width * plan->height;
-    if (draft->spec.series->swept && kd_cube_compare(&draft->shape, draft->checked, scene, plan, error))
-        return error->status;
-    draft->ms += plan->estimate_ms;
-    draft->checked++;
-    if (!draft->spec.sweep)
-        return KD_OK;
-    draft->trace_ms += trace_ms;
-    if (kd_plan_lens_group(scene, &group) || kd_sweep_order_add(&draft->order, group, trace_ms))
-        return kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", draft->spec.frames);
-    return KD_OK;
+    kd_cost_finish(&draft->cost);
 }
 
 /* Not the number of frames is limited, but what they cost. */
 static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draft *draft, struct kd_error *error)
 {
+    const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    const double s = 1e-3 * (draft->ms - (draft->checked < frames ? draft->trace_ms : 0)), bytes = (double)all->params.bytes;
+    const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms; /* until all are known, every lens map may be shared */
+    const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)
         return kd_error_set(error, KD_ETOOBIG, "%s%u frames would take about %.3g s, more than the %.0f s a job may take",
-                            draft->checked < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
-    if (draft->bytes > bytes)
-        return kd_error_set(error, KD_ETOOBIG, "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", draft->checked, frames,
-                            1e-9 * draft->bytes, 1e-9 * bytes);
+                            cost->frames < frames ? "some of the " : "the ", frames, s, all->params.longest_job_s);
+    if (cost->file_bytes > bytes)
+        return kd_error_set(error, KD_ETOOBIG, "%u of %u frames would be %.4g GB, more than the %.4g GB that this server keeps of all jobs", cost->frames, frames,
+                            1e-9 * cost->file_bytes, 1e-9 * bytes);
     return KD_OK;
 }
 
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms, struct kd_error *error)
 {
     const struct kd_job_spec *spec = &draft->spec;
+    struct kd_cost *cost = &draft->cost;
     struct kd_capacity capacity;
     struct kd_scene scene;
     struct kd_plan plan;
-    double shared_ms;
     enum kd_status status;
     kd_render_queue_capacity(all->params.renders, &capacity);
     do {
-        KD_TRY(plan_frame(all, spec, draft->checked, &capacity, &scene, &plan, error));
-        KD_TRY(count(draft, &scene, &plan, error));
-        if (draft->checked < spec->frames)
+        KD_TRY(plan_frame(all, spec, cost->frames, &capacity, &scene, &plan, error));
+        KD_TRY(kd_cost_add(cost, spec->series, spec->sweep, &scene, &plan, error));
+        if (cost->frames < spec->frames)
             KD_TRY(afford(all, draft, error));
-    } while (draft->checked < spec->frames && kd_clock_ms() < until_ms);
-    if (draft->checked < spec->frames)
+    } while (cost->frames < spec->frames && kd_clock_ms() < until_ms);
+    if (cost->frames < spec->frames)
         return KD_OK;
-    if (kd_sweep_order_end(&draft->order, &shared_ms))
-        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the order of %u frames", spec->frames));
-    draft->ms -= shared_ms;
+    KD_TRY(kd_cost_end(cost, error));
     KD_TRY(afford(all, draft, error));
 done:
     return status;

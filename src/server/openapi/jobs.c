@@ -9,18 +9,23 @@
 #define OBJECT KD_OPENAPI_OBJECT
 #define COUNT "{\"type\":\"integer\",\"minimum\":0}"
 
-/* Three times in the request and once in the answer: what a job makes of its frames, a list of names. */
+/* What a job makes of its frames: a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
 
 /* Fields with their values; a field has its own schema in Scene. */
 #define AXES "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\",\"minItems\":1," \
     "\"maxItems\":100000,\"items\":{\"anyOf\":[{\"type\":\"number\"},{\"type\":\"string\"},{\"type\":\"boolean\"},{\"type\":\"array\",\"items\":{\"type\":\"string\"}}]}},{\"type\":\"string\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}"
 
+/* A scene with axes. */
+#define SWEEP OBJECT "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" AXES "," OUTPUT "}}"
+
+static const char plan_request[] = "{\"oneOf\":[" KD_OPENAPI_SCENE "," SWEEP "]}";
+
 static const char request[] =
     "{\"oneOf\":[" OBJECT "\"required\":[\"scene\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE "," KD_OPENAPI_TIMELINE(
         "frame", "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}")
     ",\"frames\":{\"type\":\"integer\",\"minimum\":1,\"maximum\":10000},"
-    OUTPUT "}}," OBJECT "\"required\":[\"scene\",\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE ",\"axes\":" AXES "," OUTPUT "}}," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
+    OUTPUT "}}," SWEEP "," OBJECT "\"required\":[\"scenes\"],\"properties\":{\"scenes\":{\"type\":\"array\","
     "\"minItems\":1,\"maxItems\":10000,\"items\":" KD_OPENAPI_SCENE "}," OUTPUT "}}]}";
 
 static const char answer[] =
@@ -43,6 +48,14 @@ void kd_openapi_jobs_body(struct kd_json *json)
     char names[200], schema[sizeof request + 3 * sizeof names];
     list_series(names, sizeof names);
     int n = snprintf(schema, sizeof schema, request, names, names, names);
+    kd_openapi_body(json, schema, (size_t)n, NULL);
+}
+
+void kd_openapi_plan_body(struct kd_json *json)
+{
+    char names[200], schema[sizeof plan_request + sizeof names];
+    list_series(names, sizeof names);
+    int n = snprintf(schema, sizeof schema, plan_request, names);
     kd_openapi_body(json, schema, (size_t)n, NULL);
 }
 

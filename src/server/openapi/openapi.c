@@ -199,7 +199,7 @@ static void add_fields(struct kd_json *json, const cJSON *schema, const char *pr
 static bool has_parameters(const struct kd_route *route)
 {
     return strchr(route->path, '{') || (route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH)) || route->takes == KD_TAKES_JOB ||
-           route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
+           route->takes == KD_TAKES_PLAN || route->takes == KD_TAKES_RAYS || route->takes == KD_TAKES_PARTICLES || has_query(route);
 }
 
 static void add_parameters(struct kd_json *json, const struct kd_route *route, bool post, const cJSON *schema)
@@ -213,7 +213,7 @@ static void add_parameters(struct kd_json *json, const struct kd_route *route, b
         if (!post)
             add_fields(json, schema, "");
     }
-    if (route->takes == KD_TAKES_JOB)
+    if (route->takes == KD_TAKES_JOB || route->takes == KD_TAKES_PLAN)
         add_preset_parameter(json);
     if (route->takes == KD_TAKES_RAYS)
         kd_openapi_rays_parameters(json);
@@ -244,6 +244,7 @@ static void add_body(struct kd_json *json, const struct kd_route *route, unsigne
     case KD_TAKES_RAYS: kd_openapi_rays_body(json); break;
     case KD_TAKES_ORBITS: kd_openapi_orbits_body(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_body(json); break;
+    case KD_TAKES_PLAN: kd_openapi_plan_body(json); break;
     case KD_TAKES_STRIKE: kd_openapi_strike_body(json); break;
     case KD_TAKES_PLAYGROUND:
         if (method == KD_POST || method == KD_PATCH)

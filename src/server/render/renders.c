@@ -1,4 +1,4 @@
-/* This answers POST /v1/plan, /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is told. */
+/* This answers /v1/render from the scene to the picture, and /v1/pixel, which is a picture of which one pixel is told. */
 #include "render/explain/explain.h"
 #include "render/output/notes.h"
 #include "server/http/negotiate.h"
@@ -10,14 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum MHD_Result kd_handle_plan(struct kd_request *request)
-{
-    enum MHD_Result result;
-    struct kd_buffer json = { 0 };
-    const struct kd_planned *planned = kd_planned_of(request, &result);
-    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer) : result;
-}
 
 static const char *type_of(size_t i, const void *formats) { return ((const struct kd_format *const *)formats)[i]->media_type; }
 

@@ -1,0 +1,104 @@
+/* This answers POST /v1/plan: what rendering a scene takes, or all scenes of a sweep together, whose body is that of a job with axes. The scenes of a sweep
+ * are planned by the workers, in turns. */
+#include "render/output/cost.h"
+#include "scene/scan.h"
+#include "server/asset/store.h"
+#include "server/http/reply.h"
+#include "server/job/spec.h"
+#include "server/render/planned.h"
+#include "server/render/queue.h"
+#include "server/render/scene_source.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct sweep {
+    struct kd_task task; /* first */
+    struct kd_job_spec spec;
+    char preset[32];
+    struct kd_cost cost;
+    struct kd_buffer json;
+};
+
+static void destroy(struct kd_task *task)
+{
+    struct sweep *s = (struct sweep *)task;
+    kd_job_spec_finish(&s->spec);
+    kd_cost_finish(&s->cost);
+    kd_buffer_finish(&s->json);
+    free(s);
+}
+
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
+{
+    struct sweep *s = (struct sweep *)task;
+    struct kd_server *server = task->request->server;
+    const struct kd_buffer *body = &task->request->body;
+    struct kd_capacity capacity;
+    struct kd_error error = { 0 };
+    enum kd_status status;
+    if (!s->spec.sweep)
+        KD_TRY(kd_job_spec_parse((const char *)body->data, body->size, s->preset, kd_asset_store_assets(server->assets), &s->spec, &error));
+    kd_render_queue_capacity(server->renders, &capacity);
+    KD_TRY(kd_cost_sweep(&s->cost, s->spec.series, s->spec.sweep, &capacity, until_ms, &error));
+    if (s->cost.frames < s->spec.frames)
+        return KD_TURN_MORE;
+    if (kd_cost_json(&s->cost, s->spec.sweep, &s->json))
+        KD_TRY(kd_error_set(&error, KD_ENOMEM, "out of memory for the plan"));
+done:
+    kd_task_fail(task, status, &error);
+    return KD_TURN_LAST;
+}
+
+static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
+{
+    struct kd_problem problem = kd_problem_from(error);
+    if (error->status == KD_EINVAL)
+        problem.type = *error->pointer ? KD_PROBLEM_INVALID_JOB : KD_PROBLEM_MALFORMED_JSON;
+    return kd_reply_problem(request, &problem);
+}
+
+static enum MHD_Result deliver(struct kd_request *request)
+{
+    struct sweep *s = (struct sweep *)request->task;
+    if (s->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    return s->task.status ? refuse(request, &s->task.error) : kd_reply_json(request, KD_OK, &s->json, request->route->answer);
+}
+
+static enum MHD_Result plan_sweep(struct kd_request *request)
+{
+    const char *preset = kd_target_value(&request->target, "preset");
+    struct kd_error error = { 0 };
+    enum MHD_Result refused;
+    if (request->task)
+        return deliver(request);
+    if (kd_scene_query_check(&request->target, false, NULL, &error))
+        return refuse(request, &error);
+    if (!kd_task_admit(request, request->server->turns, "plans of sweeps", &refused))
+        return refused;
+    struct sweep *s = calloc(1, sizeof *s);
+    if (!s)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    kd_task_init(&s->task, request, request->server->turns);
+    s->task.work = work;
+    s->task.free = destroy;
+    snprintf(s->preset, sizeof s->preset, "%s", preset ? preset : "");
+    request->task = &s->task;
+    return kd_task_submit(&s->task);
+}
+
+static enum MHD_Result plan_scene(struct kd_request *request)
+{
+    enum MHD_Result result;
+    struct kd_buffer json = { 0 };
+    const struct kd_planned *planned = kd_planned_of(request, &result);
+    return planned ? kd_reply_json(request, kd_plan_to_json(&planned->plan, &json), &json, request->route->answer) : result;
+}
+
+enum MHD_Result kd_handle_plan(struct kd_request *request)
+{
+    const struct kd_buffer *body = &request->body;
+    const bool sweep = body->size && kd_scan_names((const char *)body->data, body->size, "axes");
+    return sweep ? plan_sweep(request) : plan_scene(request);
+}
