@@ -467,6 +467,7 @@ const refusals = [
   ['Bodies at {…}.', 'Corpi a {…}.'],
   ['{…} bodies of a playground at {…} M of its time.', '{…} corpi di un laboratorio, a {…} M del suo tempo.'],
   ['{…} body of a playground at {…} M of its time.', '{…} corpo di un laboratorio, a {…} M del suo tempo.'],
+  ['Not shown, as they have no radius or are at the horizon: {…}.', 'Non si vedono, perché non hanno raggio o sono all’orizzonte: {…}.'],
   ['{…} pieces of debris, from {…} M to {…} M.', '{…} pezzi di detriti, da {…} M a {…} M.'],
 ].map(shape);
 
@@ -575,6 +576,8 @@ export const sentences = {
     'corpi: quelli che cadono o hanno una velocità a scelta restano dove sono messi: essa sposta la loro luce e basta',
   'bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum':
     'corpi: la luminosità è bolometrica (g^4), il colore quello della parte visibile dello spettro',
+  'bodies: some of a playground are not shown: they have no radius, or are at the horizon':
+    'corpi: alcuni di un laboratorio non si vedono: non hanno raggio, o sono all’orizzonte',
   'bodies: one that is smaller than a pixel may lie between its rays':
     'corpi: uno più piccolo di un pixel può stare tra i suoi raggi',
   'bodies: those of a playground are where they are at its time, and move past an observer of zero angular momentum':

@@ -59,14 +59,14 @@ struct kd_debris_source *kd_debris_source_of(struct kd_playground_debris *debris
     return number && source->number == number ? source : NULL;
 }
 
-struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *debris, const char *name, double piece_mass, double spread)
+struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *debris, const char *name, double mass, uint32_t pieces, double spread)
 {
     const uint32_t number = ++debris->last_source, slot = number % KD_DEBRIS_SOURCES;
     struct kd_debris_source *source = &debris->sources[slot];
     for (uint32_t i = 0; source->number && i < debris->used; i++)
         if (debris->pieces[i].source == slot)
             give_up(debris, &debris->pieces[i]);
-    *source = (struct kd_debris_source) { .number = number, .t = debris->t, .piece_mass = piece_mass, .spread = spread };
+    *source = (struct kd_debris_source) { .number = number, .t = debris->t, .piece_mass = mass / pieces, .worth = 1.0 / pieces, .spread = spread };
     snprintf(source->name, sizeof source->name, "%s", name);
     return source;
 }

@@ -33,6 +33,7 @@ struct kd_debris_source {
     char name[KD_PLAYGROUND_NAME];
     double t;          /* of its first piece */
     double piece_mass; /* of one of its pieces */
+    double worth;      /* of a piece, in whole bodies: in pictures */
     double spread;     /* half the width of their energies, R/r_t^2 */
     uint32_t pieces;   /* torn off so far */
     uint32_t captured, lost; /* taken by the hole; given up for newer ones */
@@ -53,8 +54,8 @@ struct kd_playground_debris {
 enum kd_status kd_debris_resize(struct kd_playground_debris *debris, uint32_t capacity, struct kd_error *error);
 void kd_debris_finish(struct kd_playground_debris *debris);
 
-/* A new source, at debris->t; the oldest one's pieces are given up where there are as many as may be. */
-struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *debris, const char *name, double piece_mass, double spread);
+/* A new source, at debris->t, of a body of some mass that falls into so many pieces; the oldest one's pieces are given up where there are as many as may be. */
+struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *debris, const char *name, double mass, uint32_t pieces, double spread);
 /* The source of this number; NULL: it is gone. */
 struct kd_debris_source *kd_debris_source_of(struct kd_playground_debris *debris, uint32_t number);
 

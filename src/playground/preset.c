@@ -104,6 +104,8 @@ static enum kd_status emri(struct kd_playground *p, struct kd_error *error)
 {
     struct kd_playground_body body = circling(12, 0, 0, 0);
     body.mass = 1e-3;
+    body.radius = 0.3; /* so large that it is seen: nothing else depends on it, as there is nothing to touch and tides are off */
+    body.temperature_k = 12000;
     return add(p, "companion", body, error);
 }
 

@@ -125,7 +125,7 @@ static void seen_velocity(const struct kd_debris_piece *p, bool approximate, flo
     out[1] = slow * (x[0] * v[1] - x[1] * v[0]) / across;
 }
 
-void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n, double worth, bool approximate, struct kd_crowd_debris *to)
+void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n, const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_crowd_debris *to)
 {
     const float scale = (float)to->turn / KD_SHOW_TURN_MOST, turn = (float)to->turn;
     const size_t width = KD_CROWD_NODE * (size_t)to->columns;
@@ -142,8 +142,8 @@ void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_sho
         const float upper = row - (float)k, right = column - (float)j;
         float *node = to->nodes + k * width + KD_CROWD_NODE * (size_t)j, *next = j + 1 < to->columns ? node + KD_CROWD_NODE : to->nodes + k * width, v[2];
         seen_velocity(&pieces[i], approximate, v);
-        add(node, next, right, (float)worth * (1 - upper), v[0], v[1]);
-        add(node + width, next + width, right, (float)worth * upper, v[0], v[1]);
+        add(node, next, right, worth[pieces[i].source] * (1 - upper), v[0], v[1]);
+        add(node + width, next + width, right, worth[pieces[i].source] * upper, v[0], v[1]);
         thick += fabsf(x[2]) / sqrtf(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
         to->pieces++;
     }
@@ -154,6 +154,7 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd
 {
     const bool approximate = p->params.gravity == KD_GRAVITY_PACZYNSKI_WIITA;
     const size_t n = p->debris.used;
+    float worth[KD_DEBRIS_SOURCES];
     struct kd_show_place *places = malloc((n + 1) * sizeof *places);
     struct kd_crowd_debris grid = { 0 };
     struct kd_crowd *crowd = NULL;
@@ -171,8 +172,10 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd
     crowd->debris = grid;
     crowd->time = p->t;
     crowd->approximate = approximate;
+    for (int i = 0; i < KD_DEBRIS_SOURCES; i++)
+        worth[i] = (float)p->debris.sources[i].worth;
     if (grid.rows)
-        kd_show_share_out(p->debris.pieces, places, n, 1.0 / p->params.debris_per_body, approximate, &crowd->debris);
+        kd_show_share_out(p->debris.pieces, places, n, worth, approximate, &crowd->debris);
     *out = crowd;
 done:
     free(places);
@@ -187,9 +190,30 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
     return KD_OK;
 }
 
+/* The radius that nine pieces in ten are within, to a hundredth; 0: there are none. */
+static double most_within(const struct kd_playground_debris *debris)
+{
+    enum { BINS = 4200 }; /* of ln r, to 1e18 M */
+    uint32_t count[BINS] = { 0 }, all = 0, sum = 0;
+    for (uint32_t i = 0; i < debris->used; i++) {
+        const float *x = debris->pieces[i].x, r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        const float bin = 50 * logf(r2); /* 100 ln r */
+        if (debris->pieces[i].stage == KD_DEBRIS_FREE || !(bin >= 0 && bin < BINS))
+            continue;
+        count[(int)bin]++;
+        all++;
+    }
+    for (int k = 0; all && k < BINS; k++) {
+        sum += count[k];
+        if (sum >= 0.9 * all)
+            return exp(0.01 * (k + 1));
+    }
+    return 0;
+}
+
 enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error)
 {
-    double farthest = 0;
+    double farthest = most_within(&p->debris);
     char text[40];
     for (size_t i = 0; i < p->n; i++)
         farthest = fmax(farthest, kd_playground_radius(p->bodies[i].x) + p->bodies[i].radius);

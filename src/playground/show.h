@@ -18,14 +18,15 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_crowd
 /* KD_EINVAL where the scene is not one to show it in: with gravity "kerr" the spins must be the same. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene, struct kd_error *error);
 
-/* Makes a scene at infinity as wide as shows all bodies, and no narrower than it is. */
+/* Makes a scene at infinity as wide as shows all bodies and nine pieces of debris in ten, and no narrower than it is. */
 enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error);
 
-/* Private to src/playground, and for tests. Where pieces are in (ln r, azimuth), which grid has them, at most KD_SHOW_NODES, and what each of its nodes has. */
+/* Private to src/playground, and for tests. Where pieces are in (ln r, azimuth), which grid has them, at most KD_SHOW_NODES, and what each of its nodes has; worth: of a
+ * piece of each source. */
 enum { KD_SHOW_NODES = 1 << 20, KD_SHOW_TURN_LEAST = 512, KD_SHOW_TURN_MOST = 8192 };
 struct kd_show_place { float row, column; }; /* in cells of KD_SHOW_TURN_MOST a turn, the column from 0 on; NAN: nowhere */
 void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_show_place *out);
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_crowd_debris *out);
-void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n, double worth, bool approximate, struct kd_crowd_debris *to);
+void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n, const float worth[KD_DEBRIS_SOURCES], bool approximate, struct kd_crowd_debris *to);
 
 #endif

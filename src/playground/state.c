@@ -34,7 +34,7 @@ static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32),
                                         OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, REAL),
                                         OF(kd_playground_debris, haste, REAL) };
 static const struct number source[] = { OF(kd_debris_source, number, COUNT32), OF(kd_debris_source, t, REAL),
-                                        OF(kd_debris_source, piece_mass, REAL), OF(kd_debris_source, spread, REAL),
+                                        OF(kd_debris_source, piece_mass, REAL), OF(kd_debris_source, worth, REAL), OF(kd_debris_source, spread, REAL),
                                         OF(kd_debris_source, pieces, COUNT32), OF(kd_debris_source, captured, COUNT32),
                                         OF(kd_debris_source, lost, COUNT32) };
 #define N(table) (sizeof(table) / sizeof *(table))
@@ -151,7 +151,7 @@ static enum kd_status read_source(struct kd_playground_debris *d, const cJSON *i
     enum kd_status status;
     KD_TRY(read_numbers(&one, source, N(source), item, pointer, error));
     KD_TRY(kd_playground_numbers(back, KD_DEBRIS_BINS, UINT32_MAX, cJSON_GetObjectItemCaseSensitive(item, "back"), pointer, error));
-    if (!one.number || one.number > d->last_source || !(one.spread > 0) || !(one.piece_mass > 0) || !cJSON_IsString(name))
+    if (!one.number || one.number > d->last_source || !(one.spread > 0) || !(one.piece_mass > 0) || !(one.worth > 0 && one.worth <= 1) || !cJSON_IsString(name))
         KD_TRY(bad(pointer, "number", "and what is with it are none of a source", error));
     snprintf(one.name, sizeof one.name, "%s", name->valuestring);
     for (int k = 0; k < KD_DEBRIS_BINS; k++) {

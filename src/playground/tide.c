@@ -32,7 +32,7 @@ static void begin(struct kd_playground *p, struct kd_playground_body *body)
     body->whole_radius = body->radius;
     body->depth = body->shed = body->told = 0;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);
-    body->source = kd_debris_source_begin(&p->debris, body->name, body->mass / p->params.debris_per_body,
+    body->source = kd_debris_source_begin(&p->debris, body->name, body->mass, p->params.debris_per_body,
                                           kd_tide_spread(body->mass, body->radius))->number;
 }
 

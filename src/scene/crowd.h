@@ -23,7 +23,7 @@ struct kd_seen_body {
     double velocity[3];      /* along e_r, e_theta, e_phi of the observer of zero angular momentum there, less than 1 in all */
     double radius;           /* in its own frame; 0 or less: it is not seen */
     uint32_t which;          /* what a pixel that shows it is told: its place in whoever's list */
-    double temperature_k, brightness, limb_darkening; /* as bodies.* of a scene has them */
+    double temperature_k, brightness, limb_darkening; /* as bodies.* of a scene has them; of temperature 0 it is dark, and hides what is behind it */
     double albedo; /* share of the disk's light that it throws back, evenly to all sides; 0: that is not looked for */
 };
 

@@ -215,6 +215,44 @@ static void test_as_a_scene_has_it(void **state)
     }
 }
 
+/* A body of temperature 0 is as dark as one of brightness 0: it hides what lies behind it, disk and other bodies, is told with its temperature, and leaves no NaN. One
+ * without a radius is told. */
+static void test_dark(void **state)
+{
+    (void)state;
+    struct kd_scene scene = scene_of("{\"camera\":{\"inclination_deg\":75,\"field_m\":40},\"disk\":{\"model\":\"novikov-thorne\",\"outer\":60},\"image\":{\"layers\":[\"rgb\",\"intensity\",\"temperature\"]}}");
+    struct kd_frame bare = rendered(&scene), frames[3];
+    for (int k = 0; k < 3; k++) {
+        const struct kd_seen_body body = { .r = 14, .u = cos(65 * M_PI / 180), .s = sin(65 * M_PI / 180), .phi = 1.2, .radius = k == 2 ? 0 : 3,
+                                           .temperature_k = k == 1 ? 0 : 6000, .brightness = k == 1 ? 1 : 0, .limb_darkening = 0.6 };
+        struct kd_crowd *crowd = one(&body, 1);
+        struct kd_capacity c;
+        struct kd_plan plan;
+        kd_scene_show(&scene, crowd);
+        frames[k] = rendered(&scene);
+        kd_renderer_capacity(renderer, &c);
+        OK(kd_plan_make(&scene, &c, &plan, &error));
+        bool told = false;
+        for (size_t i = 0; i < plan.n_approximations; i++)
+            told |= strstr(plan.approximations[i], "they have no radius") != NULL;
+        assert_true(told == (k == 2));
+        kd_crowd_release(crowd);
+    }
+    int hidden = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const float before = layer_of(&bare, "intensity")[i], by_brightness = layer_of(&frames[0], "intensity")[i], by_kelvin = layer_of(&frames[1], "intensity")[i];
+        const bool is_body = layer_of(&frames[1], "temperature")[i] == 0;
+        assert_true(by_kelvin == by_brightness && layer_of(&frames[2], "intensity")[i] == before);
+        assert_true(!is_body || by_kelvin == 0);
+        hidden += is_body && before > 0;
+    }
+    printf("a dark body hides the disk in %d pixels\n", hidden);
+    assert_true(hidden >= 8);
+    for (int k = 0; k < 3; k++)
+        kd_frame_finish(&frames[k]);
+    kd_frame_finish(&bare);
+}
+
 /* 1/g of what moves with (v_r, v_phi) past the observer of zero angular momentum, by the photon's own components, in the equatorial plane. */
 static double shift_of(double a, double r, const struct ks_photon *p, double p_z, bool falls, const double v[2])
 {
@@ -421,6 +459,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_as_a_scene_has_it),
+        cmocka_unit_test(test_dark),
         cmocka_unit_test(test_debris),
         cmocka_unit_test(test_lit),
         cmocka_unit_test(test_lit_moving),

@@ -75,6 +75,7 @@ static struct kd_debris_piece piece(double r, double phi, double z, double vr, d
 
 static struct kd_crowd *grid_of(const struct kd_debris_piece *pieces, size_t n, double worth)
 {
+    const float worths[KD_DEBRIS_SOURCES] = { (float)worth };
     struct kd_show_place *places = malloc(n * sizeof *places);
     struct kd_crowd_debris grid;
     struct kd_crowd *crowd;
@@ -84,7 +85,7 @@ static struct kd_crowd *grid_of(const struct kd_debris_piece *pieces, size_t n, 
     assert_int_equal(kd_crowd_create(0, grid.rows, grid.columns, &crowd, NULL), KD_OK);
     grid.nodes = crowd->debris.nodes;
     crowd->debris = grid;
-    kd_show_share_out(pieces, places, n, worth, false, &crowd->debris);
+    kd_show_share_out(pieces, places, n, worths, false, &crowd->debris);
     free(places);
     return crowd;
 }
@@ -181,6 +182,8 @@ static void a_star_is_shown(void **state)
     looks.debris_temperature_k = 7000;
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     assert_true(p->rate == rate && rate > 0);
+    looks.debris_per_body = 500; /* of what is torn from now on: what there is is worth no more for that */
+    assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     struct kd_crowd *crowd = shown(p);
     const struct sums s = sums_of(&crowd->debris);
     printf("%u pieces on %u rows of %u of %u a turn, %g of the star, |z|/r %.2g\n", crowd->debris.pieces, crowd->debris.rows, crowd->debris.columns, crowd->debris.turn, s.worth,
@@ -189,6 +192,44 @@ static void a_star_is_shown(void **state)
     assert_true(fabs(s.worth - p->debris.alive / 50000.0) < 1e-4 && s.worth > 0.4 && s.worth < 0.7);
     assert_true(crowd->debris.depth == 3 && crowd->debris.temperature_k == 7000 && crowd->time == p->t);
     kd_crowd_release(crowd);
+    kd_playground_destroy(p);
+}
+
+static double width_of(const struct kd_playground *p)
+{
+    struct kd_scene scene;
+    struct kd_error error = { 0 };
+    kd_scene_defaults(&scene);
+    assert_int_equal(kd_playground_widen(p, &scene, &error), KD_OK);
+    return scene.camera.field_m;
+}
+
+/* A view is as wide as bodies are far out, and debris where there is more of it: nine pieces in ten are within half of it. */
+static void a_view_is_as_wide_as_what_there_is(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_make(playground_quiet());
+    struct kd_scene usual;
+    kd_scene_defaults(&usual);
+    assert_true(width_of(p) == usual.camera.field_m);
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 2, .x = { 0, 300, 400 } });
+    assert_true(fabs(width_of(p) / (2.4 * 502) - 1) < 1e-8);
+    kd_playground_destroy(p);
+
+    p = playground_read("{\"preset\":\"disruption\"}");
+    playground_advance(p, 12000);
+    assert_true(p->n == 0 && p->debris.alive > 10000);
+    const double width = width_of(p);
+    size_t within = 0, nearer = 0;
+    for (uint32_t i = 0; i < p->debris.used; i++) {
+        const float *x = p->debris.pieces[i].x;
+        const double r = sqrt((double)x[0] * x[0] + (double)x[1] * x[1] + (double)x[2] * x[2]) / (width / 2.4);
+        within += p->debris.pieces[i].stage != KD_DEBRIS_FREE && r <= 1;
+        nearer += p->debris.pieces[i].stage != KD_DEBRIS_FREE && r <= 0.985;
+    }
+    printf("a view of a torn star is %.4g M wide, and %.3f of it are within 1/2.4 of that, %.3f within 0.985 of it\n", width, (double)within / p->debris.alive,
+           (double)nearer / p->debris.alive);
+    assert_true(width > 2 * usual.camera.field_m && within >= 0.9 * p->debris.alive && nearer < 0.9 * p->debris.alive);
     kd_playground_destroy(p);
 }
 
@@ -211,7 +252,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies), cmocka_unit_test(debris_is_all_there), cmocka_unit_test(a_piece_is_at_its_place), cmocka_unit_test(a_star_is_shown),
-        cmocka_unit_test(nowhere),
+        cmocka_unit_test(nowhere), cmocka_unit_test(a_view_is_as_wide_as_what_there_is),
     };
     return cmocka_run_group_tests_name("playground_show", tests, NULL, NULL);
 }

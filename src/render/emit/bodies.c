@@ -76,6 +76,15 @@ static unsigned varies(const struct kd_scene *scene)
     return by;
 }
 
+/* Counts those of a playground that cannot be shown. */
+static size_t unseen_of(const struct kd_scene *scene)
+{
+    size_t unseen = 0;
+    for (size_t i = 0; scene->crowd.at && i < scene->crowd.at->n; i++)
+        unseen += !kd_bodies_seen(&scene->crowd.at->bodies[i], scene->spacetime.spin);
+    return unseen;
+}
+
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 {
     const struct kd_body *on[KD_SCENE_BODIES];
@@ -84,8 +93,10 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     for (size_t i = 0; i < n && used < KD_EMIT_TOLD; i++)
         used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%.6g M%s", i ? ", " : "", on[i]->r, i + 1 == n ? "." : "");
     if (others && used < KD_EMIT_TOLD)
-        snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.", n ? " " : "", others, others > 1 ? "bodies" : "body",
-                 scene->crowd.at->time);
+        used += (size_t)snprintf(out + used, KD_EMIT_TOLD - used, "%s%zu %s of a playground at %.6g M of its time.", n ? " " : "", others, others > 1 ? "bodies" : "body",
+                                 scene->crowd.at->time);
+    if (unseen_of(scene) && used < KD_EMIT_TOLD)
+        snprintf(out + used, KD_EMIT_TOLD - used, " Not shown, as they have no radius or are at the horizon: %zu.", unseen_of(scene));
 }
 
 static uint64_t device_bytes(const struct kd_scene *scene) { return sizeof(float) * kd_bodies_words(kd_bodies_count(scene)); }
@@ -225,6 +236,7 @@ static bool by_potential(const struct kd_scene *scene, const struct kd_setting *
 #define WHEN(name, condition)                                                                                  \
     static bool name(const struct kd_scene *scene, const struct kd_setting *rays) { return (void)rays, condition; }
 WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
+WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
     { "bodies: opaque spheres in their own frames; space is flat, and light straight, within the scale of one: no tides, no own gravity, no shadows", NULL },
@@ -236,6 +248,7 @@ static const struct kd_sentence sentences[] = {
     { "bodies: those that fall or have a velocity of their own stay where they are put: it shifts their light and no more", stands },
     { "bodies: those of a playground are where they are at its time, and move past an observer of zero angular momentum", shown },
     { "bodies: those of a playground move in a potential: its r stands for Boyer and Lindquist's, its velocity for gamma v", by_potential },
+    { "bodies: some of a playground are not shown: they have no radius, or are at the horizon", unseen },
     { "bodies: brightness is bolometric (g^4), colour is that of the visible part of the spectrum", bolometric },
     { "bodies: one that is smaller than a pixel may lie between its rays", NULL },
 };

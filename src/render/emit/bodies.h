@@ -28,6 +28,8 @@ size_t kd_bodies_words(size_t n);
 /* Writes them; n at most KD_SEEN_BODIES. Some 10 us of 16 bodies, 2 ms of 4096. Bodies that cannot be, or have no size, are left out: they have none of the
  * numbers above, or are within KD_BODIES_CLEAR of the horizon's radius. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, float *words, struct kd_error *error);
+/* Whether it is among those that are packed. A body of temperature 0 is: it is dark, and hides what lies behind it. */
+bool kd_bodies_seen(const struct kd_seen_body *body, double spin);
 /* Finds the numbers that go with them. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view, struct kd_bodies_block *out);
 #define KD_BODIES_CLEAR 1.02
