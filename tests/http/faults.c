@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -24,6 +25,8 @@ struct control {
     _Atomic int64_t full;        /* nothing can be written to files */
     _Atomic int64_t descriptors; /* 1: none is left for files */
     _Atomic int64_t shift_s;     /* of the clock on the wall */
+    _Atomic int64_t slow;        /* files are not opened for reading before it is 0 again */
+    _Atomic int64_t waiting;     /* for that */
 };
 
 void *__libc_malloc(size_t size);
@@ -108,6 +111,11 @@ int openat(int folder, const char *path, int flags, ...)
         errno = EMFILE;
         return -1;
     }
+    bool waits = (flags & O_ACCMODE) == O_RDONLY && !(flags & O_DIRECTORY) && atomic_load(&control->slow);
+    atomic_fetch_add(&control->waiting, waits);
+    while (waits && atomic_load(&control->slow))
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    atomic_fetch_sub(&control->waiting, waits);
     return real(folder, path, flags, mode);
 }
 

@@ -10,15 +10,15 @@ import unittest
 import daemon
 
 LIBRARY = []
-FIELDS = ('fail_at', 'allocations', 'live', 'failed', 'by_library', 'full', 'descriptors', 'shift_s')
+FIELDS = ('fail_at', 'allocations', 'live', 'failed', 'by_library', 'full', 'descriptors', 'shift_s', 'slow', 'waiting')
 
 
 class Faults:
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
-        self.file.write(struct.pack('<8q', -1, *[0] * 7))
+        self.file.write(struct.pack('<10q', -1, *[0] * 9))
         self.file.flush()
-        self.map = mmap.mmap(self.file.fileno(), 64)
+        self.map = mmap.mmap(self.file.fileno(), 80)
 
     def __getattr__(self, name):
         return struct.unpack_from('<q', self.map, 8 * FIELDS.index(name))[0]

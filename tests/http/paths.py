@@ -4,7 +4,7 @@ from math import asin, atan2, cos, degrees, hypot, isclose, radians, sin, sqrt
 import unittest
 
 import daemon
-import jobs
+from job_case import IMAGE, Case, scene_of
 
 
 def pyramid(x, p, at):
@@ -58,12 +58,12 @@ def angles(n):
     return degrees(atan2(n[2], -n[0])), degrees(asin(-n[1] / sqrt(sum(c * c for c in n))))
 
 
-class Paths(jobs.Case):
+class Paths(Case):
     options = ('--jobs', 4)
 
     def cameras(self, camera, keyframes, spin=0.9, **manner):
-        asked = {'scene': {'image': jobs.IMAGE, 'spacetime': {'spin': spin}, 'camera': camera}, 'keyframes': keyframes, **manner}
-        return [jobs.scene_of(png)['camera'] for png in self.frames(self.make(asked)).values()]
+        asked = {'scene': {'image': IMAGE, 'spacetime': {'spin': spin}, 'camera': camera}, 'keyframes': keyframes, **manner}
+        return [scene_of(png)['camera'] for png in self.frames(self.make(asked)).values()]
 
     def test_a_spline_goes_through(self):
         at = {0: 60, 4: 20, 6: 25, 16: 90, 20: 90}
@@ -71,7 +71,7 @@ class Paths(jobs.Case):
         for frame, camera in enumerate(found):
             self.assertAlmostEqual(camera['inclination_deg'], pyramid(list(at), list(at.values()), frame) if frame < 20 else 90, places=10, msg=frame)
         self.assertGreater(max(c['inclination_deg'] for c in found), 90.5, 'it overshoots')
-        job = {'scene': {'image': jobs.IMAGE, 'camera': {'inclination_deg': 175}}, 'interpolation': 'catmull-rom',
+        job = {'scene': {'image': IMAGE, 'camera': {'inclination_deg': 175}}, 'interpolation': 'catmull-rom',
                'keyframes': [{'frame': f, 'scene': {'camera': {'inclination_deg': v}}} for f, v in ((4, 179), (8, 100))]}
         self.assertProblem(self.daemon.post('/v1/jobs', job), 422, 'invalid-job', '/keyframes')
 
@@ -162,7 +162,7 @@ class Paths(jobs.Case):
         for manner, pointer in (({'ease': 'slow'}, '/ease'), ({'angles': 1}, '/angles'), ({'look_at': 'me'}, '/look_at'), ({'look_at': {'x': 1}}, '/look_at/x'),
                                 ({'look_at': {'r': -1}}, '/look_at/r'), ({'look_at': {'theta_deg': 190}}, '/look_at/theta_deg'), ({'look_at': 'hole'}, '/keyframes'),
                                 ({'interpolation': 'catmullrom'}, '/interpolation')):
-            self.assertProblem(self.daemon.post('/v1/jobs', {'scene': {'image': jobs.IMAGE, 'camera': {'r': 'infinity'}}, 'keyframes': [key], **manner}), 422, 'invalid-job', pointer)
+            self.assertProblem(self.daemon.post('/v1/jobs', {'scene': {'image': IMAGE, 'camera': {'r': 'infinity'}}, 'keyframes': [key], **manner}), 422, 'invalid-job', pointer)
         for keys in ([{**key, 'ease': 1}], [{**key, 'look_at': {'phi_deg': 'a'}}]):
             self.assertProblem(self.daemon.post('/v1/jobs', {'scene': {}, 'keyframes': keys}), 422, 'invalid-job', '/keyframes/0/' + ('ease' if 'ease' in keys[0] else 'look_at/phi_deg'))
         for manner in ({'ease': 'in'}, {'angles': 'shorter'}, {'look_at': 'hole'}):

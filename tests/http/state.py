@@ -15,11 +15,11 @@ import zipfile
 import assets
 import daemon
 import faults
-import jobs
-from jobs import SCENE, SLOW
+import job_case
+from job_case import SCENE, SLOW
 
 
-class Case(jobs.Case):
+class Case(job_case.Case):
     """Every test starts its own servers, on a folder of its own."""
 
     @classmethod
@@ -333,6 +333,33 @@ class Scarce(Case):
         self.until(self.make({'scene': SCENE}, server=server), 'done', server)
         self.assertEqual(self.status(job, server)['state'], 'waiting')
         server.stop()
+
+    def test_files_that_are_slow(self):
+        """A cube is looked through, and a table read, by a worker: others are answered while a disk keeps it waiting."""
+        server = self.start(by=self.faults.start)
+        scene = {'image': {'width': 8, 'height': 4, 'layers': ['rgb']}}
+        for asked, query in (({'output': 'cube'}, '?format=npz'), ({'output': 'cube'}, '?format=fits'), ({'output': 'light-curve'}, '')):
+            with self.subTest(f'{asked} {query}'):
+                job = self.make({'scene': scene, 'axes': {'style.exposure': '0:4:1'}, **asked}, server=server)
+                self.until(job, 'done', server)
+                path = self.at(job, '/result' + query)
+                at_once = server.get(path)
+                self.faults.set('slow', 1)
+                with server.connect() as late, server.connect() as gone:
+                    for reader in (late, gone):
+                        reader.sendall(f'GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n'.encode())
+                    self.assertTrue(daemon.eventually(lambda: self.faults.waiting > 0))
+                    for _ in range(3):
+                        self.assertEqual(server.get('/v1/device').status, 200)
+                    self.assertGreater(self.faults.waiting, 0)
+                    daemon.vanish(gone)
+                    self.faults.set('slow', 0)
+                    answer = daemon.read_answer(late)
+                self.assertEqual((answer.status, answer.body), (200, at_once.body))
+                self.assertTrue(daemon.eventually(lambda: server.metrics()['kerrd_turns_unfinished'] == 0))
+                os.remove(os.path.join(self.jobs, job['id'], '000003.png'))
+                self.assertRegex(self.assertProblem(server.get(path), 500, 'internal')['detail'], 'file of (frame|scene) 3 cannot be read')
+        self.assertEqual(server.stop(), 0)
 
     def test_the_clock_on_the_wall_jumps(self):
         server = self.start(by=self.faults.start)

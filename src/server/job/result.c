@@ -1,9 +1,11 @@
-/* This answers GET /v1/jobs/{id}/result: a frame as a file, all of them as one file, or as they come; a table of their rows. */
+/* This answers GET /v1/jobs/{id}/result: a frame as a file, or the frames as they come; all of them as one file: whole.c, a table of their rows: table.c. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"
+#include "server/job/table.h"
 #include "server/job/whole.h"
 #include "server/http/reply.h"
 #include "server/job/jobs.h"
+#include "server/render/task.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -112,7 +114,7 @@ static enum MHD_Result send_frames(struct kd_request *request, struct kd_job *jo
     return kd_job_stream(request, type, produce, f, release);
 }
 
-static enum MHD_Result not_ready(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status)
+enum MHD_Result kd_job_not_ready(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status)
 {
     char detail[600];
     if (status->state == KD_JOB_FAILED)
@@ -128,7 +130,7 @@ static enum MHD_Result send_frame(struct kd_request *request, struct kd_job *job
     uint64_t size;
     int fd = kd_job_frame(job, frame, &size);
     if (fd < 0)
-        return not_ready(request, job, status);
+        return kd_job_not_ready(request, job, status);
     kd_job_release(job);
     kd_reply_file(request, KD_INLINE, "%06u.%s", frame, status->series->frame->name);
     struct MHD_Response *response = MHD_create_response_from_fd64(size, fd);
@@ -141,7 +143,7 @@ static enum MHD_Result send_frame(struct kd_request *request, struct kd_job *job
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-static enum MHD_Result bad(struct kd_request *request, struct kd_job *job, const char *detail)
+enum MHD_Result kd_job_bad(struct kd_request *request, struct kd_job *job, const char *detail)
 {
     kd_job_release(job);
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_INVALID_PARAMETERS, .detail = detail });
@@ -163,10 +165,10 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
     kd_job_status(job, &status);
     if (!(status.series->frame->carries & KD_CARRIES_PICTURE)) {
         snprintf(detail, sizeof detail, "the frames of this job are %s: there is nothing to look at", status.series->each);
-        return bad(request, job, detail);
+        return kd_job_bad(request, job, detail);
     }
     if (!kd_job_glimpse(job, &png, &sight))
-        return not_ready(request, job, &status);
+        return kd_job_not_ready(request, job, &status);
     if (sight.finished)
         return send_frame(request, job, sight.frame, &status);
     kd_job_release(job);
@@ -178,81 +180,6 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
         MHD_add_response_header(response, "Kerrd-Rows", rows);
     }
     return kd_reply_send(request, MHD_HTTP_OK, response);
-}
-
-static bool read_row(struct kd_job *job, unsigned frame, void *out, size_t row)
-{
-    uint64_t size;
-    int fd = kd_job_frame(job, frame, &size);
-    bool whole = fd >= 0 && size == row && read(fd, out, row) == (ssize_t)row;
-    if (fd >= 0)
-        close(fd);
-    return whole;
-}
-
-/* Answers of a job that is done. */
-static enum MHD_Result send_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
-                                  const struct kd_table_format *table)
-{
-    const size_t row = status->series->row_bytes;
-    char *rows = malloc(status->frames * row);
-    struct kd_buffer text = { 0 };
-    bool there = rows;
-    for (unsigned i = 0; i < status->frames && there; i++)
-        there = read_row(job, i, rows + i * row, row);
-    kd_job_release(job);
-    enum kd_status made = !rows ? KD_ENOMEM : there ? table->write(rows, status->frames, status->sweep, &text) : KD_EIO;
-    free(rows);
-    if (table->file)
-        kd_reply_file(request, KD_ATTACHMENT, "%s", table->file);
-    return kd_reply_json(request, made, &text, table->media_type);
-}
-
-static const char *type_of(size_t i, const void *tables) { return ((const struct kd_table_format *)tables)[i].media_type; }
-
-/* What Accept would rather have, the first if it does not care; NULL: none. */
-static const struct kd_table_format *accepted(struct kd_request *request, const struct kd_series *series)
-{
-    size_t best = kd_reply_accepted(request, series->n_tables, type_of, series->tables);
-    return best < series->n_tables ? &series->tables[best] : NULL;
-}
-
-/* "application/json, text/csv", or "json or csv" */
-static const char *list_tables(const struct kd_series *series, bool types, char *out, size_t size)
-{
-    for (size_t i = 0, n = 0; i < series->n_tables && n < size; i++)
-        n += (size_t)snprintf(out + n, size - n, "%s%s", !i ? "" : types ? ", " : " or ",
-                              types ? series->tables[i].media_type : series->tables[i].name);
-    return out;
-}
-
-static enum MHD_Result not_acceptable(struct kd_request *request, struct kd_job *job, const struct kd_series *series)
-{
-    char offered[160], detail[240];
-    kd_job_release(job);
-    list_tables(series, true, offered, sizeof offered);
-    snprintf(detail, sizeof detail, "%ss are offered as %s", series->noun, offered);
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE, .offered = offered, .detail = detail });
-}
-
-/* The table of a job whose frames are rows. */
-static enum MHD_Result table_of(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const char *format)
-{
-    const struct kd_series *series = status->series;
-    const struct kd_table_format *table = format ? kd_series_table(series, format) : accepted(request, series);
-    char names[80], detail[240];
-    if (!format && !table)
-        return not_acceptable(request, job, series);
-    if (!table) {
-        snprintf(detail, sizeof detail, "format is %s: the frames of this job are %s", list_tables(series, false, names, sizeof names),
-                 series->each);
-        return bad(request, job, detail);
-    }
-    if (kd_target_value(&request->target, "frame")) {
-        snprintf(detail, sizeof detail, "frame goes with pictures; a %s comes whole", series->noun);
-        return bad(request, job, detail);
-    }
-    return status->state == KD_JOB_DONE ? send_table(request, job, status, table) : not_ready(request, job, status);
 }
 
 static const struct kd_gather_format *whole_named(const struct kd_series *series, const char *name)
@@ -271,7 +198,7 @@ static enum MHD_Result unknown_format(struct kd_request *request, struct kd_job 
         snprintf(detail + strlen(detail), sizeof detail - strlen(detail), "%s%s", !i ? "" : series->wholes[i + 1] ? ", " : " or ", series->wholes[i]->name);
     snprintf(detail + strlen(detail), sizeof detail - strlen(detail), ", which hold%s all, or %s or %s, both with frame=NUMBER if wanted", series->wholes[1] ? "" : "s",
              series->frame->name, kd_job_as_stream.name);
-    return bad(request, job, detail);
+    return kd_job_bad(request, job, detail);
 }
 
 /* The frames of a job that are files: one of them, or all in something that holds them. */
@@ -284,9 +211,9 @@ static enum MHD_Result files_of(struct kd_request *request, struct kd_job *job, 
         format = status->frames > 1 || status->sweep ? series->wholes[0]->name : series->frame->name;
     const struct kd_gather_format *whole = one_of_them ? NULL : whole_named(series, format);
     if (!kd_target_whole(&request->target, "frame", 0, status->frames ? status->frames - 1 : 0, &frame))
-        return bad(request, job, "frame is the number of a frame of this job, from 0 on");
+        return kd_job_bad(request, job, "frame is the number of a frame of this job, from 0 on");
     if (whole && status->state != KD_JOB_DONE)
-        return not_ready(request, job, status);
+        return kd_job_not_ready(request, job, status);
     if (whole)
         return kd_job_send_whole(request, job, status, whole);
     if (!strcmp(format, series->frame->name))
@@ -298,6 +225,8 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
 {
     enum MHD_Result refused;
     struct kd_job_status status;
+    if (request->task)
+        return request->task->answer(request);
     if (!kd_reply_only(request, (const char *const[]) { "format", "frame", NULL }, &refused))
         return refused;
     struct kd_job *job = kd_job_of(request, &refused);
@@ -305,5 +234,5 @@ enum MHD_Result kd_handle_job_result(struct kd_request *request)
         return refused;
     kd_job_status(job, &status);
     const char *format = kd_target_value(&request->target, "format");
-    return (status.series->row_bytes ? table_of : files_of)(request, job, &status, format);
+    return (status.series->row_bytes ? kd_job_send_table : files_of)(request, job, &status, format);
 }

@@ -1,4 +1,4 @@
-/* routes.c, result.c and whole.c share this. HTTP thread. */
+/* routes.c, result.c, table.c and whole.c share this. HTTP thread. */
 #ifndef KD_SERVER_JOB_ROUTES_H
 #define KD_SERVER_JOB_ROUTES_H
 
@@ -8,6 +8,11 @@
 
 /* A reference to the job that the path names, or NULL after a refusal. */
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused);
+
+/* Refusals, which take the reference over: frames are missing, and there will be more or not; what the query says does not go. */
+struct kd_job_status;
+enum MHD_Result kd_job_not_ready(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status);
+enum MHD_Result kd_job_bad(struct kd_request *request, struct kd_job *job, const char *detail);
 
 /* A 200 of unknown length that may take its time. release(cls) is called in the end, also on failure. */
 enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_ContentReaderCallback produce, void *cls,

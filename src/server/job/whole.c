@@ -1,14 +1,16 @@
 #include "server/job/whole.h"
 
+#include "base/clock.h"
 #include "base/log.h"
 #include "server/http/reply.h"
 #include "server/job/routes.h"
+#include "server/render/task.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-/* Cubes that may be under way at once: each is looked through first, and holds some 400 bytes a scene meanwhile, which count as bytes
+/* Cubes that may be under way at once: workers look through each first, and it holds some 400 bytes a scene meanwhile, which count as bytes
  * that are kept for answers. */
 enum { CUBES = 8, CUBES_OF_ONE = 3 };
 
@@ -122,6 +124,82 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     return kd_job_hand_over(&w->out, &w->at, to, size, w->over ? MHD_CONTENT_READER_END_OF_STREAM : 0);
 }
 
+/* What is looked through before its first byte. */
+struct looked {
+    struct kd_task task; /* first */
+    struct kd_job_whole *whole; /* NULL: the answer has it */
+    const struct kd_gather_format *format;
+};
+
+static void destroy(struct kd_task *task)
+{
+    struct looked *l = (struct looked *)task;
+    if (l->whole)
+        release(l->whole);
+    free(l);
+}
+
+static enum kd_turn_end work(struct kd_task *task, double until_ms)
+{
+    struct kd_job_whole *w = ((struct looked *)task)->whole;
+    struct kd_error error = { 0 };
+    enum kd_status status;
+    do {
+        KD_TRY(kd_gather_next(&w->gather, &w->out, &w->over, &error));
+        if (w->out.size || w->over)
+            return KD_TURN_LAST;
+    } while (kd_clock_ms() < until_ms);
+    return KD_TURN_MORE;
+done:
+    kd_task_fail(task, status, &error);
+    return KD_TURN_LAST;
+}
+
+static enum MHD_Result stream(struct kd_request *request, struct kd_job_whole *w, const struct kd_gather_format *format)
+{
+    kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(w->job), format->name);
+    return kd_job_stream(request, format->media_type, produce, w, release);
+}
+
+static enum MHD_Result answer(struct kd_request *request)
+{
+    struct looked *l = (struct looked *)request->task;
+    struct kd_job_whole *w = l->whole;
+    struct kd_job_status status;
+    if (l->task.status == KD_ECANCELLED)
+        return MHD_NO; /* nobody listens */
+    kd_job_status(w->job, &status);
+    if (l->task.status && status.deleted)
+        return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = "the job has been deleted" });
+    if (l->task.status) {
+        kd_log(KD_LOG_ERROR, "job %.4s...: %s", kd_job_id(w->job), l->task.error.message);
+        return kd_reply_error(request, &l->task.error);
+    }
+    l->whole = NULL;
+    return stream(request, w, l->format);
+}
+
+/* Takes *w over. */
+static enum MHD_Result look_through(struct kd_request *request, struct kd_job_whole *w, const struct kd_gather_format *format)
+{
+    enum MHD_Result refused;
+    struct looked *l = NULL;
+    if (kd_task_admit(request, request->server->turns, "cubes", &refused) && !(l = calloc(1, sizeof *l)))
+        refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
+    if (!l) {
+        release(w);
+        return refused;
+    }
+    kd_task_init(&l->task, request, request->server->turns);
+    l->task.work = work;
+    l->task.free = destroy;
+    l->task.answer = answer;
+    l->whole = w;
+    l->format = format;
+    request->task = &l->task;
+    return kd_task_submit(&l->task);
+}
+
 enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status, const struct kd_gather_format *format)
 {
     struct kd_error error = { 0 };
@@ -131,11 +209,11 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
         kd_job_release(job);
         return refused;
     }
-    kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
     struct kd_job_whole *w = request->head ? NULL : calloc(1, sizeof *w);
     if (!w) {
         if (held)
             kd_bytes_give(request->server->replies, request->client, held);
+        kd_reply_file(request, KD_ATTACHMENT, "kerrd-%s.%s", kd_job_id(job), format->name);
         kd_job_release(job);
         return request->head ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(format->media_type))
                              : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
@@ -146,8 +224,7 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
     if (held)
         enter(w, held);
     if (!kd_gather_open(format, &w->source, &w->gather, &error))
-        return kd_job_stream(request, format->media_type, produce, w, release);
+        return format->of ? look_through(request, w, format) : stream(request, w, format);
     release(w);
-    const struct kd_problem problem = kd_problem_from(&error);
-    return kd_reply_problem(request, &problem);
+    return kd_reply_error(request, &error);
 }

@@ -17,6 +17,7 @@ struct kd_task {
     enum kd_turn_end (*work)(struct kd_task *task, double until_ms); /* a piece, on a worker */
     void (*last)(struct kd_task *task);                          /* may be NULL; on a worker, after the last piece */
     void (*free)(struct kd_task *task);                          /* with what it is embedded in */
+    enum MHD_Result (*answer)(struct kd_request *request);       /* for a handler that has tasks of several kinds: NULL without; on the HTTP thread */
     size_t held;                                                 /* of kd_task_hold, given back with the task */
     bool quota;                                                  /* KD_EBUSY because its client has its share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
