@@ -1,5 +1,7 @@
 #include "vk/pipeline.h"
 
+#include "base/clock.h"
+#include "base/log.h"
 #include "vk/device.h"
 #include "vk/kind.h"
 
@@ -139,6 +141,7 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
     snprintf(pipeline->name, sizeof pipeline->name, "%s", params->name ? params->name : "unnamed");
     vk->n_pipelines++;
     struct kd_error why = { 0 };
+    const double start = kd_clock_ms();
     status = pipeline_init(vk, pipeline, params, &why);
     if (status) {
         pipeline_free(vk, &pipeline->retired);
@@ -146,6 +149,7 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
                             why.message);
     }
     *out = pipeline;
+    kd_log(KD_LOG_DEBUG, "pipeline '%s': made in %.1f ms", pipeline->name, kd_clock_ms() - start);
     return KD_OK;
 }
 
