@@ -22,6 +22,7 @@ struct column {
     const struct kd_timeline *timeline;
     const struct kd_field *field;
     size_t index;
+    size_t from; /* the key that t counts from: whole turns of the others are counted from it */
     bool ratios; /* its logarithm is interpolated */
     bool turns;  /* it goes the shorter way from key to key: a whole turn makes no difference */
     enum kd_interpolation by;
@@ -33,11 +34,14 @@ static double given(const struct column *c, size_t key)
     return c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
 }
 
+/* Of a key beside the one it counts from, at most two behind it: that is as far as slopes look. */
 static double value_at(const struct column *c, size_t key)
 {
-    double value = given(c, c->turns ? 0 : key);
-    for (size_t i = 1; c->turns && i <= key; i++)
-        value += remainder(given(c, i) - given(c, i - 1), 360);
+    double value = given(c, c->turns ? c->from : key);
+    for (size_t i = c->from; c->turns && i < key; i++)
+        value += remainder(given(c, i + 1) - given(c, i), 360);
+    for (size_t i = c->from; c->turns && i > key; i--)
+        value -= remainder(given(c, i) - given(c, i - 1), 360);
     return c->ratios ? log(value) : value;
 }
 
@@ -120,7 +124,7 @@ static void section_between(const struct kd_timeline *timeline, size_t key, doub
     for (size_t index = 0; index < size; index++)
         for (size_t i = section->first; i < section->first + section->count; i++) {
             const struct kd_field *field = &kd_fields[i];
-            const struct column column = { timeline, field, index, timeline->geometric && is_distance(field), timeline->shorter && is_turn(field),
+            const struct column column = { timeline, field, index, key, timeline->geometric && is_distance(field), timeline->shorter && is_turn(field),
                                            timeline->interpolation };
             if (continuous(field) && !stays(timeline, key, field, index))
                 kd_field_put(out, field, index, between(&column, key, t));
@@ -173,17 +177,26 @@ done:
     return status;
 }
 
+/* The last key that is not behind a place; by halves, since a list of scenes has a key each. */
+static size_t key_before(const struct kd_timeline *timeline, double at)
+{
+    size_t key = 0, end = timeline->n_keys;
+    while (end - key > 1) {
+        const size_t middle = key + (end - key) / 2;
+        *(timeline->keys[middle].at <= at ? &key : &end) = middle;
+    }
+    return key;
+}
+
 enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, struct kd_scene *out, struct kd_error *error)
 {
     struct kd_error inner = { 0 };
     const double end = kd_timeline_end(timeline);
-    size_t key = 0;
     if (at < end && timeline->ease != KD_EASE_NONE)
         at = end * eased(timeline->ease, at / end);
-    while (key + 1 < timeline->n_keys && timeline->keys[key + 1].at <= at)
-        key++;
+    const size_t key = key_before(timeline, at);
     const struct kd_timeline_key *from = &timeline->keys[key], *to = NULL;
-    const struct column clock = { .timeline = timeline, .by = timeline->interpolation == KD_LINEAR ? KD_LINEAR : KD_SMOOTH };
+    const struct column clock = { .timeline = timeline, .from = key, .by = timeline->interpolation == KD_LINEAR ? KD_LINEAR : KD_SMOOTH };
     double proper_time = from->proper_time, t = 0;
     *out = from->scene;
     if (from->at < at && key + 1 < timeline->n_keys) {

@@ -3,6 +3,8 @@
 
 #include "scene/timeline.h"
 
+#include <time.h>
+
 static const struct kd_timeline_form seconds = { "at", 100, false };
 
 static enum kd_status read(const char *scene, const char *keyframes, const char *how, struct kd_timeline *out, struct kd_error *error)
@@ -128,12 +130,85 @@ static void what_is_no_path_is_refused(void **state)
     kd_timeline_finish(&t);
 }
 
+enum { MANY = 20000, FEW = 20 };
+
+/* A turn of the camera in uneven steps, of up to 170 degrees each; turned[k]: its azimuth at key k, all turns counted. */
+static struct kd_timeline turning(size_t n, enum kd_interpolation by, double *turned)
+{
+    struct kd_timeline t = { .keys = calloc(n, sizeof *t.keys), .n_keys = n, .interpolation = by, .shorter = true };
+    uint64_t seed = 7;
+    double azimuth = 0;
+    assert_non_null(t.keys);
+    for (size_t k = 0; k < n; k++) {
+        kd_scene_smooth(&t.keys[k].scene);
+        t.keys[k].at = (double)k + (k % 3 == 1 ? 0.25 : 0);
+        t.keys[k].scene.camera.azimuth_deg = remainder(azimuth, 360);
+        turned[k] = azimuth;
+        azimuth += (double)(support_random(&seed) % 341) - 170;
+    }
+    return t;
+}
+
+static double seconds_of(const struct kd_timeline *t, int frames)
+{
+    struct timespec begun, ended;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun); /* of this thread alone: others may be at work */
+    for (int i = 0; i < frames; i++)
+        at(t, kd_timeline_end(t) * ((i * 7 % frames) + 0.5) / frames);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
+    return (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);
+}
+
+/* Angles that go the shorter way add up turns from the first key on, and yet a frame looks at the keys beside it alone. */
+static void a_great_many_keys(void **state)
+{
+    (void)state;
+    double *turned = calloc(MANY, sizeof *turned), first[FEW];
+    assert_non_null(turned);
+    struct kd_timeline t = turning(MANY, KD_LINEAR, turned), few = turning(FEW, KD_LINEAR, first);
+    assert_true(fabs(turned[MANY - 1]) > 720 || fabs(turned[MANY / 2]) > 720);
+    for (size_t k = 0; k + 1 < MANY; k += k % 5 + 1)
+        for (int i = 0; i < 4; i++) {
+            const double s = 0.25 * i, place = t.keys[k].at + s * (t.keys[k + 1].at - t.keys[k].at), found = at(&t, place).camera.azimuth_deg;
+            const double wanted = turned[k] + s * (turned[k + 1] - turned[k]);
+            if (!(fabs(remainder(found - wanted, 360)) < 1e-9 && fabs(found) <= 360))
+                fail_msg("at %g: %.15g, wanted %.15g", place, found, wanted);
+        }
+    const double slow = seconds_of(&t, 2000), quick = seconds_of(&few, 2000);
+    print_message("a frame: %.1f us of %d keys, %.1f us of %d\n", slow * 500, MANY, quick * 500, FEW);
+    assert_true(slow < 10 * quick); /* in proportion it would be a thousand times */
+    kd_timeline_finish(&t);
+    kd_timeline_finish(&few);
+    free(turned);
+}
+
+/* A curve is that of the keys beside it: two before, two after. */
+static void curves_are_local(void **state)
+{
+    (void)state;
+    double turned[FEW];
+    for (enum kd_interpolation by = KD_SMOOTH; by <= KD_CATMULL_ROM; by++) {
+        struct kd_timeline t = turning(FEW, by, turned);
+        for (size_t k = 1; k + 2 < FEW; k++) {
+            struct kd_timeline part = { .keys = &t.keys[k - 1], .n_keys = 4, .interpolation = by, .shorter = true };
+            for (double s = 0; s < 1; s += 0.125) {
+                const double place = t.keys[k].at + s * (t.keys[k + 1].at - t.keys[k].at);
+                const double whole = at(&t, place).camera.azimuth_deg, alone = at(&part, place).camera.azimuth_deg;
+                assert_true(fabs(remainder(whole - alone, 360)) < 1e-12);
+            }
+        }
+        kd_timeline_finish(&t);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(free_fall_by_proper_time),
         cmocka_unit_test(an_orbit_by_proper_time),
         cmocka_unit_test(an_approach_by_ratios),
+        cmocka_unit_test(a_great_many_keys),
+        cmocka_unit_test(curves_are_local),
         cmocka_unit_test(what_is_no_path_is_refused),
     };
     return cmocka_run_group_tests_name("timeline", tests, NULL, NULL);
