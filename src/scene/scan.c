@@ -174,7 +174,7 @@ static bool spells(const char *text, size_t n, const char *name)
         const bool escaped = n >= 6 && text[0] == '\\' && text[1] == 'u';
         if (escaped)
             memcpy(digits, text + 2, 4);
-        if ((escaped ? (char)strtoul(digits, NULL, 16) : *text) != *name)
+        if ((escaped ? strtoul(digits, NULL, 16) : (unsigned char)*text) != (unsigned char)*name)
             return false;
         text += escaped ? 6 : 1;
         n -= escaped ? 6 : 1;

@@ -159,6 +159,7 @@ static size_t body_max(const struct kd_request *request)
     switch (request->route->takes) {
     case KD_TAKES_RAYS: return KD_RAYS_BODY_MAX;
     case KD_TAKES_ORBITS: return KD_ORBIT_BODY_MAX;
+    case KD_TAKES_PLAN: /* that of a job, if it has axes */
     case KD_TAKES_JOB: return KD_JOB_BODY_MAX;
     case KD_TAKES_PLAYGROUND: return KD_PLAYGROUND_JSON_MAX;
     case KD_TAKES_ASSET: return KD_ASSET_BYTES;
@@ -171,6 +172,7 @@ static const char *too_large(const struct kd_request *request)
     switch (request->route->takes) {
     case KD_TAKES_RAYS: return RAYS_TOO_LARGE;
     case KD_TAKES_ORBITS: return ORBITS_TOO_LARGE;
+    case KD_TAKES_PLAN:
     case KD_TAKES_JOB: return JOB_TOO_LARGE;
     case KD_TAKES_PLAYGROUND: return PLAYGROUND_TOO_LARGE;
     case KD_TAKES_ASSET: return ASSET_TOO_LARGE;

@@ -128,6 +128,7 @@ class Plans(Case):
         face_on = self.plan({'axes': {'image.width': [32]}}, '?preset=face-on')
         self.assertEqual(face_on['rays'], sum(self.daemon.post('/v1/plan?preset=face-on', {'image': {'width': 32}}).json()[n] for n in ('rays', 'critical_rays')))
         self.assertNotIn('files', face_on['bytes'])
+        self.assertEqual(self.plan(json.dumps(pair({}, time=[1, 2])) + ' ' * (2 << 20))['scenes'], 2, 'as large as a job may be')
         escaped = json.dumps(pair({}, time=[1, 2])).replace('axes', '\\u0061xe\\u0073')
         self.assertEqual(self.plan(escaped)['scenes'], 2)
 
@@ -158,7 +159,7 @@ class Plans(Case):
         return s
 
     def tearDown(self):
-        self.assertTrue(daemon.eventually(lambda: self.unfinished() == 0))
+        self.assertTrue(daemon.eventually(lambda: self.unfinished() == 0, 60))
         super().tearDown()
 
     def unfinished(self):
@@ -175,10 +176,12 @@ class Plans(Case):
             plan = self.plan(few)
             self.assertEqual(select.select([largest], [], [], 0)[0], [], 'it is planned still, and another of a tenth has not waited for it')
             self.assertTrue(daemon.eventually(lambda: self.unfinished() == 1))
-            self.begin_the_largest(stack)
+            second = self.begin_the_largest(stack)
             self.assertTrue(daemon.eventually(lambda: self.unfinished() == 2))
             self.assertProblem(self.daemon.post('/v1/plan', few), 503, 'queue-full')
             self.assertEqual(self.daemon.post('/v1/plan', {}).status, 200)
+            daemon.vanish(largest)
+            daemon.vanish(second)
         self.assertEqual((plan['scenes'], plan['lens_maps']), (10000, 1000))
 
     def test_a_client_that_leaves(self):

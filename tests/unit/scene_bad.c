@@ -219,7 +219,7 @@ static void names_are_found(void **state)
     static const struct { const char *text; bool there; } cases[] = {
         { "{\"axes\":1}", true }, { " {\"a\":{\"b\":[1,\"}\"]}, \"axes\"\n:\t{}}", true }, { "{\"\\u0061x\\u0065s\":1}", true }, { "{\"a\":\"\\\\\",\"axes\":1}", true },
         { "{\"a\":{\"axes\":1}}", false }, { "{\"a\":\"axes\"}", false }, { "{\"a\":[\"axes\"]}", false }, { "[\"axes\"]", false }, { "{\"axe\":1}", false },
-        { "{\"axess\":1}", false }, { "{\"a\":\"\\\"axes\\\":\"}", false }, { "", false }, { "{\"axes\"", false }, { "{\"axes", false }, { "{\"\\", false }, { "{\"\\u00", false },
+        { "{\"axess\":1}", false }, { "{\"\\u0161xes\":1}", false }, { "{\"a\":\"\\\"axes\\\":\"}", false }, { "", false }, { "{\"axes\"", false }, { "{\"axes", false }, { "{\"\\", false }, { "{\"\\u00", false },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].text);

@@ -145,4 +145,3 @@ enum MHD_Result kd_job_send_table(struct kd_request *request, struct kd_job *job
     }
     return status->state == KD_JOB_DONE ? write_table(request, job, status, table) : kd_job_not_ready(request, job, status);
 }
-
