@@ -8,6 +8,8 @@
 #include <float.h>
 #include <math.h>
 
+#define NEAR_CIRCLE 1e-3 /* of w: the ends of wider motions are roots of W to 1e-12 */
+
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
 {
     static const char *const names[] = { "bound", "plunge", "escape" };
@@ -200,6 +202,49 @@ static enum kd_status check_state(double a, double r, double theta_deg, enum kd_
     return KD_OK;
 }
 
+/* The ends of a motion near a stable circle. There the roots of W run into one another and drown in its rounding, and W at the start may come out below zero;
+ * but it is known to be w_rate^2, and W about the start, as a polynomial of the distance d, loses nothing. */
+static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state *start)
+{
+    const double w = start->w, cubic = o->w[3] + 4 * w * o->w[4];
+    const double c[5] = { start->w_rate * start->w_rate, kd_orbit_radial_slope(o, w), o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]), cubic, o->w[4] };
+    const double middle = -c[1] / (2 * c[2]), reach = sqrt(middle * middle - c[0] / c[2]);
+    if (!(c[2] < 0) || !(reach < NEAR_CIRCLE * w) || !(fabs(cubic) * reach < -0.1 * c[2]))
+        return false;
+    double ends[2] = { middle - reach, middle + reach };
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 4 && reach > 0; k++) {
+            const double d = ends[i];
+            ends[i] -= kd_polynomial_at(c, 4, d) / (c[1] + d * (2 * c[2] + d * (3 * c[3] + d * 4 * c[4])));
+        }
+    o->w_low = w + fmin(ends[0], 0);
+    o->w_high = w + fmax(ends[1], 0);
+    o->turns_out = o->turns_in = true;
+    o->circular = o->w_low == o->w_high;
+    return true;
+}
+
+/* The range of a start that is at a turning point as far as rounding lets see, and by rounding beyond it. W is known there to `unknown`, 64 roundings of
+ * its largest terms: the range is looked for where W rises above that. Where it does not before its next extremum, both ends are one: a circle. */
+static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
+{
+    const double w = start->w, slope = kd_orbit_radial_slope(o, w), bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
+    const double size = fabs(o->w[0]) + w * (fabs(o->w[1]) + w * (fabs(o->w[2]) + w * (fabs(o->w[3]) + w * fabs(o->w[4]))));
+    const double unknown = 64 * DBL_EPSILON * size;
+    if (fabs(kd_orbit_radial(o, w)) > unknown || start->w_rate * start->w_rate > unknown)
+        return false;
+    if (slope * slope < 16 * unknown * fabs(bend)) {
+        o->w_low = o->w_high = w;
+        o->turns_out = o->turns_in = o->circular = true;
+        return true;
+    }
+    if (!find_range(o, w + 4 * unknown / slope))
+        return false;
+    o->w_low = fmin(o->w_low, w);
+    o->w_high = fmax(o->w_high, w);
+    return true;
+}
+
 enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd_observer frame, const double v[3],
                                    struct kd_orbit *o, struct kd_orbit_state *start, struct kd_error *error)
 {
@@ -221,11 +266,8 @@ enum kd_status kd_orbit_from_state(double a, double r, double theta_deg, enum kd
         .u = at.u,
         .u_rate = -p.polar * at.s,
     };
-    if (!find_range(o, start->w)) { /* at rest at a turning point, and rounding puts it beyond */
-        double near = start->w_rate == 0 ? start->w * (kd_orbit_radial_slope(o, start->w) > 0 ? 1 + 1e-12 : 1 - 1e-12) : start->w;
-        if (!find_range(o, near))
-            return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision", r);
-    }
+    if (!find_range_of_circle(o, start) && !find_range(o, start->w) && !find_range_at_turn(o, start))
+        return kd_error_field(error, "/position/r", "the motion from r = %.16g cannot be followed in double precision", r);
     if (start->w_rate == 0) { /* exactly at the turning point that is there */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
         *(outer ? &o->w_low : &o->w_high) = start->w;

@@ -307,8 +307,11 @@ static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h,
     double low = 0, high = h, f_low = height(path, event, aim), f_high = height(&best, event, aim);
     for (int i = 0; i < 100 && f_low != f_high; i++) {
         double at = isfinite(f_high) ? high - f_high * (high - low) / (f_high - f_low) : 0.5 * (low + high);
-        if (!(at > fmin(low, high) && at < fmax(low, high)) || fabs(high - low) < 1e-15 * fabs(h))
+        if (!(at > fmin(low, high) && at < fmax(low, high)) || fabs(high - low) < 1e-15 * fabs(h)) {
+            if (at == low) /* the event is there: where the step begins, it may be */
+                best = low == 0 ? *path : moved(path, low);
             break;
+        }
         best = moved(path, at);
         double f = height(&best, event, aim);
         if (f == 0)
