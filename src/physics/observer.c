@@ -222,6 +222,16 @@ enum kd_observer_fault kd_observer_check(const struct kd_observer_motion *m, con
     return m->observer == KD_OBSERVER_INFALL ? check_fall(m, at, bound) : KD_OBSERVER_SOUND;
 }
 
+const char *kd_observer_fastest(const double v[3], double *component)
+{
+    static const char *const names[] = { "velocity_r", "velocity_theta", "velocity_phi" };
+    int most = 0;
+    for (int i = 1; i < 3; i++)
+        most = fabs(v[i]) > fabs(v[most]) ? i : most;
+    *component = v[most];
+    return names[most];
+}
+
 struct kd_tetrad kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at)
 {
     return kd_observers[motion->observer].tetrad(motion, at);

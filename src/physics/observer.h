@@ -48,6 +48,10 @@ struct kd_observer_motion {
     double fall_momentum; /* infall: L per mass */
 };
 
+/* "velocity_r", "velocity_theta" or "velocity_phi": whichever component is the greatest, to be named where a speed
+ * is too high; and *component. */
+const char *kd_observer_fastest(const double velocity[3], double *component);
+
 /* One that has no numbers, or the usual ones: from rest at infinity without angular momentum; velocity 0. */
 struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer);
 

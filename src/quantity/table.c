@@ -53,11 +53,13 @@ enum kd_status kd_quantity_outside_horizon(double a, double r, struct kd_error *
 
 static enum kd_status numbers_of(const struct kd_observer_motion *m, const struct kd_vantage *at, struct kd_error *error)
 {
+    char pointer[40];
     double bound;
     switch (kd_observer_check(m, at, &bound)) {
     case KD_OBSERVER_SOUND: return KD_OK;
     case KD_OBSERVER_TOO_FAST:
-        return kd_error_field(error, "/velocity_r", "velocity_r, velocity_theta and velocity_phi are %.9g together, allowed is less than 1, the speed of light",
+        snprintf(pointer, sizeof pointer, "/%s", kd_observer_fastest(m->velocity, &bound));
+        return kd_error_field(error, pointer, "velocity_r, velocity_theta and velocity_phi are %.9g together, allowed is less than 1, the speed of light",
                               hypot(hypot(m->velocity[0], m->velocity[1]), m->velocity[2]));
     case KD_OBSERVER_TWO_ENERGIES:
         return kd_quantity_outside(error, "infall_energy", m->fall_energy, "allowed is rest with infall_from %.9g", m->fall_from);

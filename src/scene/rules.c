@@ -139,11 +139,13 @@ static enum kd_status motion(const struct kd_scene *scene, struct kd_error *erro
     const struct kd_camera *camera = &scene->camera;
     const struct kd_vantage at = kd_scene_vantage(scene);
     const struct kd_observer_motion m = kd_scene_observer(scene);
+    char pointer[40];
     double bound;
     switch (isfinite(camera->r) ? kd_observer_check(&m, &at, &bound) : KD_OBSERVER_SOUND) {
     case KD_OBSERVER_SOUND: return KD_OK;
     case KD_OBSERVER_TOO_FAST:
-        return kd_error_field(error, "/camera/velocity_r", "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less "
+        snprintf(pointer, sizeof pointer, "/camera/%s", kd_observer_fastest(m.velocity, &bound));
+        return kd_error_field(error, pointer, "camera.velocity_r, velocity_theta and velocity_phi make a speed of %s, allowed is less "
                               "than 1, that of light", show(hypot(hypot(m.velocity[0], m.velocity[1]), m.velocity[2])).text);
     case KD_OBSERVER_TWO_ENERGIES:
         return kd_error_field(error, "/camera/infall_energy", "camera.infall_energy is %s with camera.infall_from %s M, allowed is \"rest\"",
@@ -316,6 +318,7 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
     const bool circular = b->motion == KD_OBSERVER_KEPLERIAN || b->motion == KD_OBSERVER_RETROGRADE;
     const struct kd_observer_row *row = &kd_observers[b->motion];
     char allowed[160];
+    double most;
     if (b->r < least) {
         snprintf(allowed, sizeof allowed, "at least %s M, a twentieth outside the horizon", show_bound(least).text);
         return body_field("r", index, show(b->r).text, allowed, error);
@@ -328,8 +331,10 @@ static enum kd_status body(const struct kd_scene *scene, size_t index, struct kd
         snprintf(allowed, sizeof allowed, "more than %s M, %s, with motion \"%s\": inside %s", show_bound(row->outside(at.spin, at.u)).text, row->edge, row->word, row->why);
         return body_field("r", index, show(b->r).text, allowed, error);
     }
-    if (b->motion == KD_OBSERVER_VELOCITY && !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= 0.999 * 0.999))
-        return body_field("velocity_r", index, show(b->velocity_r).text, "a velocity of at most 0.999, with velocity_theta and velocity_phi", error);
+    if (b->motion == KD_OBSERVER_VELOCITY && !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= 0.999 * 0.999)) {
+        const char *fastest = kd_observer_fastest(v, &most);
+        return body_field(fastest, index, show(most).text, "a velocity of at most 0.999 together with the other two components", error);
+    }
     for (int i = 0; i < 3; i++)
         if (b->motion != KD_OBSERVER_VELOCITY && v[i] != 0)
             return body_field((const char *[]) { "velocity_r", "velocity_theta", "velocity_phi" }[i], index, show(v[i]).text, "0 unless motion is \"velocity\"", error);
