@@ -135,23 +135,42 @@ static bool ends(const char *text, const char *end)
     return strlen(text) >= strlen(end) && !strcmp(text + strlen(text) - strlen(end), end);
 }
 
-static enum kd_status events(const struct kd_playground *p, struct kd_buffer *out)
+/* What has happened since the begin, a line each. More than KD_PLAYGROUND_EVENTS in one sub-step are not kept: a line says which are lost. */
+struct story {
+    struct kd_buffer text;
+    uint64_t told, lost; /* number of the last event that it has; how many are missing */
+};
+
+static enum kd_status add_lost(struct story *story, uint64_t to)
 {
+    struct kd_json json = kd_json_begin(&story->text);
+    kd_json_object(&json, NULL);
+    kd_json_string(&json, "kind", "lost");
+    kd_json_number(&json, "from", (double)story->told + 1);
+    kd_json_number(&json, "to", (double)to);
+    kd_json_end(&json);
+    story->lost += to - story->told;
+    return kd_json_finish_line(&json);
+}
+
+static enum kd_status go_on_telling(struct story *story, const struct kd_playground *p)
+{
+    const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS ? last - KD_PLAYGROUND_EVENTS : 0; /* the one before the first that is kept */
     enum kd_status status = KD_OK;
-    const uint64_t last = p->events.last;
-    for (uint64_t k = last > KD_PLAYGROUND_EVENTS ? last - KD_PLAYGROUND_EVENTS : 0; k < last; k++) {
-        const struct kd_playground_event *event = kd_playground_event_at(&p->events, k + 1);
-        struct kd_json json = kd_json_begin(out);
-        if (!event)
-            continue;
-        kd_playground_event_json(event, &json, NULL);
+    if (story->told < first) {
+        KD_TRY(add_lost(story, first));
+        story->told = first;
+    }
+    for (; story->told < last; story->told++) {
+        struct kd_json json = kd_json_begin(&story->text);
+        kd_playground_event_json(kd_playground_event_at(&p->events, story->told + 1), &json, NULL);
         KD_TRY(kd_json_finish_line(&json));
     }
 done:
     return status;
 }
 
-enum what { SERIES, FALLBACK, EVENTS, SNAPSHOT };
+enum what { SERIES, FALLBACK, SNAPSHOT };
 
 static enum kd_status write_one(struct kd_playground *p, enum what what, const char *path, struct kd_error *error)
 {
@@ -162,7 +181,6 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     switch (what) {
     case SERIES: status = ends(path, ".npy") ? kd_series_npy(&p->series, &out) : kd_series_csv(&p->series, &out); break;
     case FALLBACK: status = kd_debris_csv(&p->debris, &out); break;
-    case EVENTS: status = events(p, &out); break;
     case SNAPSHOT: status = kd_playground_write(p, true, &out);
     }
     if (status)
@@ -174,17 +192,28 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
 }
 
 /* Goes on to the time t, or as far as the budget of sub-steps leads. */
-static void go_on(struct kd_playground *p, double t)
+static enum kd_status go_on(struct kd_playground *p, double t, struct story *story, struct kd_error *error)
 {
-    struct kd_playground_progress progress;
-    if (!(t > p->t))
-        return;
-    kd_playground_advance(p, t - p->t, &progress);
-    if (progress.slowed)
-        fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget, progress.done, progress.asked);
+    const double begin = p->t;
+    struct kd_playground_run run;
+    bool more = t > p->t;
+    if (!more)
+        return KD_OK;
+    kd_playground_begin(p, t - p->t, &run);
+    while (more) {
+        more = kd_playground_go_on(p, &run, 1);
+        if (p->events.last > story->told && go_on_telling(story, p))
+            return kd_error_set(error, KD_ENOMEM, "out of memory for what has happened");
+    }
+    const struct kd_playground_progress progress = kd_playground_progress(p, &run);
+    if (progress.ended)
+        fprintf(stderr, "kerrd: time ends at %g M, after %.9g M of %.9g M\n", KD_PLAYGROUND_TIME, progress.done, t - begin);
+    else if (progress.slowed)
+        fprintf(stderr, "kerrd: the budget of %u sub-steps was spent after %.9g M of %.9g M\n", p->params.budget, progress.done, t - begin);
+    return KD_OK;
 }
 
-static enum kd_status film(struct arguments *a, struct kd_playground *p, struct kd_error *error)
+static enum kd_status film(struct arguments *a, struct kd_playground *p, struct story *story, struct kd_error *error)
 {
     const struct kd_playground_preset *preset = a->preset ? kd_playground_preset_of(a->preset) : NULL;
     const double begin = p->t, end = p->t + a->time, every = a->pictures.every;
@@ -192,10 +221,10 @@ static enum kd_status film(struct arguments *a, struct kd_playground *p, struct 
     enum kd_status status = KD_OK;
     KD_TRY(kd_pictures_begin(&a->pictures, preset ? preset->scene : NULL, p, &pictures, error));
     for (unsigned k = 0; every > 0 && k <= a->time / every * (1 + 1e-12); k++) {
-        go_on(p, begin + k * every);
+        KD_TRY(go_on(p, begin + k * every, story, error));
         KD_TRY(kd_pictures_take(&pictures, p, error));
     }
-    go_on(p, end);
+    KD_TRY(go_on(p, end, story, error));
     if (!(every > 0))
         KD_TRY(kd_pictures_take(&pictures, p, error));
 done:
@@ -206,18 +235,24 @@ done:
 static enum kd_status work(struct arguments *a, struct kd_error *error)
 {
     struct kd_playground *p = NULL;
+    struct story story = { 0 };
     enum kd_status status;
     KD_TRY(kd_pictures_check(&a->pictures, error));
     KD_TRY(load(a, &p, error));
+    story.told = p->events.last; /* what a snapshot has told is not told again */
     if (a->pictures.path)
-        KD_TRY(film(a, p, error));
+        KD_TRY(film(a, p, &story, error));
     else
-        go_on(p, p->t + a->time);
+        KD_TRY(go_on(p, p->t + a->time, &story, error));
+    if (story.lost)
+        fprintf(stderr, "kerrd: %llu events are lost: of one sub-step %d are kept\n", (unsigned long long)story.lost, KD_PLAYGROUND_EVENTS);
     KD_TRY(write_one(p, SERIES, a->series, error));
     KD_TRY(write_one(p, FALLBACK, a->fallback, error));
-    KD_TRY(write_one(p, EVENTS, a->events, error));
+    if (a->events)
+        KD_TRY(kd_file_write(a->events, &story.text, error));
     KD_TRY(write_one(p, SNAPSHOT, a->output ? a->output : a->pictures.path ? NULL : "-", error));
 done:
+    kd_buffer_finish(&story.text);
     kd_playground_destroy(p);
     return status;
 }

@@ -28,10 +28,10 @@ static const char *number_in(const char *path, int *length)
 enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error)
 {
     int length;
-    if (!asked->path && (asked->scene.document || asked->scene.preset || asked->scene.n_set || asked->stats))
-        return kd_error_set(error, KD_EINVAL, "--scene, --scene-preset, --scene-set, --size and --stats are for --picture FILE, which is missing");
+    const char *idle = asked->every > 0 ? "--every" : asked->scene.document ? "--scene" : asked->scene.preset ? "--scene-preset" :
+                       asked->scene.n_set ? "--scene-set and --size" : asked->stats ? "--stats" : asked->memory ? "--memory" : NULL;
     if (!asked->path)
-        return asked->every > 0 ? kd_error_set(error, KD_EINVAL, "--every is for --picture FILE, which is missing") : KD_OK;
+        return idle ? kd_error_set(error, KD_EINVAL, "for --picture FILE, which is missing: %s", idle) : KD_OK;
     if (!kd_format_of_path(asked->path))
         return kd_error_set(error, KD_EINVAL, "--picture is \"%s\", allowed is a name that ends in .png, .fits, .exr, .npz or .npy", asked->path);
     if (asked->every > 0 && !number_in(asked->path, &length))
@@ -124,7 +124,7 @@ enum kd_status kd_pictures_take(struct kd_pictures *pictures, struct kd_playgrou
     KD_TRY(kd_playground_show(p, &crowd, error));
     KD_TRY(name_state(p, crowd, error));
     kd_scene_show(&scene, crowd);
-    scene.top.time += p->t;
+    kd_scene_pass(&scene, p->t);
     KD_TRY(kd_scene_validate(&scene, error));
     KD_TRY(render(pictures, &scene, &file, error));
     name_of(pictures, path);

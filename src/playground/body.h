@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 enum { KD_PLAYGROUND_NAME = 32 };
+#define KD_PLAYGROUND_LEAST 1e-30 /* mass and radius of a body, if it has any: what follows from less would leave the range of numbers */
 
 struct kd_playground_body {
     uint32_t id; /* from 1; never given twice */

@@ -111,8 +111,8 @@ static struct kd_debris_piece piece_of(const struct kd_debris_shed *shed, double
     const double wanted = 2 * (energy - kd_playground_potential(kd_playground_radius(x)));
     const double factor = speed2 > 0 ? sqrt(fmin(fmax(wanted, 0), 1) / speed2) : 1;
     for (int k = 0; k < 3; k++) {
-        piece.x[k] = (float)x[k];
-        piece.v[k] = (float)(factor * shed->v[k]);
+        piece.x[k] = x[k];
+        piece.v[k] = factor * shed->v[k];
     }
     return piece;
 }
@@ -132,7 +132,7 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
         struct kd_debris_piece *piece = &debris->pieces[debris->next];
         give_up(debris, piece);
         *piece = piece_of(shed, e, u, energy + u * source->spread);
-        piece->source = (uint16_t)(source->number % KD_DEBRIS_SOURCES);
+        piece->source = source->number % KD_DEBRIS_SOURCES;
         debris->alive++;
         debris->next = (debris->next + 1) % debris->capacity;
         debris->used += debris->used < debris->capacity;
@@ -148,7 +148,6 @@ static void count(struct kd_debris_source *source, struct kd_debris_piece *piece
     source->back[(int)fmin(bin, KD_DEBRIS_BINS - 1)]++;
     source->all_back++;
     piece->stage = KD_DEBRIS_BACK;
-    piece->back = (float)since;
 }
 
 struct motion {
@@ -202,8 +201,8 @@ static bool advance(struct kd_debris_piece *piece, struct kd_debris_source *sour
             break;
     }
     for (int k = 0; k < 3; k++) {
-        piece->x[k] = (float)m.x[k];
-        piece->v[k] = (float)m.v[k];
+        piece->x[k] = m.x[k];
+        piece->v[k] = m.v[k];
     }
     *radius = m.r;
     return true;

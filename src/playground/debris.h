@@ -1,7 +1,7 @@
 /* Debris is what tides tear off bodies: massless pieces in the hole's potential alone, which neither pull nor meet one another.
  *
- * Pieces lie in a ring: a new one takes the place of the oldest. A piece is kept in single precision and moved in double, each with sub-steps
- * of its own, C (r - 2) long, from one time that all pieces share to the next. It belongs to a source, the pass in which it was torn off.
+ * Pieces lie in a ring: a new one takes the place of the oldest. Each is moved with sub-steps
+ * of its own, C (r - 2) long, from one time that all pieces share to the next, in double: far out a float stands still, as what it moves in a stride is less than its last bit. It belongs to a source, the pass in which it was torn off.
  *
  * A source counts when its pieces come back. A piece is back at the pericentre after its first apocentre (or when the hole takes it after
  * that). These counts are a histogram over the time since the source's first piece: KD_DEBRIS_BINS bins, sixteen a decade, from 1 M on.
@@ -22,10 +22,8 @@ enum { KD_DEBRIS_SOURCES = 256, KD_DEBRIS_BINS = 128, KD_DEBRIS_PER_DECADE = 16 
 enum kd_debris_stage { KD_DEBRIS_FREE, KD_DEBRIS_LEAVES, KD_DEBRIS_RETURNS, KD_DEBRIS_BACK };
 
 struct kd_debris_piece {
-    float x[3];
-    uint16_t source, stage;
-    float v[3];
-    float back; /* time since its source began at which it came back; before that 0 */
+    double x[3], v[3];
+    uint32_t source, stage; /* where its source lies */
 };
 
 struct kd_debris_source {

@@ -19,7 +19,8 @@ const struct kd_playground_setting *kd_playground_row(const struct kd_playground
 static bool store(void *at, const struct kd_playground_setting *row, const struct kd_value *value)
 {
     char word[40];
-    const bool inside = value->kind == KD_VALUE_NUMBER && value->number >= row->least && value->number <= row->most;
+    const bool inside = value->kind == KD_VALUE_NUMBER && value->number >= row->least && value->number <= row->most &&
+                        !(value->number > 0 && value->number < row->above_0);
     switch (row->kind) {
     case KD_SETTING_REAL:
         if (inside)
@@ -47,11 +48,14 @@ static bool store(void *at, const struct kd_playground_setting *row, const struc
 
 static void allowed(const struct kd_playground_setting *row, char out[KD_ALLOWED_SIZE])
 {
-    char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE], word[40];
+    char low[KD_NUMBER_SIZE], high[KD_NUMBER_SIZE], above[KD_NUMBER_SIZE], word[40];
     size_t used = 0;
     kd_number_format(low, row->least);
     kd_number_format(high, row->most);
-    if (row->kind == KD_SETTING_TRUTH)
+    kd_number_format(above, row->above_0);
+    if (row->above_0 > 0)
+        snprintf(out, KD_ALLOWED_SIZE, "%s, and %s to %s", low, above, high);
+    else if (row->kind == KD_SETTING_TRUTH)
         snprintf(out, KD_ALLOWED_SIZE, "true and false");
     else if (row->kind != KD_SETTING_WORD)
         snprintf(out, KD_ALLOWED_SIZE, "%s%s to %s", row->kind == KD_SETTING_WHOLE ? "whole numbers from " : "", low, high);

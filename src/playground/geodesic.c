@@ -58,32 +58,41 @@ static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_p
     }
 }
 
-enum kd_geodesic_fate kd_geodesic_go(struct kd_playground_geodesic *g, double t, uint32_t *steps, bool *late, double x[3], double v[3])
+static enum kd_geodesic_fate fate_at(const struct kd_playground_geodesic *g, double r)
 {
-    const double near = KD_GEODESIC_NEAR * kd_kerr_horizon(g->spin);
+    return !(r > KD_GEODESIC_NEAR * kd_kerr_horizon(g->spin)) ? KD_GEODESIC_CAPTURED : !(r < KD_GEODESIC_FAR) ? KD_GEODESIC_AWAY : KD_GEODESIC_GOES;
+}
+
+bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps)
+{
     for (;; (*steps)--) {
-        const struct kd_orbit_place at = kd_orbit_path_place(&g->path);
-        if (!(at.r > near))
-            return KD_GEODESIC_CAPTURED;
-        if (!(at.r < KD_GEODESIC_FAR))
-            return KD_GEODESIC_AWAY;
+        if (fate_at(g, kd_orbit_path_place(&g->path).r) != KD_GEODESIC_GOES)
+            return true;
         struct kd_orbit_path next = g->path;
         kd_orbit_path_step(&next, g->h);
-        const struct kd_orbit_place then = kd_orbit_path_place(&next);
-        const double w = next.place[KD_PATH_W].value;
-        *late = !*steps;
-        if (isnan(then.t) || !(w > 0) || g->from_t + then.t > t || *late) {
-            const bool stays = *late && g->from_t + then.t <= t;
-            const struct kd_orbit_path now = stays ? g->path : kd_orbit_path_to_time(&g->path, g->h, t - g->from_t);
-            const struct kd_orbit_place found = kd_orbit_path_place(&now);
-            *late = stays;
-            if (!(found.r > near) || !(found.r < KD_GEODESIC_FAR))
-                return !(found.r > near) && w > 0 ? KD_GEODESIC_CAPTURED : KD_GEODESIC_AWAY;
-            tell(g, &now, x, v);
-            return KD_GEODESIC_GOES;
-        }
+        const double then = kd_orbit_path_place(&next).t;
+        if (isnan(then) || !(next.place[KD_PATH_W].value > 0) || g->from_t + then > t) /* past the horizon, past infinity, past t */
+            return true;
+        if (!*steps)
+            return false;
         g->path = next;
     }
+}
+
+enum kd_geodesic_fate kd_geodesic_at(const struct kd_playground_geodesic *g, double t, double x[3], double v[3])
+{
+    const enum kd_geodesic_fate fate = fate_at(g, kd_orbit_path_place(&g->path).r);
+    if (fate != KD_GEODESIC_GOES)
+        return fate;
+    const struct kd_orbit_path now = kd_orbit_path_to_time(&g->path, g->h, t - g->from_t);
+    const double r = kd_orbit_path_place(&now).r;
+    if (fate_at(g, r) == KD_GEODESIC_GOES) {
+        tell(g, &now, x, v);
+        return KD_GEODESIC_GOES;
+    }
+    struct kd_orbit_path next = g->path;
+    kd_orbit_path_step(&next, g->h);
+    return fate_at(g, r) == KD_GEODESIC_CAPTURED && next.place[KD_PATH_W].value > 0 ? KD_GEODESIC_CAPTURED : KD_GEODESIC_AWAY;
 }
 
 void kd_geodesic_save(const struct kd_playground_geodesic *g, double state[KD_GEODESIC_STATE])

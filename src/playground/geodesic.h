@@ -15,16 +15,18 @@ struct kd_playground_geodesic {
     double spin, from_x[3], from_v[3], from_t; /* where it began: what does not change follows from it */
     double phi;                                /* there */
     double h;                                  /* the step, in Mino time */
-    struct kd_orbit_path path;                 /* not yet past the time of the last kd_geodesic_go */
+    struct kd_orbit_path path;                 /* not past the time that was approached last */
 };
 
 /* KD_EINVAL, with the pointer "/position" or "/velocity", where there is no such motion. */
 enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, const double x[3], const double v[3], double t, struct kd_error *error);
 
+/* Goes on to the step that leads past the time t, which is not before that of the last call, or to where the body is captured or let go: in up to `steps` steps,
+ * which are counted down. False: they are spent, and the next call goes on. */
+bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps);
 enum kd_geodesic_fate { KD_GEODESIC_GOES, KD_GEODESIC_CAPTURED, KD_GEODESIC_AWAY };
-/* Goes on to the time t, which is not before that of the last call; x and v as then. Up to `steps` steps, which are counted down: where they
- * are spent the body stays behind, *late is true, and the next call goes on. */
-enum kd_geodesic_fate kd_geodesic_go(struct kd_playground_geodesic *g, double t, uint32_t *steps, bool *late, double x[3], double v[3]);
+/* Place and velocity at the time t, which has been approached. */
+enum kd_geodesic_fate kd_geodesic_at(const struct kd_playground_geodesic *g, double t, double x[3], double v[3]);
 
 /* What a geodesic is besides its begin, to be kept and taken up again exactly. */
 enum { KD_GEODESIC_STATE = 20 };

@@ -6,18 +6,18 @@
 #include <string.h>
 
 #define AT(name) offsetof(struct kd_playground_params, name)
-#define REAL(name, value, least, most, help) { #name, KD_SETTING_REAL, AT(name), value, least, most, NULL, help },
-#define WHOLE(name, value, least, most, help) { #name, KD_SETTING_WHOLE, AT(name), value, least, most, NULL, help },
-#define TRUTH(name, value, help) { #name, KD_SETTING_TRUTH, AT(name), value, 0, 1, NULL, help },
-#define WORD(name, value, words, help) { #name, KD_SETTING_WORD, AT(name), value, 0, 0, words, help },
+#define REAL(name, value, least, most, help) { #name, KD_SETTING_REAL, AT(name), value, least, most, 0, NULL, help },
+#define WHOLE(name, value, least, most, help) { #name, KD_SETTING_WHOLE, AT(name), value, least, most, 0, NULL, help },
+#define TRUTH(name, value, help) { #name, KD_SETTING_TRUTH, AT(name), value, 0, 1, 0, NULL, help },
+#define WORD(name, value, words, help) { #name, KD_SETTING_WORD, AT(name), value, 0, 0, 0, words, help },
 const struct kd_playground_setting kd_playground_settings[] = { KD_PLAYGROUND_SETTINGS(REAL, WHOLE, TRUTH, WORD) };
 #undef AT
 const size_t kd_playground_n_settings = sizeof kd_playground_settings / sizeof *kd_playground_settings;
 
 #define AT(name) offsetof(struct kd_playground_body, name)
 const struct kd_playground_setting kd_playground_body_fields[] = {
-    REAL(mass, 1e-6, 0, 1e12, "in masses of the hole; 0: it pulls nothing")
-    REAL(radius, 0, 0, 1e6, "in M; 0: a point, which touches nothing and has no tides")
+    { "mass", KD_SETTING_REAL, AT(mass), 1e-6, 0, 1e12, KD_PLAYGROUND_LEAST, NULL, "in masses of the hole, at least 1e-30; 0: it pulls nothing" },
+    { "radius", KD_SETTING_REAL, AT(radius), 0, 0, 1e6, KD_PLAYGROUND_LEAST, NULL, "in M, at least 1e-30; 0: a point, which touches nothing and has no tides" },
     REAL(temperature_k, 5800, 0, 1e10, "of its surface; 0: it is dark")
 };
 const size_t kd_playground_n_body_fields = sizeof kd_playground_body_fields / sizeof *kd_playground_body_fields;

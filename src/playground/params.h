@@ -53,6 +53,7 @@ struct kd_playground_setting {
     enum kd_playground_kind kind;
     size_t offset;
     double value, least, most; /* value: the default */
+    double above_0;            /* what is above 0 is at least this */
     const char *words;         /* "a|b", of WORD: the values 0, 1, ... */
     const char *help;
 };

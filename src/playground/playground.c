@@ -86,6 +86,7 @@ static void begin_anew(struct kd_playground *p)
 {
     p->forced = false;
     p->rate = 0;
+    p->approached = 0;
 }
 
 void kd_playground_settle(struct kd_playground *p)
@@ -140,8 +141,7 @@ void kd_playground_drop(struct kd_playground *p, size_t i)
     memmove(&p->bodies[i], &p->bodies[i + 1], (p->n - i) * sizeof *p->bodies);
     if (kerr(p))
         memmove(&p->geodesics[i], &p->geodesics[i + 1], (p->n - i) * sizeof *p->geodesics);
-    p->forced = false;
-    p->rate = 0;
+    begin_anew(p);
 }
 
 static enum kd_status absent(uint32_t id, struct kd_error *error)

@@ -17,7 +17,8 @@
  * the method has no drift of energy. Steps are never stretched or cut to meet a time that is asked for: how the time is divided into calls
  * changes nothing, to the bit. Speeds are held at 1, which takes energy and never gives any; what it took is in the books (`spent`).
  *
- * Gravity "kerr": bodies follow geodesics (geodesic.h) and do not know of one another, of tides or of waves.
+ * Gravity "kerr": bodies follow geodesics (geodesic.h) and do not know of one another, of tides or of waves. They are told where they are once every h_max, all at the same time:
+ * an advance whose budget is spent in between has not moved them, and the next one goes on with what has been computed.
  *
  * All results depend on the state alone, the seed included; on this machine and another with IEEE arithmetic they are the same as far as
  * its C library's sqrt, cbrt and pow are. */
@@ -32,6 +33,8 @@
 #include "playground/series.h"
 
 #include "base/error.h"
+
+#define KD_PLAYGROUND_TIME 1e12 /* M: the end of time, in scenes too */
 
 /* What has left the motion of the bodies since the begin: with it the books balance. */
 struct kd_playground_spent {
@@ -58,9 +61,11 @@ struct kd_playground {
     struct kd_playground_debris debris;
     struct kd_playground_series series;
     struct kd_playground_geodesic *geodesics; /* gravity "kerr": one a body */
+    double aim; /* of these: the time that they approach where it is after t; bodies are told where they are when all have */
     /* From here on what follows from the above. */
     struct kd_playground_mutual mutual;
     bool disturbed; double before; /* bodies were changed from outside since the last step, and the energy then was this */
+    size_t approached; /* so many geodesics have approached `aim` */
     bool forced; /* `mutual` is that of the bodies as they are */
     double margin; /* that it was made with */
 };
@@ -81,17 +86,19 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
 struct kd_playground_progress {
     double asked, done; /* in M */
     uint32_t steps;
-    bool slowed; /* the budget was spent before the time was over */
+    bool slowed; /* the budget was spent before the time was over, or that would lead past KD_PLAYGROUND_TIME */
+    bool ended;  /* it has come to KD_PLAYGROUND_TIME, and stands */
 };
 
 /* Moves all on by `time` > 0, or by as many sub-steps as the budget has. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
 /* The same in pieces, for who has other things to do in between: begin, then go on until that says that it is over. The outcome is that of
- * kd_playground_advance to the bit. A piece is at most so many sub-steps; one sub-step with a million pieces of debris takes tens of milliseconds. */
+ * kd_playground_advance to the bit. A piece is at most so many sub-steps; one sub-step with a million pieces of debris takes tens of milliseconds. With
+ * gravity "kerr" a piece is 256 steps of geodesics. */
 struct kd_playground_run {
     double begin, end;
-    double stride; /* gravity "kerr": how far the bodies are followed at once */
+    double stride; /* gravity "kerr": the bodies are told where they are so often */
     uint64_t first;
     uint32_t left; /* sub-steps, or of gravity "kerr" steps of geodesics; whoever wants fewer may set it after kd_playground_begin */
     bool stuck;    /* time cannot tell so little */

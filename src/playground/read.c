@@ -23,10 +23,10 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
     return KD_OK;
 }
 
-/* The fields that are given; the others stay. *id: NULL where a body has none to be called by. */
-static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id, struct kd_error *error)
+/* The fields that are given; the others stay. *id: NULL where a body has none to be called by. grown: how many times the most that a new body may have this one may: mergers add. */
+static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id, double grown, struct kd_error *error)
 {
-    static const struct kd_playground_setting id_row = { "id", KD_SETTING_WHOLE, 0, 0, 1, UINT32_MAX, NULL, NULL };
+    static const struct kd_playground_setting id_row = { "id", KD_SETTING_WHOLE, 0, 0, 1, UINT32_MAX, 0, NULL, NULL };
     enum kd_status status = KD_OK;
     if (!cJSON_IsObject(item))
         return kd_error_field(error, pointer, "a body is an object");
@@ -35,8 +35,10 @@ static enum kd_status read_body(struct kd_playground_body *body, const cJSON *it
         const struct kd_value value = kd_tree_value(one);
         char at[160];
         kd_playground_pointer(at, pointer, one->string);
+        struct kd_playground_setting wide = row ? *row : id_row;
+        wide.most *= grown;
         if (row)
-            KD_TRY(kd_playground_put(body, row, &value, at, error));
+            KD_TRY(kd_playground_put(body, &wide, &value, at, error));
         else if (!strcmp(one->string, "name"))
             KD_TRY(read_name(body, one, at, error));
         else if (!strcmp(one->string, "position"))
@@ -94,7 +96,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
         if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
             body.whole_mass = 0; /* another star, whose pass through the tides begins anew */
     }
-    KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, error));
+    KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
         KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
     KD_TRY(in_list(what == CHANGE ? kd_playground_change(p, id, &body, error) : kd_playground_add(p, &body, NULL, error), pointer, error));
@@ -174,7 +176,7 @@ static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, st
         struct kd_playground_body body = plain(), held = { .x = { 100, 0, 0 }, .v = { 0, 0.1, 0 } };
         char pointer[40];
         snprintf(pointer, sizeof pointer, "/bodies/%u", i++);
-        KD_TRY(read_body(&body, one, pointer, NULL, error));
+        KD_TRY(read_body(&body, one, pointer, NULL, KD_PLAYGROUND_BODIES_MAX, error));
         if (isnan(body.x[0]))
             KD_TRY(kd_error_field(error, pointer, "a body needs a position"));
         if (!(kd_playground_radius(body.x) > KD_PLAYGROUND_CAPTURE && kd_playground_radius(body.v) <= 1 + 1e-12) && p->params.gravity != KD_GRAVITY_KERR)

@@ -31,7 +31,7 @@ void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_sh
 {
     const float cells = (float)(KD_SHOW_TURN_MOST / (2 * M_PI)), turn = KD_SHOW_TURN_MOST;
     for (size_t i = 0; i < n; i++) {
-        const float x = pieces[i].x[0], y = pieces[i].x[1], z = pieces[i].x[2], r2 = x * x + y * y + z * z, across2 = x * x + y * y;
+        const float x = (float)pieces[i].x[0], y = (float)pieces[i].x[1], z = (float)pieces[i].x[2], r2 = x * x + y * y + z * z, across2 = x * x + y * y;
         float column = cells * atan2f(y, x);
         column += column < 0 ? turn : 0;
         const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 > 1 && r2 < 1e30f; /* the hole is there, or more than the coarsest grid has rows for */
@@ -119,7 +119,8 @@ static void add(float *left, float *right, float share, float worth, float vr, f
 /* What moves so fast as seen by the observer of zero angular momentum, along e_r and e_phi. */
 static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
 {
-    const float *x = p->x, *v = p->v, across = hypotf(x[0], x[1]), r = hypotf(across, x[2]), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] }, v[3] = { (float)p->v[0], (float)p->v[1], (float)p->v[2] };
+    const float across = hypotf(x[0], x[1]), r = hypotf(across, x[2]), v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     const float slow = approximate ? 1 / sqrtf(1 + v2) : 1;
     out[0] = slow * (x[0] * v[0] + x[1] * v[1] + x[2] * v[2]) / r;
     out[1] = slow * (x[0] * v[1] - x[1] * v[0]) / across;
@@ -137,14 +138,14 @@ void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_sho
             continue;
         }
         const float from = scale * places[i].column - (float)to->first_column;
-        const float column = from < 0 ? from + turn : from, *x = pieces[i].x;
+        const float column = from < 0 ? from + turn : from, own = worth[pieces[i].source];
         const uint32_t k = (uint32_t)fminf(fmaxf(row, 0), (float)(to->rows - 2)), j = (uint32_t)fminf(column, (float)(to->columns - (to->columns == to->turn ? 1 : 2)));
         const float upper = row - (float)k, right = column - (float)j;
         float *node = to->nodes + k * width + KD_CROWD_NODE * (size_t)j, *next = j + 1 < to->columns ? node + KD_CROWD_NODE : to->nodes + k * width, v[2];
         seen_velocity(&pieces[i], approximate, v);
-        add(node, next, right, worth[pieces[i].source] * (1 - upper), v[0], v[1]);
-        add(node + width, next + width, right, worth[pieces[i].source] * upper, v[0], v[1]);
-        thick += fabsf(x[2]) / sqrtf(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+        add(node, next, right, own * (1 - upper), v[0], v[1]);
+        add(node + width, next + width, right, own * upper, v[0], v[1]);
+        thick += fabs(pieces[i].x[2]) / kd_playground_radius(pieces[i].x);
         to->pieces++;
     }
     to->thick = to->pieces ? thick / to->pieces : 0;
@@ -196,8 +197,7 @@ static double most_within(const struct kd_playground_debris *debris)
     enum { BINS = 4200 }; /* of ln r, to 1e18 M */
     uint32_t count[BINS] = { 0 }, all = 0, sum = 0;
     for (uint32_t i = 0; i < debris->used; i++) {
-        const float *x = debris->pieces[i].x, r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-        const float bin = 50 * logf(r2); /* 100 ln r */
+        const float bin = 100 * logf((float)kd_playground_radius(debris->pieces[i].x));
         if (debris->pieces[i].stage == KD_DEBRIS_FREE || !(bin >= 0 && bin < BINS))
             continue;
         count[(int)bin]++;

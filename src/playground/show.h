@@ -4,7 +4,8 @@
  * observer of zero angular momentum. The potential of Paczynski and Wiita has a velocity u by Newton, of any size up to c: as u^2/2 is its energy, it is
  * taken for gamma v, v = u/sqrt(1 + u^2) being past that observer. On circles in Schwarzschild's metric (gamma v)^2 = 1/(r - 3), and u^2 = r/(r - 2)^2.
  *
- * Debris is put on the plane of the disk at its r and phi, as a density (kd_crowd_debris). A piece is worth what it has of its body's mass. */
+ * Debris is put on the plane of the disk at its r and phi, as a density (kd_crowd_debris). A piece is worth the share that it has of its body's
+ * mass, by the number of pieces that bodies fell into when it was torn off. */
 #ifndef KD_PLAYGROUND_SHOW_H
 #define KD_PLAYGROUND_SHOW_H
 

@@ -10,17 +10,19 @@
 #include <string.h>
 
 #define MOST 1e300
+#define LAST (KD_PLAYGROUND_TIME + 1e6) /* M: what comes to the end of time may be a sub-step past it */
 #define WHOLE 9e15 /* numbers that a double holds exactly */
 
 /* Numbers by name: of the playground, its debris, a body, a source. */
 struct number {
     const char *name;
     size_t offset;
-    enum { REAL, COUNT, COUNT32, TRUTH } kind;
+    enum { REAL, TIME, COUNT, COUNT32, TRUTH } kind;
 };
 #define OF(type, member, kind) { #member, offsetof(struct type, member), kind }
-static const struct number whole[] = { OF(kd_playground, t, REAL), OF(kd_playground, steps, COUNT), OF(kd_playground, last_id, COUNT32),
-                                       OF(kd_playground, rate, REAL), OF(kd_playground, random, COUNT), OF(kd_playground, held, TRUTH) };
+static const struct number whole[] = { OF(kd_playground, t, TIME), OF(kd_playground, steps, COUNT), OF(kd_playground, last_id, COUNT32),
+                                       OF(kd_playground, rate, REAL), OF(kd_playground, random, COUNT), OF(kd_playground, held, TRUTH),
+                                       OF(kd_playground, aim, TIME) };
 static const struct number spent[] = { OF(kd_playground_spent, captured_mass, REAL), OF(kd_playground_spent, captured_energy, REAL),
                                        OF(kd_playground_spent, merged, REAL), OF(kd_playground_spent, capped, REAL),
                                        OF(kd_playground_spent, radiated, REAL), OF(kd_playground_spent, torn_mass, REAL),
@@ -31,12 +33,13 @@ static const struct number body[] = { OF(kd_playground_body, id, COUNT32), OF(kd
                                       OF(kd_playground_body, source, COUNT32), OF(kd_playground_body, radiated, REAL),
                                       OF(kd_playground_body, told_inspiral, TRUTH) };
 static const struct number debris[] = { OF(kd_playground_debris, used, COUNT32), OF(kd_playground_debris, next, COUNT32),
-                                        OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, REAL),
+                                        OF(kd_playground_debris, last_source, COUNT32), OF(kd_playground_debris, t, TIME),
                                         OF(kd_playground_debris, haste, REAL) };
-static const struct number source[] = { OF(kd_debris_source, number, COUNT32), OF(kd_debris_source, t, REAL),
+static const struct number source[] = { OF(kd_debris_source, number, COUNT32), OF(kd_debris_source, t, TIME),
                                         OF(kd_debris_source, piece_mass, REAL), OF(kd_debris_source, worth, REAL), OF(kd_debris_source, spread, REAL),
                                         OF(kd_debris_source, pieces, COUNT32), OF(kd_debris_source, captured, COUNT32),
                                         OF(kd_debris_source, lost, COUNT32) };
+static const struct number geodesic[] = { OF(kd_playground_geodesic, from_t, TIME) };
 #define N(table) (sizeof(table) / sizeof *(table))
 
 static void write_numbers(const void *from, const struct number *table, size_t n, struct kd_json *json)
@@ -44,7 +47,8 @@ static void write_numbers(const void *from, const struct number *table, size_t n
     for (size_t i = 0; i < n; i++) {
         const void *at = (const char *)from + table[i].offset;
         switch (table[i].kind) {
-        case REAL: kd_json_number(json, table[i].name, *(const double *)at); break;
+        case REAL:
+        case TIME: kd_json_number(json, table[i].name, *(const double *)at); break;
         case COUNT: kd_json_number(json, table[i].name, (double)*(const uint64_t *)at); break;
         case COUNT32: kd_json_number(json, table[i].name, *(const uint32_t *)at); break;
         case TRUTH: kd_json_number(json, table[i].name, *(const bool *)at); break;
@@ -107,7 +111,7 @@ enum kd_status kd_state_write(const struct kd_playground *p, struct kd_json *jso
             kd_geodesic_save(&p->geodesics[i], state);
             write_array(p->geodesics[i].from_x, 3, json, "from_position");
             write_array(p->geodesics[i].from_v, 3, json, "from_velocity");
-            kd_json_number(json, "from_t", p->geodesics[i].from_t);
+            write_numbers(&p->geodesics[i], geodesic, N(geodesic), json);
             write_array(state, KD_GEODESIC_STATE, json, "geodesic");
         }
         kd_json_end(json);
@@ -125,16 +129,24 @@ static enum kd_status bad(const char *pointer, const char *name, const char *wha
     return kd_error_field(error, at, "%s %s", name, what);
 }
 
+static const struct range { double least, most; bool whole; } ranges[] = {
+    [REAL] = { -MOST, MOST, false }, [TIME] = { 0, LAST, false }, [COUNT] = { 0, WHOLE, true }, [COUNT32] = { 0, UINT32_MAX, true }, [TRUTH] = { 0, 1, true },
+};
+
 static enum kd_status read_numbers(void *to, const struct number *table, size_t n, const cJSON *item, const char *pointer, struct kd_error *error)
 {
     for (size_t i = 0; i < n; i++) {
         void *at = (char *)to + table[i].offset;
         const cJSON *one = cJSON_GetObjectItemCaseSensitive(item, table[i].name);
-        const double x = cJSON_IsNumber(one) ? one->valuedouble : NAN, most = table[i].kind == REAL ? MOST : table[i].kind == COUNT ? WHOLE : UINT32_MAX;
-        if (!(fabs(x) <= most) || (table[i].kind != REAL && (x < 0 || x != floor(x))))
-            return bad(pointer, table[i].name, "is no number that a snapshot has there", error);
+        const struct range *may = &ranges[table[i].kind];
+        const double x = cJSON_IsNumber(one) ? one->valuedouble : NAN;
+        char what[120];
+        snprintf(what, sizeof what, "is %.17g, allowed %s %.17g to %.17g", x, may->whole ? "are whole numbers from" : "is", may->least, may->most);
+        if (!(x >= may->least && x <= may->most) || (may->whole && x != floor(x)))
+            return bad(pointer, table[i].name, cJSON_IsNumber(one) ? what : "is no number", error);
         switch (table[i].kind) {
-        case REAL: *(double *)at = x; break;
+        case REAL:
+        case TIME: *(double *)at = x; break;
         case COUNT: *(uint64_t *)at = (uint64_t)x; break;
         case COUNT32: *(uint32_t *)at = (uint32_t)x; break;
         case TRUTH: *(bool *)at = x != 0; break;
@@ -170,14 +182,14 @@ static bool look(struct kd_playground_debris *d)
     d->alive = 0;
     for (uint32_t i = 0; i < d->used; i++) {
         const struct kd_debris_piece *piece = &d->pieces[i];
-        const double x[3] = { piece->x[0], piece->x[1], piece->x[2] }, v[3] = { piece->v[0], piece->v[1], piece->v[2] }, r = kd_playground_radius(x);
+        const double r = kd_playground_radius(piece->x);
         if (piece->stage > KD_DEBRIS_BACK || piece->source >= KD_DEBRIS_SOURCES)
             return false;
         if (piece->stage == KD_DEBRIS_FREE)
             continue;
-        if (!(r < 1e18) || !(kd_playground_radius(v) < 1.001) || !isfinite(piece->back) || !d->sources[piece->source].number)
+        if (!(r > KD_PLAYGROUND_CAPTURE && r < 1e18) || !(kd_playground_radius(piece->v) < 1.001) || !d->sources[piece->source].number)
             return false;
-        haste += 1 / fmax(r - KD_PLAYGROUND_HORIZON, 1e-3);
+        haste += 1 / (r - KD_PLAYGROUND_HORIZON);
         d->alive++;
     }
     return !d->alive || (d->haste > 0.5 * haste && d->haste < 1e9); /* it bounds the sub-steps that all of them take at once */
@@ -207,17 +219,21 @@ static enum kd_status read_body(struct kd_playground *p, size_t i, const cJSON *
 {
     const char *pointer = "/state/bodies";
     double state[KD_GEODESIC_STATE], x[3], v[3];
-    const cJSON *from_t = cJSON_GetObjectItemCaseSensitive(item, "from_t");
+    struct kd_playground_geodesic begun = { 0 };
     enum kd_status status;
     KD_TRY(read_numbers(&p->bodies[i], body, N(body), item, pointer, error));
-    if (!p->bodies[i].id || p->bodies[i].id > p->last_id || p->bodies[i].whole_mass < 0 || (i && p->bodies[i].id <= p->bodies[i - 1].id))
+    const struct kd_playground_body *read = &p->bodies[i];
+    if (!read->id || read->id > p->last_id || (i && read->id <= p->bodies[i - 1].id))
         KD_TRY(bad(pointer, "id", "is none that a snapshot has there", error));
+    if (read->whole_mass != 0 && !(read->whole_mass >= KD_PLAYGROUND_LEAST && read->whole_radius >= KD_PLAYGROUND_LEAST))
+        KD_TRY(bad(pointer, "whole_mass", "and whole_radius are none of a star in its pass", error));
     if (p->params.gravity != KD_GRAVITY_KERR)
         return KD_OK;
     KD_TRY(kd_playground_numbers(x, 3, 1e6, cJSON_GetObjectItemCaseSensitive(item, "from_position"), pointer, error));
     KD_TRY(kd_playground_numbers(v, 3, 1, cJSON_GetObjectItemCaseSensitive(item, "from_velocity"), pointer, error));
     KD_TRY(kd_playground_numbers(state, KD_GEODESIC_STATE, MOST, cJSON_GetObjectItemCaseSensitive(item, "geodesic"), pointer, error));
-    KD_TRY(kd_geodesic_begin(&p->geodesics[i], p->params.spin, x, v, cJSON_IsNumber(from_t) ? from_t->valuedouble : 0, error));
+    KD_TRY(read_numbers(&begun, geodesic, N(geodesic), item, pointer, error));
+    KD_TRY(kd_geodesic_begin(&p->geodesics[i], p->params.spin, x, v, begun.from_t, error));
     kd_geodesic_restore(&p->geodesics[i], state);
 done:
     return status;

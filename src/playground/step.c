@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#define PIECE 256      /* steps of geodesics, a microsecond or two each */
 #define CLEARANCE 1.25 /* the rate aimed at over the least that is allowed: room for the rate of one step to swing about that of the places */
 
 void kd_playground_force(struct kd_playground *p)
@@ -124,20 +125,18 @@ static double step(struct kd_playground *p)
     return h;
 }
 
-/* Gravity "kerr": all bodies to the time t, as far as `steps` reach. */
-static void follow(struct kd_playground *p, double t, uint32_t *steps, bool *late)
+/* Gravity "kerr": bodies are where they are at p->aim, which all have approached, and then so is the playground. */
+static void arrive(struct kd_playground *p)
 {
-    *late = false;
+    p->t = p->aim;
     for (size_t i = 0; i < p->n;) {
         struct kd_playground_body *body = &p->bodies[i];
-        bool behind = false;
-        const enum kd_geodesic_fate fate = kd_geodesic_go(&p->geodesics[i], t, steps, &behind, body->x, body->v);
-        *late |= behind;
+        const enum kd_geodesic_fate fate = kd_geodesic_at(&p->geodesics[i], p->t, body->x, body->v);
         if (fate == KD_GEODESIC_GOES) {
             i++;
             continue;
         }
-        struct kd_playground_event event = { .t = t, .kind = fate == KD_GEODESIC_CAPTURED ? KD_PLAYGROUND_CAPTURED : KD_PLAYGROUND_ESCAPE,
+        struct kd_playground_event event = { .t = p->t, .kind = fate == KD_GEODESIC_CAPTURED ? KD_PLAYGROUND_CAPTURED : KD_PLAYGROUND_ESCAPE,
                                              .body = body->id, .mass = body->mass, .r = kd_playground_radius(body->x),
                                              .energy = body->mass * p->geodesics[i].path.orbit.energy, .tidal_radius = NAN, .spread = NAN };
         memcpy(event.name, body->name, sizeof event.name);
@@ -148,6 +147,8 @@ static void follow(struct kd_playground *p, double t, uint32_t *steps, bool *lat
         }
         kd_playground_drop(p, i);
     }
+    p->approached = 0;
+    p->steps++;
 }
 
 void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N])
@@ -224,21 +225,26 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
 
 static bool is_over(const struct kd_playground *p, const struct kd_playground_run *run)
 {
-    return run->stuck || !(p->t < run->end) || !run->left || p->steps - run->first >= p->params.budget;
+    return run->stuck || !(p->t < run->end) || !(p->t < KD_PLAYGROUND_TIME) || !run->left || p->steps - run->first >= p->params.budget;
 }
 
+/* Gravity "kerr", in strides: all bodies approach the stride's end, one after the other, and are there together. Where the budget is spent in between nobody has moved, and the next
+ * run goes on towards the same end. */
 static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
 {
-    bool late = false;
-    const double t = fmin(p->t + run->stride, run->end);
-    if (!(t > p->t)) { /* less than the time can tell */
-        run->stuck = true;
-        return;
+    if (!(p->aim > p->t)) {
+        p->aim = fmin(p->t + run->stride, run->end);
+        p->approached = 0;
+        run->stuck = !(p->aim > p->t); /* less than the time can tell */
     }
-    follow(p, t, &run->left, &late);
-    run->stuck = late;
-    p->t = late ? p->t : t;
-    p->steps++;
+    const uint32_t piece = run->left < PIECE ? run->left : PIECE;
+    uint32_t left = piece;
+    while (!run->stuck && p->approached < p->n && kd_geodesic_approach(&p->geodesics[p->approached], p->aim, &left))
+        p->approached++;
+    run->left -= piece - left;
+    if (run->stuck || p->approached < p->n)
+        return;
+    arrive(p);
     record(p);
 }
 
@@ -257,7 +263,7 @@ bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
 struct kd_playground_progress kd_playground_progress(const struct kd_playground *p, const struct kd_playground_run *run)
 {
     return (struct kd_playground_progress) { .asked = run->end - run->begin, .done = p->t - run->begin, .steps = (uint32_t)(p->steps - run->first),
-                                             .slowed = p->t < run->end };
+                                             .slowed = p->t < run->end, .ended = !(p->t < KD_PLAYGROUND_TIME) };
 }
 
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress)

@@ -38,7 +38,7 @@ static void begin(struct kd_playground *p, struct kd_playground_body *body)
 
 static void end(struct kd_playground_body *body)
 {
-    body->radius = body->whole_radius * cbrt(1 - body->shed); /* as dense as it was */
+    body->radius = fmax(body->whole_radius * cbrt(1 - body->shed), KD_PLAYGROUND_LEAST); /* as dense as it was */
     body->whole_mass = 0;
 }
 
@@ -61,7 +61,8 @@ static bool shed(struct kd_playground *p, struct kd_playground_body *body)
         end(body);
         return false;
     }
-    const uint32_t all = (uint32_t)round(fmin(body->whole_mass / source->piece_mass, KD_PLAYGROUND_DEBRIS_MAX)), due = (uint32_t)floor(share * all);
+    const uint32_t all = (uint32_t)round(fmin(1 / source->worth, KD_PLAYGROUND_DEBRIS_MAX)), torn = (uint32_t)floor(share * all);
+    const uint32_t due = body->whole_mass * (1 - (double)torn / all) < KD_PLAYGROUND_LEAST ? all : torn; /* what would be left is too little for a body */
     if (due <= source->pieces)
         return false;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);

@@ -15,7 +15,7 @@ static void turn(struct kd_scene *scene, double degrees)
     scene->camera.azimuth_deg = remainder(scene->camera.azimuth_deg + degrees, 360);
 }
 
-static void pass(struct kd_scene *scene, double time)
+void kd_scene_pass(struct kd_scene *scene, double time)
 {
     scene->top.time = fmax(-TIME_END, fmin(TIME_END, scene->top.time + time));
 }
@@ -27,13 +27,13 @@ void kd_scene_go_on(struct kd_scene *scene, double proper_time)
     const struct kd_worldline_place to = kd_worldline_after(&motion, &at, proper_time);
     scene->camera.r = to.r;
     turn(scene, to.azimuth * (180 / M_PI));
-    pass(scene, scene->disk.slow_light && isfinite(to.far_time) ? to.far_time : to.time);
+    kd_scene_pass(scene, scene->disk.slow_light && isfinite(to.far_time) ? to.far_time : to.time);
 }
 
 void kd_scene_advance(struct kd_scene *scene, double seconds)
 {
     turn(scene, scene->motion.azimuth_rate_deg * seconds);
-    pass(scene, scene->motion.time_rate * seconds);
+    kd_scene_pass(scene, scene->motion.time_rate * seconds);
     if (scene->motion.proper_time_rate > 0)
         kd_scene_go_on(scene, scene->motion.proper_time_rate * seconds);
 }

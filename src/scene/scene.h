@@ -94,6 +94,8 @@ enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *
 /* Move what goes on by itself in a live session, azimuth, time and the observer, by so many seconds; say whether time goes on, whether azimuth
  * does, and whether the observer falls. Whether anything of time and azimuth can be seen is for the emitters to say (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
+/* Lets so many M go by in what moves in it: adds them to `time`, which stops at the ends of its range. */
+void kd_scene_pass(struct kd_scene *scene, double time);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
 bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);

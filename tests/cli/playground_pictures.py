@@ -28,7 +28,7 @@ class Pictures(Case):
         self.bad(2, "allowed is a name that ends in", "playground", "-p", "emri", "--picture", self.path("a.gif"))
         self.bad(2, "--picture FILE, which is missing", "playground", "-p", "emri", "--every", "1")
         self.bad(2, "at /spacetime/spin", "playground", "--picture", self.path("a.png"), self.kerr(), "--scene-set", "spacetime.spin=0.5")
-        self.bad(2, "which is missing", "playground", "-p", "emri", "--size", "64x36")
+        self.bad(2, "which is missing: --scene-set and --size", "playground", "-p", "emri", "--size", "64x36")
         for words, *arguments in [(b"PATH=VALUE", "--scene-set", "camera"), (b"WIDTHxHEIGHT", "--size", "640"), (b"--every is 0", "--every", "0")]:
             self.assertIn(words, run("playground", *arguments).stderr)
 

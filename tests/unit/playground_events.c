@@ -289,6 +289,83 @@ static void four_thousand_at_one_point(void **state)
     }
 }
 
+/* Debris far out moves as it would in one go, however short the strides are: in single precision it would stand still, its velocity too. */
+static void far_debris_moves(void **state)
+{
+    (void)state;
+    static const double out[] = { 1e3, 1e4, 1e5, 1e6 };
+    struct kd_playground_debris debris[2] = { { 0 }, { 0 } };
+    const size_t n = sizeof out / sizeof *out;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(kd_debris_resize(&debris[i], (uint32_t)n, NULL), KD_OK);
+        kd_debris_source_begin(&debris[i], "star", 1e-6, 1e-3, 1e-4);
+        for (size_t k = 0; k < n; k++)
+            debris[i].pieces[k] = (struct kd_debris_piece) { .x = { out[k], 0.3 * out[k], 0 }, .v = { -0.3 / sqrt(out[k]), 0.8 / sqrt(out[k]), 0 }, .source = 1, .stage = KD_DEBRIS_LEAVES };
+        debris[i].used = debris[i].alive = (uint32_t)n;
+    }
+    kd_debris_advance(&debris[0], 4000, 1e-4, true);
+    for (int k = 1; k <= 40000; k++)
+        kd_debris_advance(&debris[1], 0.1 * k, 1e-4, true);
+    for (size_t k = 0; k < n; k++)
+        for (int i = 0; i < 2; i++) {
+            const struct kd_debris_piece *one = &debris[0].pieces[k], *other = &debris[1].pieces[k];
+            assert_true(fabs(one->x[i] - other->x[i]) < 1e-7 * out[k] && fabs(one->v[i] - other->v[i]) < 1e-7 / sqrt(out[k]));
+            assert_true(fabs(one->v[i] - (i ? 0.8 : -0.3) / sqrt(out[k])) > 300 / (out[k] * out[k])); /* the hole has pulled it */
+        }
+    for (int i = 0; i < 2; i++)
+        kd_debris_finish(&debris[i]);
+}
+
+/* What has become of the heaviest and widest bodies is read again. */
+static void the_greatest_merge(void **state)
+{
+    (void)state;
+    struct kd_playground_params params = kd_playground_defaults();
+    params.tides = false;
+    struct kd_playground *p = playground_make(params), *q;
+    struct kd_playground_progress progress;
+    struct kd_error error = { 0 };
+    struct kd_buffer out = { 0 };
+    for (int i = 0; i < 3; i++)
+        playground_put(p, (struct kd_playground_body) { .mass = 1e12, .radius = 1e6, .x = { 5e5, i, 0 } });
+    kd_playground_advance(p, 1, &progress);
+    assert_true(p->n == 1 && p->bodies[0].mass == 3e12 && p->bodies[0].radius > 1.4e6);
+    assert_int_equal(kd_playground_write(p, true, &out), KD_OK);
+    if (kd_playground_read((const char *)out.data, out.size, &q, &error))
+        fail_msg("%s (at %s)", error.message, error.pointer);
+    kd_buffer_finish(&out);
+    kd_playground_destroy(p);
+    kd_playground_destroy(q);
+}
+
+/* The least stars and the least radii that may be give no NaN, torn or not, and a snapshot of them goes on. */
+static void the_least_stars(void **state)
+{
+    (void)state;
+    static const double sizes[] = { 1e-30, 1e-12, 1, 1e6 }, masses[] = { 1e-30, 1e-15, 1, 1e12 };
+    for (int i = 0; i < 16; i++) {
+        struct kd_playground_params params = kd_playground_defaults();
+        params.debris_per_body = 100;
+        struct kd_playground *p = playground_make(params), *q;
+        struct kd_playground_progress progress;
+        struct kd_error error = { 0 };
+        struct kd_buffer out = { 0 };
+        playground_put(p, (struct kd_playground_body) { .mass = masses[i / 4], .radius = sizes[i % 4], .x = { 30, 0, 0 }, .v = { -0.1, 0.05, 0 } });
+        kd_playground_advance(p, 60, &progress);
+        assert_true(isfinite(p->spent.torn_energy) && isfinite(kd_playground_totals(p).energy));
+        for (uint32_t k = 0; k < p->debris.used; k++)
+            assert_true(isfinite(p->debris.pieces[k].x[0]) && isfinite(p->debris.pieces[k].v[1]));
+        for (size_t k = 0; k < p->n; k++)
+            assert_true(isfinite(p->bodies[k].x[0]) && p->bodies[k].mass >= KD_PLAYGROUND_LEAST && p->bodies[k].radius >= KD_PLAYGROUND_LEAST);
+        assert_int_equal(kd_playground_write(p, true, &out), KD_OK);
+        if (kd_playground_read((const char *)out.data, out.size, &q, &error))
+            fail_msg("mass %g, radius %g: %s (at %s)", masses[i / 4], sizes[i % 4], error.message, error.pointer);
+        kd_buffer_finish(&out);
+        kd_playground_destroy(p);
+        kd_playground_destroy(q);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -301,6 +378,9 @@ int main(void)
         cmocka_unit_test(scenes_that_mean_harm_stay_finite),
         cmocka_unit_test(four_thousand_at_one_point),
         cmocka_unit_test(harm_is_bounded),
+        cmocka_unit_test(far_debris_moves),
+        cmocka_unit_test(the_least_stars),
+        cmocka_unit_test(the_greatest_merge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

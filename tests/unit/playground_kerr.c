@@ -93,6 +93,124 @@ static void who_leaves_is_told(void **state)
     kd_playground_destroy(p);
 }
 
+/* Nobody who begins on a circle, or next to one, or at a turning point by rounding, is refused; and the middle of the motion is where W has its maximum: that fixes how
+ * fast it goes round. W is even about the middle but for its cubic part, a share of the width squared. */
+static void circles_are_no_refusals(void **state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    double u[6], worst = 0;
+    for (int k = 0; k < 40000; k++) {
+        for (int i = 0; i < 6; i++)
+            u[i] = (seed = seed * 1664525u + 1013904223u) * 0x1p-32;
+        const double spin = 1.99 * u[0] - 0.995, r = k % 3 ? 8 + 30 * u[1] : 12, phi = 2 * M_PI * u[2], tilt = M_PI * u[3];
+        const double v = k % 5 ? (1 + (k % 2) * pow(10, -1 - 14 * u[4])) / sqrt(r - 2) : 0.3;
+        const double x[3] = { r * cos(phi), r * sin(phi) * cos(tilt), r * sin(phi) * sin(tilt) };
+        const double to[3] = { -v * sin(phi), v * cos(phi) * cos(tilt), v * cos(phi) * sin(tilt) };
+        struct kd_playground_geodesic g;
+        struct kd_error error = { 0 };
+        if (kd_geodesic_begin(&g, spin, x, to, 0, &error))
+            fail_msg("spin %.17g, x %.17g %.17g %.17g, v %.17g %.17g %.17g: %s", spin, x[0], x[1], x[2], to[0], to[1], to[2], error.message);
+        const struct kd_orbit *o = &g.path.orbit;
+        const double middle = 0.5 * (o->w_low + o->w_high), width = (o->w_high - o->w_low) / middle;
+        if (o->fate == KD_ORBIT_BOUND && width < 1e-6)
+            worst = fmax(worst, fabs(kd_orbit_radial_slope(o, middle) / (2 * o->w[2] * middle)));
+    }
+    print_message("the middle of circles all but is off by %.2g\n", worst);
+    assert_true(worst < 1e-11);
+}
+
+/* On Schwarzschild's circle of r = 12 the azimuth is t/12^(3/2), also at the very times at which steps end, 256 of them a turn. */
+static void circles_go_round_evenly(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"gravity\":\"kerr\",\"h_max\":100,\"bodies\":[{\"position\":[12,0,0],\"velocity\":[0,0.31622776601683794,0]}]}");
+    const double rate = pow(12, -1.5), step = 2 * M_PI / rate / 256;
+    for (int k = 1; k <= 400; k++) {
+        playground_advance(p, k * step - p->t);
+        assert_true(hypot(p->bodies[0].x[0] - 12 * cos(rate * p->t), p->bodies[0].x[1] - 12 * sin(rate * p->t)) < 1e-9);
+    }
+    kd_playground_destroy(p);
+}
+
+/* Where the budget ends in a stride all bodies are where they were at its begin, at one time; and the next advances bring them where one with all it takes does, to the bit,
+ * through a snapshot as well. A piece of an advance is no more than so many steps, however long a stride is. */
+static void bodies_are_at_one_time(void **state)
+{
+    (void)state;
+    const char *text = "{\"gravity\":\"kerr\",\"spin\":0.9,\"h_max\":500,\"budget\":100000000,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,0.1]},"
+                       "{\"position\":[0,12,0],\"velocity\":[-0.3,-0.05,0.1]},{\"position\":[0,0,30],\"velocity\":[0.1,0.15,0]}]}";
+    struct kd_playground *p = playground_read(text), *q = playground_read(text), *single[3];
+    struct kd_playground_progress progress;
+    struct kd_error error = { 0 };
+    unsigned held = 0;
+    playground_advance(p, 2000);
+    q->params.budget = 700; /* a stride takes more than that */
+    while (q->t < 2000) {
+        const double t = q->t, x = q->bodies[2].x[0];
+        kd_playground_advance(q, 2000 - q->t, &progress);
+        assert_true(progress.slowed || q->t == 2000);
+        held += q->t == t;
+        assert_true(q->t > t || q->bodies[2].x[0] == x);
+        if (held % 3 == 1) {
+            struct kd_buffer out = { 0 };
+            assert_int_equal(kd_playground_write(q, true, &out), KD_OK);
+            kd_playground_destroy(q);
+            assert_int_equal(kd_playground_read((const char *)out.data, out.size, &q, &error), KD_OK);
+            kd_buffer_finish(&out);
+        }
+    }
+    assert_true(held > 2);
+    for (int i = 0; i < 3; i++) { /* each is where it is alone */
+        single[i] = playground_read("{\"gravity\":\"kerr\",\"spin\":0.9,\"h_max\":500,\"budget\":100000000}");
+        struct kd_playground *begun = playground_read(text);
+        playground_put(single[i], begun->bodies[i]);
+        kd_playground_destroy(begun);
+        playground_advance(single[i], 2000);
+        for (int k = 0; k < 3; k++)
+            assert_true(p->bodies[i].x[k] == q->bodies[i].x[k] && p->bodies[i].x[k] == single[i]->bodies[0].x[k] && p->bodies[i].v[k] == q->bodies[i].v[k]);
+        kd_playground_destroy(single[i]);
+    }
+    struct kd_playground_run run;
+    unsigned pieces = 1;
+    q->params.budget = 100000000;
+    kd_playground_begin(q, 500, &run);
+    for (uint32_t left = run.left; kd_playground_go_on(q, &run, 1); left = run.left, pieces++)
+        assert_true(left - run.left <= 256);
+    assert_true(pieces > 3);
+    kd_playground_destroy(p);
+    kd_playground_destroy(q);
+}
+
+/* Time ends, and is told; a snapshot cannot say otherwise. */
+static void time_has_an_end(void **state)
+{
+    (void)state;
+    static const char *const texts[] = { "{\"h_max\":1000000}", "{\"h_max\":1000000,\"gravity\":\"kerr\",\"bodies\":[{\"position\":[900000,0,0],\"velocity\":[0,0.00105,0]}]}" };
+    for (int i = 0; i < 2; i++) {
+        struct kd_playground *p = playground_read(texts[i]), *q;
+        struct kd_playground_progress progress;
+        struct kd_error error = { 0 };
+        p->t = KD_PLAYGROUND_TIME - 3e6;
+        if (i)
+            p->geodesics[0].from_t = p->t;
+        kd_playground_advance(p, 1e12, &progress);
+        assert_true(progress.slowed && progress.ended && p->t >= KD_PLAYGROUND_TIME && p->t <= KD_PLAYGROUND_TIME + 1e6);
+        struct kd_buffer out = { 0 };
+        assert_int_equal(kd_playground_write(p, true, &out), KD_OK);
+        assert_int_equal(kd_playground_read((const char *)out.data, out.size, &q, &error), KD_OK);
+        kd_playground_destroy(q);
+        p->t = 1e300;
+        out.size = 0;
+        assert_int_equal(kd_playground_write(p, true, &out), KD_OK);
+        assert_int_equal(kd_playground_read((const char *)out.data, out.size, &q, &error), KD_EINVAL);
+        assert_string_equal(error.pointer, "/state/t");
+        assert_non_null(strstr(error.message, "allowed"));
+        kd_buffer_finish(&out);
+        kd_playground_destroy(p);
+    }
+}
+
 static struct kd_buffer snapshot(struct kd_playground *p)
 {
     struct kd_buffer out = { 0 };
@@ -181,6 +299,8 @@ static void documents_are_checked_and_changes_are_whole(void **state)
     refuse(&none, "{\"preset\":\"chaos\"}", "/preset");
     refuse(&none, "{\"colour\":1}", "/colour");
     refuse(&none, "{\"bodies\":[{\"mass\":1}]}", "/bodies/0");
+    refuse(&none, "{\"bodies\":[{\"position\":[10,0,0],\"mass\":1e-40}]}", "/bodies/0/mass");
+    refuse(&none, "{\"bodies\":[{\"position\":[10,0,0],\"radius\":1e-320}]}", "/bodies/0/radius");
     refuse(&none, "{\"bodies\":[{\"position\":[10,0,0]},{\"position\":[1,1,1]}]}", "/bodies/1/position");
     refuse(&none, "{\"bodies\":[{\"position\":[10,0,0],\"velocity\":[0.9,0.9,0]}]}", "/bodies/0/velocity");
     struct kd_playground *p = playground_read("{\"preset\":\"system\"}");
@@ -216,6 +336,10 @@ int main(void)
         cmocka_unit_test(test_bodies_follow_the_closed_form),
         cmocka_unit_test(the_velocity_told_begins_the_same_motion),
         cmocka_unit_test(who_leaves_is_told),
+        cmocka_unit_test(circles_are_no_refusals),
+        cmocka_unit_test(circles_go_round_evenly),
+        cmocka_unit_test(bodies_are_at_one_time),
+        cmocka_unit_test(time_has_an_end),
         cmocka_unit_test(snapshots_start_again_to_the_bit),
         cmocka_unit_test(damaged_snapshots_do_no_harm),
         cmocka_unit_test(documents_are_checked_and_changes_are_whole),

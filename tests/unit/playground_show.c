@@ -65,11 +65,11 @@ static double chance(void)
 static struct kd_debris_piece piece(double r, double phi, double z, double vr, double vphi)
 {
     struct kd_debris_piece p = { .stage = KD_DEBRIS_LEAVES };
-    p.x[0] = (float)(r * cos(phi));
-    p.x[1] = (float)(r * sin(phi));
-    p.x[2] = (float)z;
-    p.v[0] = (float)(vr * cos(phi) - vphi * sin(phi));
-    p.v[1] = (float)(vr * sin(phi) + vphi * cos(phi));
+    p.x[0] = r * cos(phi);
+    p.x[1] = r * sin(phi);
+    p.x[2] = z;
+    p.v[0] = vr * cos(phi) - vphi * sin(phi);
+    p.v[1] = vr * sin(phi) + vphi * cos(phi);
     return p;
 }
 
@@ -222,8 +222,7 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
     const double width = width_of(p);
     size_t within = 0, nearer = 0;
     for (uint32_t i = 0; i < p->debris.used; i++) {
-        const float *x = p->debris.pieces[i].x;
-        const double r = sqrt((double)x[0] * x[0] + (double)x[1] * x[1] + (double)x[2] * x[2]) / (width / 2.4);
+        const double r = kd_playground_radius(p->debris.pieces[i].x) / (width / 2.4);
         within += p->debris.pieces[i].stage != KD_DEBRIS_FREE && r <= 1;
         nearer += p->debris.pieces[i].stage != KD_DEBRIS_FREE && r <= 0.985;
     }
@@ -231,6 +230,41 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
            (double)nearer / p->debris.alive);
     assert_true(width > 2 * usual.camera.field_m && within >= 0.9 * p->debris.alive && nearer < 0.9 * p->debris.alive);
     kd_playground_destroy(p);
+}
+
+/* What is torn off already keeps its worth, whatever bodies are to fall into from now on: here, and in a snapshot. Of two stars each has its own. */
+static void a_piece_keeps_its_worth(void **state)
+{
+    (void)state;
+    struct kd_playground *p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":4000}"), *q;
+    struct kd_error error = { 0 };
+    struct kd_buffer text = { 0 };
+    playground_advance(p, 5000);
+    assert_int_equal(p->n, 0);
+    const double first = p->debris.alive / 4000.0;
+    struct kd_playground_params params = p->params;
+    params.debris_per_body = 500;
+    assert_int_equal(kd_playground_set(p, &params, &error), KD_OK);
+    struct kd_crowd *crowd = shown(p);
+    assert_true(fabs(sums_of(&crowd->debris).worth - first) < 1e-4 && first > 0.9);
+    kd_crowd_release(crowd);
+    const uint32_t before = p->debris.alive;
+    playground_put(p, (struct kd_playground_body) { .mass = 1e-6, .radius = 0.47, .x = { 0, 60, 0 }, .v = { 0.15, -0.03, 0 } });
+    for (int i = 0; p->n && i < 300; i++)
+        playground_advance(p, 5);
+    assert_int_equal(p->debris.last_source, 2);
+    assert_int_equal(kd_playground_write(p, true, &text), KD_OK);
+    assert_int_equal(kd_playground_read((const char *)text.data, text.size, &q, &error), KD_OK);
+    crowd = shown(q);
+    uint32_t of[2] = { 0, 0 };
+    for (uint32_t i = 0; i < q->debris.used; i++)
+        of[q->debris.pieces[i].source - 1] += q->debris.pieces[i].stage != KD_DEBRIS_FREE;
+    assert_true(of[0] <= before && of[1] > 100);
+    assert_true(fabs(sums_of(&crowd->debris).worth - of[0] / 4000.0 - of[1] / 500.0) < 1e-3);
+    kd_crowd_release(crowd);
+    kd_buffer_finish(&text);
+    kd_playground_destroy(p);
+    kd_playground_destroy(q);
 }
 
 /* Pieces that are nowhere are told, and leave no NaN. */
@@ -241,7 +275,7 @@ static void nowhere(void **state)
     pieces[2].x[0] = pieces[2].x[1] = 0; /* on the axis */
     pieces[3].x[1] = NAN;
     pieces[4].x[0] = INFINITY;
-    pieces[5].x[2] = 1e20f;
+    pieces[5].x[2] = 1e20;
     struct kd_crowd *crowd = grid_of(pieces, 7, 1);
     assert_int_equal(crowd->debris.pieces + crowd->debris.hidden, 7);
     assert_true(crowd->debris.pieces == 2 && fabs(sums_of(&crowd->debris).worth - 2) < 1e-5);
@@ -251,7 +285,7 @@ static void nowhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bodies), cmocka_unit_test(debris_is_all_there), cmocka_unit_test(a_piece_is_at_its_place), cmocka_unit_test(a_star_is_shown),
+        cmocka_unit_test(bodies), cmocka_unit_test(debris_is_all_there), cmocka_unit_test(a_piece_is_at_its_place), cmocka_unit_test(a_star_is_shown), cmocka_unit_test(a_piece_keeps_its_worth),
         cmocka_unit_test(nowhere), cmocka_unit_test(a_view_is_as_wide_as_what_there_is),
     };
     return cmocka_run_group_tests_name("playground_show", tests, NULL, NULL);

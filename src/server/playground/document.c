@@ -10,13 +10,13 @@
 
 #define USUAL_RATE 50.
 #define STEP_VALUES 16 /* in the body of one: more would be wrong */
-#define STEP_MOST 1e18 /* M */
+#define STEP_MOST KD_PLAYGROUND_TIME
 
 static const struct kd_playground_setting pace_rows[] = {
-    { "rate", KD_SETTING_REAL, offsetof(struct kd_play_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, NULL, "M a second of the clock" },
-    { "paused", KD_SETTING_TRUTH, offsetof(struct kd_play_pace, paused), 0, 0, 1, NULL, "whether it stands" },
+    { "rate", KD_SETTING_REAL, offsetof(struct kd_play_pace, rate), USUAL_RATE, 0, KD_PLAY_RATE_MAX, 0, NULL, "M a second of the clock" },
+    { "paused", KD_SETTING_TRUTH, offsetof(struct kd_play_pace, paused), 0, 0, 1, 0, NULL, "whether it stands" },
 };
-static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, NULL, "M to go on by" };
+static const struct kd_playground_setting step_row = { "by", KD_SETTING_REAL, 0, 0, 0, STEP_MOST, 0, NULL, "M to go on by" };
 
 enum kd_status kd_play_read_pace(cJSON *tree, struct kd_play_pace *pace, struct kd_error *error)
 {

@@ -64,7 +64,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
     kd_quality_apply(&turn->quality, scene, &live->job.scene);
     if (s->crowd) {
         kd_scene_show(&live->job.scene, s->crowd);
-        live->job.scene.top.time += s->crowd->time;
+        kd_scene_pass(&live->job.scene, s->crowd->time);
     }
     live->job.scene.image.bit_depth = 8;
     kd_render_queue_capacity(s->all->params.renders, &capacity);
