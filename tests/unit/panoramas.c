@@ -1,12 +1,17 @@
 /* Panoramas on the host: which are made ahead of who asks for them, and what that costs those that are asked for. */
 #include "image/png.h"
 #include "render/device/panoramas.h"
+#include "render/sky/milky_way_file.h"
+#include "render/sky/panorama.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -112,9 +117,86 @@ static void what_fails_is_tried_again(void **state)
     kd_panoramas_finish(&all);
 }
 
+/* The words of the Milky Way of a seed, by a process that keeps one at this path. */
+static uint32_t *milky_way(const char *path, int32_t seed)
+{
+    const size_t bytes = kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof(uint32_t);
+    const struct kd_scene scene = { .sky = { .model = KD_SKY_STARS, .milky_way = 1, .seed = seed } };
+    const struct kd_panorama *out = NULL;
+    struct kd_error error = { 0 };
+    struct kd_panoramas all;
+    uint32_t *words = malloc(bytes);
+    kd_panoramas_init(&all, NULL, NULL, NULL);
+    kd_panoramas_keep_at(&all, strdup(path));
+    assert_non_null(words);
+    assert_int_equal(kd_panorama_of(&all, &scene, &out, &error), KD_OK);
+    memcpy(words, out->words, bytes);
+    kd_panoramas_finish(&all);
+    return words;
+}
+
+static void put(const char *path, long at, uint8_t byte)
+{
+    FILE *file = fopen(path, "r+b");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, at, SEEK_SET), 0);
+    assert_int_equal(fputc(byte, file), byte);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Says where in a file the first word of a texel is. */
+static long place(uint32_t row, uint32_t column) { return 32 + 4 * ((long)row * KD_MILKY_WAY_WIDTH + column); }
+
+/* A Milky Way that was kept is the one that was made, to the bit; one that is of another seed, damaged, cut short or made otherwise is made anew, and then
+ * it is that which is kept. */
+static void what_is_kept_is_what_was_made(void **state)
+{
+    (void)state;
+    const size_t n = kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT), bytes = n * sizeof(uint32_t);
+    char folder[] = "/tmp/kerrd-milky-way-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/milky-way", folder);
+    uint32_t *made = milky_way(path, 1), *kept = calloc(n, sizeof *kept);
+    assert_non_null(kept);
+    assert_true(kd_milky_way_recall(path, 1, kept) && !memcmp(kept, made, bytes));
+    uint32_t *again = milky_way(path, 1);
+    assert_memory_equal(again, made, bytes);
+    assert_false(kd_milky_way_recall(path, 2, kept));
+
+    put(path, place(300, 7), 0xa5); /* damage where no row is compared */
+    assert_false(kd_milky_way_recall(path, 1, kept));
+    memcpy(kept, made, bytes);
+    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^= 1; /* sound, and of other mathematics */
+    kd_milky_way_keep(path, 1, kept);
+    assert_false(kd_milky_way_recall(path, 1, kept));
+    free(again);
+    again = milky_way(path, 1);
+    assert_memory_equal(again, made, bytes);
+    assert_true(kd_milky_way_recall(path, 1, kept)); /* the good one is in its place */
+
+    assert_int_equal(truncate(path, place(1000, 0)), 0);
+    assert_false(kd_milky_way_recall(path, 1, kept));
+    assert_int_equal(unlink(path), 0);
+    assert_false(kd_milky_way_recall(path, 1, kept));
+    assert_int_equal(rmdir(folder), 0);
+    free(again);
+    free(kept);
+    free(made);
+}
+
+/* A folder that cannot be written costs nothing but time. */
+static void nowhere_to_keep_it(void **state)
+{
+    (void)state;
+    uint32_t *words = milky_way("/proc/self/nowhere/milky-way", 1);
+    assert_true(words[(size_t)512 * KD_MILKY_WAY_WIDTH] != 0);
+    free(words);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(is_there_when_it_is_asked_for), cmocka_unit_test(has_a_free_place_only),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(what_is_kept_is_what_was_made), cmocka_unit_test(nowhere_to_keep_it),
+                                        cmocka_unit_test(is_there_when_it_is_asked_for), cmocka_unit_test(has_a_free_place_only),
                                         cmocka_unit_test(what_fails_is_tried_again) };
     return cmocka_run_group_tests(tests, fill_shelf, empty_shelf);
 }

@@ -1,5 +1,7 @@
 #include "render/device/panoramas.h"
 
+#include "render/sky/milky_way_file.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,11 +36,24 @@ static enum kd_status paint(const struct kd_assets *assets, const struct kd_sky 
     return status;
 }
 
+/* A Milky Way that was kept. */
+static bool recall(const char *file, const struct kd_panorama_key *key, struct kd_panorama *out)
+{
+    if (*key->sky.image || !file)
+        return false;
+    out->columns = KD_MILKY_WAY_WIDTH;
+    out->rows = KD_MILKY_WAY_HEIGHT;
+    out->words = malloc(kd_panorama_words(out->columns, out->rows) * sizeof *out->words);
+    if (out->words && kd_milky_way_recall(file, key->sky.seed, out->words))
+        return true;
+    free(out->words);
+    out->words = NULL;
+    return false;
+}
+
 static enum kd_status make(const struct kd_assets *assets, const struct kd_panorama_key *key, struct kd_panorama *out, struct kd_error *error)
 {
     struct kd_sky_picture picture = { 0 };
-    *out = (struct kd_panorama) { 0 };
-    snprintf(out->of, sizeof out->of, "%s", key->of);
     enum kd_status status = paint(assets, &key->sky, &picture, out->credit, error);
     if (!status)
         status = fill(out, &picture, error);
@@ -67,14 +82,16 @@ static struct kd_panorama *room(struct kd_panoramas *all)
     return oldest;
 }
 
-/* With the lock, which is left while it is made. */
-static void make_first(struct kd_panoramas *all)
+/* With the lock, which is left while it is made. A Milky Way that was made, and should be kept, or NULL. */
+static const struct kd_panorama *make_first(struct kd_panoramas *all)
 {
     const struct kd_panorama_key key = all->asked[0];
-    struct kd_panorama *place = room(all), made;
+    struct kd_panorama *place = room(all), made = { 0 };
     struct kd_error why = { 0 };
+    memcpy(made.of, key.of, sizeof made.of);
     pthread_mutex_unlock(&all->lock);
-    enum kd_status status = make(all->assets, &key, &made, &why);
+    const bool recalled = recall(all->file, &key, &made);
+    enum kd_status status = recalled ? KD_OK : make(all->assets, &key, &made, &why);
     pthread_mutex_lock(&all->lock);
     const bool ahead = all->asked[0].ahead; /* by now */
     if (status && !ahead) {
@@ -87,6 +104,17 @@ static void make_first(struct kd_panoramas *all)
     }
     memmove(all->asked, all->asked + 1, --all->n_asked * sizeof *all->asked);
     pthread_cond_broadcast(&all->changed);
+    return status || recalled || *key.sky.image ? NULL : place;
+}
+
+/* Without the lock, by the thread, which alone takes places away: so the words stay meanwhile. */
+static void keep(struct kd_panoramas *all, int32_t seed, const struct kd_panorama *fresh)
+{
+    if (!all->file || !fresh)
+        return;
+    kd_milky_way_keep(all->file, seed, fresh->words);
+    free(all->file);
+    all->file = NULL;
 }
 
 static void *run(void *user)
@@ -94,11 +122,12 @@ static void *run(void *user)
     struct kd_panoramas *all = user;
     pthread_mutex_lock(&all->lock);
     while (all->n_asked) {
-        make_first(all);
-        if (!all->made)
-            continue;
+        const int32_t seed = all->asked[0].sky.seed;
+        const struct kd_panorama *fresh = make_first(all);
         pthread_mutex_unlock(&all->lock);
-        all->made(all->user);
+        if (all->made)
+            all->made(all->user);
+        keep(all, seed, fresh);
         pthread_mutex_lock(&all->lock);
     }
     all->runs = false;
@@ -231,6 +260,8 @@ void kd_panoramas_init(struct kd_panoramas *all, const struct kd_assets *assets,
     pthread_cond_init(&all->changed, NULL);
 }
 
+void kd_panoramas_keep_at(struct kd_panoramas *all, char *path) { all->file = path; }
+
 void kd_panoramas_stop(struct kd_panoramas *all)
 {
     pthread_mutex_lock(&all->lock);
@@ -245,6 +276,7 @@ void kd_panoramas_finish(struct kd_panoramas *all)
     kd_panoramas_stop(all);
     for (int i = 0; i < KD_PANORAMAS; i++)
         free(all->at[i].words);
+    free(all->file);
     pthread_cond_destroy(&all->changed);
     pthread_mutex_destroy(&all->lock);
 }

@@ -1,6 +1,7 @@
 /* Panoramas of skies on the host, as the device is given them: the Milky Way that is made up, by its seed, or sky.image. The renderer keeps the last
  * KD_PANORAMAS that were asked for, up to 45 MB each, as long as it lives. A thread of its own makes them, one after the other, and ends when none is
- * asked for: who has the device need not wait meanwhile. Any thread, but for what says otherwise. */
+ * asked for: who has the device need not wait meanwhile. The first Milky Way that a process makes is kept in a file, which later ones read
+ * (render/sky/milky_way_file.h). Any thread, but for what says otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 
@@ -33,10 +34,13 @@ struct kd_panoramas {
     char broken[KD_ASSET_NAME]; /* the last one that could not be made; what is no sound picture is not looked at again. "": none was */
     struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
+    char *file; /* where the first Milky Way that is made is kept for later processes; NULL: nowhere, or one was kept */
     void (*made)(void *user);       /* called by the thread, without the lock, whenever one is there or has failed; may be NULL */
     void *user;
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user), void *user);
+/* Says where a Milky Way is kept, and looked for: a path that is freed with the panoramas; NULL: nowhere. Before the first is begun. */
+void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
 
 /* Begins to make the panorama of a scene, if that has one, and it is not there. Whether it is under way now. Places of those that nobody has been given
  * are the last to be given up; who waits for one asks again, so that it is made again where it was. */

@@ -54,6 +54,16 @@ static void load_accuracy(struct kd_renderer *r)
     r->capacity.accuracy_measured = r->accuracy;
 }
 
+/* Beside what the device's driver keeps, and the same for all devices. */
+static char *milky_way_file(const struct kd_vk *vk)
+{
+    char *own = kd_vk_cache_file(vk, ""), *slash = own ? strrchr(own, '/') : NULL, *out = NULL;
+    if (slash && asprintf(&out, "%.*s/milky-way", (int)(slash - own), own) < 0)
+        out = NULL;
+    free(own);
+    return out;
+}
+
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
 {
@@ -73,6 +83,7 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
         kd_renderer_destroy(r);
         return status;
     }
+    kd_panoramas_keep_at(&r->panoramas, milky_way_file(r->vk));
     const struct kd_vk_info *info = kd_vk_info(r->vk);
     r->capacity = guess(info, params->memory_bytes);
     r->store.vk = r->vk;

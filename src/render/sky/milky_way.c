@@ -157,41 +157,78 @@ static void paint_row(const struct clouds *c, const struct along *columns, uint3
     }
 }
 
-static void paint(const struct clouds *c, const struct along *columns, float (*const nodes)[SMOOTH], const struct kd_sky_picture *out)
+/* What every row is painted with. */
+struct painter {
+    struct clouds clouds;
+    struct along *columns;
+    float (*nodes)[SMOOTH]; /* of two rows */
+};
+
+static void finish(struct painter *p)
 {
-    float (*at[2])[SMOOTH] = { nodes, nodes + NODES + 1 };
-    make_nodes(c, columns, 0, at[1]);
+    free(p->nodes);
+    free(p->columns);
+    free(p->clouds.lattice);
+}
+
+static enum kd_status init(struct painter *p, int32_t seed, struct kd_error *error)
+{
+    const size_t n = (size_t)SIDE * SIDE * SIDE;
+    struct kd_random random = { ((uint64_t)(uint32_t)seed << 32) + 1 };
+    *p = (struct painter) { { malloc(n * sizeof(float)) }, malloc(KD_MILKY_WAY_WIDTH * sizeof *p->columns), calloc(2 * (NODES + 1), sizeof *p->nodes) };
+    if (!p->clouds.lattice || !p->columns || !p->nodes) {
+        finish(p);
+        return kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
+    }
+    for (size_t i = 0; i < n; i++)
+        p->clouds.lattice[i] = (float)(2 * kd_random(&random) - 1);
+    for (uint32_t x = 0; x < KD_MILKY_WAY_WIDTH; x++)
+        p->columns[x] = along_of((float)M_PI * (1 - 2 * ((float)x + 0.5f) / KD_MILKY_WAY_WIDTH));
+    return KD_OK;
+}
+
+static void paint(const struct painter *p, const struct kd_sky_picture *out)
+{
+    float (*at[2])[SMOOTH] = { p->nodes, p->nodes + NODES + 1 };
+    make_nodes(&p->clouds, p->columns, 0, at[1]);
     for (uint32_t y = 0; y < out->height; y++) {
         if (y % STEP == 0) {
             float (*const kept)[SMOOTH] = at[0];
             at[0] = at[1];
             at[1] = kept;
-            make_nodes(c, columns, y + STEP, at[1]);
+            make_nodes(&p->clouds, p->columns, y + STEP, at[1]);
         }
-        paint_row(c, columns, y, at, &out->texels[3 * (size_t)y * out->width]);
+        paint_row(&p->clouds, p->columns, y, at, &out->texels[3 * (size_t)y * out->width]);
     }
 }
 
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error)
 {
-    const size_t n = (size_t)SIDE * SIDE * SIDE;
-    struct clouds c = { malloc(n * sizeof *c.lattice) };
-    struct kd_random random = { ((uint64_t)(uint32_t)seed << 32) + 1 };
+    struct painter p;
     *out = (struct kd_sky_picture) { KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT, malloc(12ull * KD_MILKY_WAY_WIDTH * KD_MILKY_WAY_HEIGHT) };
-    struct along *columns = malloc(KD_MILKY_WAY_WIDTH * sizeof *columns);
-    float (*nodes)[SMOOTH] = calloc(2 * (NODES + 1), sizeof *nodes);
-    bool good = c.lattice && out->texels && columns && nodes;
-    for (size_t i = 0; good && i < n; i++)
-        c.lattice[i] = (float)(2 * kd_random(&random) - 1);
-    for (uint32_t x = 0; good && x < out->width; x++)
-        columns[x] = along_of((float)M_PI * (1 - 2 * ((float)x + 0.5f) / (float)out->width));
-    if (good)
-        paint(&c, columns, nodes, out);
-    free(nodes);
-    free(columns);
-    free(c.lattice);
-    if (good)
-        return KD_OK;
-    kd_sky_picture_finish(out);
-    return kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
+    enum kd_status status = out->texels ? init(&p, seed, error) : kd_error_set(error, KD_ENOMEM, "out of memory for the Milky Way");
+    if (status) {
+        kd_sky_picture_finish(out);
+        return status;
+    }
+    paint(&p, out);
+    finish(&p);
+    return KD_OK;
+}
+
+enum kd_status kd_milky_way_rows(int32_t seed, const uint32_t *rows, size_t n, float *texels, struct kd_error *error)
+{
+    struct painter p;
+    enum kd_status status = init(&p, seed, error);
+    if (status)
+        return status;
+    float (*at[2])[SMOOTH] = { p.nodes, p.nodes + NODES + 1 };
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t first = rows[i] / STEP * STEP;
+        make_nodes(&p.clouds, p.columns, first, at[0]);
+        make_nodes(&p.clouds, p.columns, first + STEP, at[1]);
+        paint_row(&p.clouds, p.columns, rows[i], at, &texels[3 * i * KD_MILKY_WAY_WIDTH]);
+    }
+    finish(&p);
+    return KD_OK;
 }

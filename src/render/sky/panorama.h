@@ -40,6 +40,8 @@ void kd_panorama_unpack(uint32_t word, float rgb[3]);
 /* The procedural Milky Way (milky_way.c), of sky.seed. KD_ENOMEM. Some tenths of a second. */
 enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
+/* Some of its rows alone, one after the other into texels, the same to the bit. */
+enum kd_status kd_milky_way_rows(int32_t seed, const uint32_t *rows, size_t n, float *texels, struct kd_error *error);
 
 /* A picture of the sky has at most so many rows when it is read (image.h). */
 enum { KD_SKY_IMAGE_ROWS = 2048 };
