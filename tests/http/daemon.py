@@ -118,7 +118,7 @@ def vanish(s):
     s.close()
 
 
-def eventually(condition, timeout=10):
+def eventually(condition, timeout=60):
     deadline = time.monotonic() + timeout
     while time.monotonic() < deadline:
         if condition():

@@ -88,6 +88,7 @@ class Browser(unittest.TestCase):
     def context(self, **options):
         options.setdefault('viewport', {'width': 1000, 'height': 640})
         context = self.browser.new_context(**options)
+        context.set_default_timeout(90000)  # a busy machine is slow
         self.contexts.append(context)
         return context
 
