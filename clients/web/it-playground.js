@@ -62,9 +62,10 @@ export const sentences = {
   "share of the disk's light that bodies throw back in pictures; 0: that is not looked for": 'quota della luce del disco che i corpi rimandano nelle immagini; 0: non la si cerca',
   'optical depth in pictures of the debris of one body, spread over 1000 M^2': 'profondità ottica, nelle immagini, dei detriti di un corpo sparsi su 1000 M²',
   'of the directions that debris takes': 'delle direzioni che prendono i detriti',
-  'in masses of the hole; 0: it pulls nothing': 'in masse del buco; 0: non attrae nulla',
-  'in M; 0: a point, which touches nothing and has no tides': 'in M; 0: un punto, che non tocca nulla e non ha maree',
+  'in masses of the hole, at least 1e-30; 0: it pulls nothing': 'in masse del buco, almeno 1e-30; 0: non attrae nulla',
+  'in M, at least 1e-30; 0: a point, which touches nothing and has no tides': 'in M, almeno 1e-30; 0: un punto, che non tocca nulla e non ha maree',
   'of its surface; 0: it is dark': 'della superficie; 0: è scuro',
+  'Time has come to its end, 1e12 M, and stands.': 'Il tempo è arrivato alla sua fine, 1e12 M, e sta fermo.',
   'Bodies are test bodies: they do not pull one another, do not meet, and have no tides and no waves.': 'I corpi sono corpi di prova: non si attraggono, non si incontrano, non hanno maree né onde.',
   "The hole pulls by the potential of Paczynski and Wiita, which has Schwarzschild's last stable orbit but no dragging and no slowing of time; its r is taken for Schwarzschild's.":
     'Il buco attrae con il potenziale di Paczyński e Wiita, che ha l’ultima orbita stabile di Schwarzschild ma nessun trascinamento e nessun rallentamento del tempo; la sua r è presa per quella di Schwarzschild.',

@@ -393,6 +393,10 @@ const refusals = [
     '{} è {}, ammesso per camera.observer {} a questa inclinazione è più di {}, l’orbita della luce; camera.observer {} può stare dentro',
   ],
   [
+    '{} is {}, allowed is a velocity of at most 0.999 together with the other two components',
+    '{} è {}, ammesso è una velocità di al più 0,999 insieme alle altre due componenti',
+  ],
+  [
     'camera.velocity_r, velocity_theta and velocity_phi make a speed of {}, allowed is less than 1, that of light',
     'camera.velocity_r, velocity_theta e velocity_phi fanno una velocità di {}, ammesso è meno di 1, quella della luce',
   ],

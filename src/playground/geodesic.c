@@ -36,6 +36,7 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, 
     memcpy(g->from_x, x, sizeof g->from_x);
     memcpy(g->from_v, v, sizeof g->from_v);
     kd_orbit_path_init(&g->path, &orbit, &start, KD_ORBIT_YOSHIDA6);
+    g->begun = g->path;
     return KD_OK;
 }
 
@@ -79,7 +80,19 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
     }
 }
 
-enum kd_geodesic_fate kd_geodesic_at(const struct kd_playground_geodesic *g, double t, double x[3], double v[3])
+void kd_geodesic_back(struct kd_playground_geodesic *g) { g->path = g->begun; }
+
+/* By dt/dlambda = (A E - 2 a r L)/Delta, A = (r^2 + a^2)^2 - a^2 Delta sin^2. */
+double kd_geodesic_pace(const struct kd_playground_geodesic *g)
+{
+    const struct kd_orbit *o = &g->path.orbit;
+    const struct kd_orbit_place at = kd_orbit_path_place(&g->path);
+    const double r = at.r, a2 = o->a * o->a, s = sin(at.theta), delta = r * r - 2 * r + a2;
+    const double big = (r * r + a2) * (r * r + a2) - a2 * delta * s * s;
+    return delta / (g->h * (big * o->energy - 2 * o->a * r * o->momentum));
+}
+
+enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t, double x[3], double v[3])
 {
     const enum kd_geodesic_fate fate = fate_at(g, kd_orbit_path_place(&g->path).r);
     if (fate != KD_GEODESIC_GOES)
@@ -88,6 +101,7 @@ enum kd_geodesic_fate kd_geodesic_at(const struct kd_playground_geodesic *g, dou
     const double r = kd_orbit_path_place(&now).r;
     if (fate_at(g, r) == KD_GEODESIC_GOES) {
         tell(g, &now, x, v);
+        g->begun = g->path;
         return KD_GEODESIC_GOES;
     }
     struct kd_orbit_path next = g->path;
@@ -97,7 +111,7 @@ enum kd_geodesic_fate kd_geodesic_at(const struct kd_playground_geodesic *g, dou
 
 void kd_geodesic_save(const struct kd_playground_geodesic *g, double state[KD_GEODESIC_STATE])
 {
-    const struct kd_orbit_path *p = &g->path;
+    const struct kd_orbit_path *p = &g->begun;
     int n = 0;
     state[n++] = p->ingoing;
     state[n++] = p->entry_t;
@@ -133,5 +147,6 @@ void kd_geodesic_restore(struct kd_playground_geodesic *g, const double state[KD
         p->rate[i].value = state[n++];
         p->rate[i].rest = state[n++];
     }
+    g->begun = g->path;
 }
 _Static_assert(KD_GEODESIC_STATE == 6 + 2 * (KD_PATH_PLACES + KD_PATH_RATES), "as many numbers as are kept");

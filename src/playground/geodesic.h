@@ -16,6 +16,7 @@ struct kd_playground_geodesic {
     double phi;                                /* there */
     double h;                                  /* the step, in Mino time */
     struct kd_orbit_path path;                 /* not past the time that was approached last */
+    struct kd_orbit_path begun;                /* from where that was approached: kd_geodesic_back goes back to it */
 };
 
 /* KD_EINVAL, with the pointer "/position" or "/velocity", where there is no such motion. */
@@ -25,10 +26,13 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, double spin, 
  * which are counted down. False: they are spent, and the next call goes on. */
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps);
 enum kd_geodesic_fate { KD_GEODESIC_GOES, KD_GEODESIC_CAPTURED, KD_GEODESIC_AWAY };
-/* Place and velocity at the time t, which has been approached. */
-enum kd_geodesic_fate kd_geodesic_at(const struct kd_playground_geodesic *g, double t, double x[3], double v[3]);
+void kd_geodesic_back(struct kd_playground_geodesic *g);
+/* Steps in a unit of time, as it moves now. */
+double kd_geodesic_pace(const struct kd_playground_geodesic *g);
+/* Place and velocity at the time t, which has been approached, and is where it goes on from: there is no way back behind it. */
+enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t, double x[3], double v[3]);
 
-/* What a geodesic is besides its begin, to be kept and taken up again exactly. */
+/* What a geodesic is besides its begin, where it may go back to, to be kept and taken up again exactly. */
 enum { KD_GEODESIC_STATE = 20 };
 void kd_geodesic_save(const struct kd_playground_geodesic *g, double state[KD_GEODESIC_STATE]);
 void kd_geodesic_restore(struct kd_playground_geodesic *g, const double state[KD_GEODESIC_STATE]); /* after kd_geodesic_begin */

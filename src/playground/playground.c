@@ -206,6 +206,8 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
 {
     const struct kd_playground_params *s = &p->params;
     kd_json_array(json, name);
+    if (!(p->t < KD_PLAYGROUND_TIME))
+        kd_json_string(json, NULL, "Time has come to its end, 1e12 M, and stands.");
     if (kerr(p)) {
         kd_json_string(json, NULL, "Bodies are test bodies: they do not pull one another, do not meet, and have no tides and no waves.");
     } else {

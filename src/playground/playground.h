@@ -17,8 +17,9 @@
  * the method has no drift of energy. Steps are never stretched or cut to meet a time that is asked for: how the time is divided into calls
  * changes nothing, to the bit. Speeds are held at 1, which takes energy and never gives any; what it took is in the books (`spent`).
  *
- * Gravity "kerr": bodies follow geodesics (geodesic.h) and do not know of one another, of tides or of waves. They are told where they are once every h_max, all at the same time:
- * an advance whose budget is spent in between has not moved them, and the next one goes on with what has been computed.
+ * Gravity "kerr": bodies follow geodesics (geodesic.h) and do not know of one another, of tides or of waves. They are told where they are once every h_max, or oftener where the budget is
+ * short, and all at the same time: an advance whose budget is spent in between has not moved them, and the next one goes on with what has been computed. What has not led anywhere
+ * yet is not in a snapshot.
  *
  * All results depend on the state alone, the seed included; on this machine and another with IEEE arithmetic they are the same as far as
  * its C library's sqrt, cbrt and pow are. */
@@ -61,11 +62,10 @@ struct kd_playground {
     struct kd_playground_debris debris;
     struct kd_playground_series series;
     struct kd_playground_geodesic *geodesics; /* gravity "kerr": one a body */
-    double aim; /* of these: the time that they approach where it is after t; bodies are told where they are when all have */
     /* From here on what follows from the above. */
     struct kd_playground_mutual mutual;
     bool disturbed; double before; /* bodies were changed from outside since the last step, and the energy then was this */
-    size_t approached; /* so many geodesics have approached `aim` */
+    double aim; size_t approached; /* the time after t that geodesics approach, and how many have; bodies are told where they are when all have */
     bool forced; /* `mutual` is that of the bodies as they are */
     double margin; /* that it was made with */
 };

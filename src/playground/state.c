@@ -11,6 +11,7 @@
 
 #define MOST 1e300
 #define LAST (KD_PLAYGROUND_TIME + 1e6) /* M: what comes to the end of time may be a sub-step past it */
+#define OLD_PIECE ((size_t)32) /* bytes of a piece in a snapshot of a version before this */
 #define WHOLE 9e15 /* numbers that a double holds exactly */
 
 /* Numbers by name: of the playground, its debris, a body, a source. */
@@ -21,8 +22,7 @@ struct number {
 };
 #define OF(type, member, kind) { #member, offsetof(struct type, member), kind }
 static const struct number whole[] = { OF(kd_playground, t, TIME), OF(kd_playground, steps, COUNT), OF(kd_playground, last_id, COUNT32),
-                                       OF(kd_playground, rate, REAL), OF(kd_playground, random, COUNT), OF(kd_playground, held, TRUTH),
-                                       OF(kd_playground, aim, TIME) };
+                                       OF(kd_playground, rate, REAL), OF(kd_playground, random, COUNT), OF(kd_playground, held, TRUTH) };
 static const struct number spent[] = { OF(kd_playground_spent, captured_mass, REAL), OF(kd_playground_spent, captured_energy, REAL),
                                        OF(kd_playground_spent, merged, REAL), OF(kd_playground_spent, capped, REAL),
                                        OF(kd_playground_spent, radiated, REAL), OF(kd_playground_spent, torn_mass, REAL),
@@ -204,6 +204,10 @@ static enum kd_status read_debris(struct kd_playground_debris *d, const cJSON *i
     if (d->used > d->capacity || d->next > d->used || (d->capacity && d->next >= d->capacity)) {
         d->used = d->next = 0;
         KD_TRY(bad(pointer, "used", "is more than there is room for", error));
+    }
+    if (cJSON_IsString(pieces) && d->used && strlen(pieces->valuestring) == kd_base64_length(d->used * OLD_PIECE)) {
+        d->used = d->next = 0;
+        KD_TRY(bad(pointer, "pieces", "are those of an older version, whose places are of single precision: this one cannot go on from them", error));
     }
     for (const cJSON *one = cJSON_IsArray(sources) ? sources->child : NULL; one; one = one->next)
         KD_TRY(read_source(d, one, "/state/debris/sources", error));

@@ -221,6 +221,11 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
 {
     *run = (struct kd_playground_run) { .begin = p->t, .end = p->t + time, .stride = p->params.h_max, .first = p->steps, .left = p->params.budget };
     kd_playground_settle(p);
+    if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
+        return;
+    for (size_t i = 0; i < p->n; i++) /* the stride under way would lead farther than this run is to go */
+        kd_geodesic_back(&p->geodesics[i]);
+    p->aim = p->t;
 }
 
 static bool is_over(const struct kd_playground *p, const struct kd_playground_run *run)
@@ -228,12 +233,21 @@ static bool is_over(const struct kd_playground *p, const struct kd_playground_ru
     return run->stuck || !(p->t < run->end) || !(p->t < KD_PLAYGROUND_TIME) || !run->left || p->steps - run->first >= p->params.budget;
 }
 
+/* How long a stride is that half of what is left of the budget is enough for, as far as the bodies' motion now can tell. */
+static double affordable(const struct kd_playground *p, uint32_t left)
+{
+    double pace = 0;
+    for (size_t i = 0; i < p->n; i++)
+        pace += kd_geodesic_pace(&p->geodesics[i]);
+    return pace > 0 ? 0.5 * left / pace : INFINITY;
+}
+
 /* Gravity "kerr", in strides: all bodies approach the stride's end, one after the other, and are there together. Where the budget is spent in between nobody has moved, and the next
  * run goes on towards the same end. */
 static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
 {
     if (!(p->aim > p->t)) {
-        p->aim = fmin(p->t + run->stride, run->end);
+        p->aim = fmin(p->t + fmin(run->stride, affordable(p, run->left)), run->end);
         p->approached = 0;
         run->stuck = !(p->aim > p->t); /* less than the time can tell */
     }

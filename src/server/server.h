@@ -17,7 +17,7 @@ struct kd_server_params {
     unsigned sessions;        /* live ones at once, default 16 */
     unsigned session_ms;      /* that one lives on unwatched, default 60 000 */
     unsigned playgrounds;     /* at once, default 16; what session_ms says holds for them too */
-    unsigned playgrounds_kib; /* of memory that all of them may take, default 512 MiB */
+    unsigned playgrounds_kib; /* of memory that all of them may take, default 1 GiB */
     unsigned jobs;            /* unfinished ones, default 16 */
     unsigned client_share;    /* percent of connections, renders that wait, sessions and jobs that one client may have; default 75 */
     unsigned client_jobs;     /* unfinished ones of one client; 0: by client_share */

@@ -462,6 +462,31 @@ class Playground(daemon.Owned):
         self.assertGreater(data.count(b'\x89PNG'), 20)
         self.assertGreater(self.status(play)['t'], 550, 'it has gone on all the time')
 
+    def test_a_stream_of_pictures_ends_with_its_playground(self):
+        held = self.daemon.metrics()['kerrd_playground_bytes']
+        play = self.open(rate=100, scene={'image': {'width': 64, 'height': 36}})
+        without = self.daemon.metrics()['kerrd_playground_bytes']
+        s = self.stream(play, '/frames', 'application/x-kerrd-frames')
+        data = b''
+        while data.count(b'\x89PNG') < 2:
+            data += s.recv(65536)
+        self.assertEqual(self.status(play)['watchers'], 1)
+        self.assertGreater(self.daemon.metrics()['kerrd_playground_bytes'], without + 3e7, 'what is shown of it takes memory')
+        self.delete(play)
+        while s.recv(65536):
+            pass
+        s.close()
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_sessions'] == 0))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_playground_bytes'] == held))
+
+    def test_scenes_that_take_too_long(self):
+        large = {'image': {'width': 7680, 'height': 4320}, 'accuracy': {'profile': 'reference'}}
+        play = self.open(paused=True)
+        before = self.status(play)
+        for answer in self.daemon.post('/v1/playground', {'scene': large}), self.patch(play, {'scene': large, 'waves': True}):
+            self.assertProblem(answer, 422, 'too-large')
+        self.assertEqual(self.status(play), before)
+
     def test_a_kerr_hole_is_shown_with_its_spin(self):
         play = self.open({'gravity': 'kerr', 'spin': 0.5, 'bodies': [PLANET]}, paused=True)
         self.assertEqual(play['scene']['spacetime']['spin'], 0.5)
@@ -524,6 +549,20 @@ class Limits(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_playground_bytes'] == 0))
         self.opened.clear()
 
+    def test_pictures_after_a_break(self):
+        """Whoever comes back to the picture of a playground that stands, with the number of the last frame it had, sees it again."""
+        play = self.make({'paused': True, 'scene': {'image': {'width': 64, 'height': 36}}})
+        number = 0
+        while (answer := self.daemon.get(self.at(play, f'/frame.png?after={number}&wait_ms=1000'))).status == 200:
+            number = int(answer.header('Kerrd-Frame'))
+        self.assertGreater(number, 0)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(play, '/bodies')).status == 200 and self.daemon.metrics()['kerrd_sessions'] == 0, 30))
+        again = self.daemon.get(self.at(play, f'/frame.png?after={number}&wait_ms=20000'))
+        self.assertEqual(again.status, 200)
+        self.assertGreater(int(again.header('Kerrd-Frame')), number)
+        self.delete(play)
+        self.opened.clear()
+
     def test_one_that_nobody_watches_ends(self):
         play = self.make({'rate': 10})
         s = self.stream(play, '/events')
@@ -533,6 +572,38 @@ class Limits(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_playgrounds'] == 0))
         self.assertProblem(self.daemon.get(self.at(play)), 404, 'not-found')
         self.opened.clear()
+
+
+class Sessions(daemon.Owned):
+    """Pictures of playgrounds are sessions, and take of their number and of the playgrounds' memory."""
+    kind, made = '/v1/playground', 201
+    options = ('--playgrounds', 4, '--sessions', 2, '--client-share', 50, '--session-ms', 60000)
+
+    def test_sessions_are_used_up(self):
+        small = {'paused': True, 'scene': {'image': {'width': 64, 'height': 36}}}
+        one, other = self.make(small), self.make(small)
+        self.assertEqual(self.daemon.get(self.at(one, '/frame.png')).status, 200)
+        answer = self.daemon.get(self.at(other, '/frame.png'))
+        self.assertProblem(answer, 429, 'quota')
+        self.assertTrue(answer.header('Retry-After'))
+        self.assertEqual(self.daemon.get(self.at(other, '/bodies')).status, 200, 'it goes on without')
+        self.delete(one)
+        self.opened.remove(one)
+        self.assertTrue(daemon.eventually(lambda: self.daemon.get(self.at(other, '/frame.png')).status == 200))
+
+
+class Memory(daemon.Owned):
+    kind, made = '/v1/playground', 201
+    options = ('--playgrounds', 4, '--playgrounds-kib', 40 << 10, '--client-share', 100, '--session-ms', 60000)
+
+    def test_a_picture_has_no_room(self):
+        play = self.make({'paused': True, 'debris_capacity': 0, 'scene': {'image': {'width': 64, 'height': 36}}})
+        held = self.daemon.metrics()['kerrd_playground_bytes']
+        answer = self.daemon.get(self.at(play, '/frame.png'))
+        self.assertIn(answer.status, (429, 503), answer.body)
+        self.assertIn(b'a picture of a playground takes', answer.body)
+        self.assertEqual((self.daemon.metrics()['kerrd_playground_bytes'], self.daemon.get(self.at(play)).status), (held, 200))
+        self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_sessions'] == 0))
 
 
 class Stopping(unittest.TestCase):

@@ -197,7 +197,7 @@ class Bodies(Announced):
             except OSError:
                 pass  # refused before all of it was sent
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()['kerrd_bodies_bytes'] > 100e6))
-        self.assertLessEqual(self.daemon.metrics()['kerrd_bodies_bytes'], 128 << 20)
+        self.assertLessEqual(self.daemon.metrics()['kerrd_bodies_bytes'], 96 << 20)
         body = b'{"spin":0.9,"observer":{"inclination_deg":60},"rays":[' + b' ' * (8 << 20) + b'[5,0]]}'
         answer = self.ask('127.0.0.2', 'POST', '/v1/rays', body)
         self.assertEqual(answer.status, 200, answer.body)

@@ -19,7 +19,7 @@
 
 #define KD_BODY_MAX KD_SCENE_JSON_MAX      /* bytes of one request; of those for rays and orbits: KD_RAYS_BODY_MAX, KD_ORBIT_BODY_MAX */
 #define KD_BODIES_MAX ((size_t)192 << 20)  /* bytes of all requests being received */
-#define KD_BODIES_SHARE ((size_t)128 << 20) /* bytes of those of one client, which leaves room for the largest one of another */
+#define KD_BODIES_SHARE ((size_t)96 << 20) /* bytes of those of one client, which leaves room for the largest one of another */
 #define KD_BODIES_SMALL ((size_t)16 << 20) /* bytes beside all these, for bodies of up to KD_BODY_MAX */
 #define KD_REPLIES_MAX (512u << 20) /* bytes of answers that clients have not taken yet; a single answer may exceed it */
 #define KD_REPLIES_RESERVE ((size_t)64 << 20) /* bytes beside these, ... */
@@ -27,7 +27,7 @@
 #define KD_HEADER_POOL (32u << 10)         /* a connection's memory for header and read buffer */
 #define KD_IDLE_S 30u                      /* a kept-alive connection without traffic */
 #define KD_SESSION_IDLE_MS 60000u          /* a session that nobody watches */
-#define KD_PLAYS_BYTES ((size_t)512 << 20) /* of memory, that all playgrounds may take */
+#define KD_PLAYS_BYTES ((size_t)1 << 30) /* of memory, that all playgrounds may take */
 #define KD_JOBS_KEPT 64u                   /* jobs in all, finished ones too */
 #define KD_JOB_LONGEST_S (24 * 3600.0)     /* estimated, of all frames of a job */
 #define KD_JOB_KEEP_S (24 * 3600.0)        /* a finished job */

@@ -16,7 +16,7 @@ struct kd_play {
     /* with all->lock */
     struct kd_play *next;
     unsigned references;
-    size_t bytes;
+    size_t bytes, crowd_bytes; /* crowd_bytes: of what its picture shows, while there is one */
     bool listed, stepping;
     const char *why; /* it has ended */
     struct kd_play_pace pace;
@@ -64,6 +64,7 @@ bool kd_play_awaited(const struct kd_play *play);           /* whether anybody w
 bool kd_play_looked_at(const struct kd_play *play); /* somebody waits for frames. picture.c */
 struct kd_session *kd_play_shown(const struct kd_play *play, double now); /* the picture, if somebody may look at it: a reference, or NULL. picture.c */
 void kd_play_hide(struct kd_play *play); /* ends the picture. picture.c */
+unsigned kd_play_viewers(const struct kd_play *play); /* who look at it. picture.c */
 
 /* The play's job; run.c. */
 enum kd_turn_end kd_play_turn(struct kd_turns_job *job);

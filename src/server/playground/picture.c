@@ -1,14 +1,19 @@
 /* A play is shown by a session (server/session), which is opened when somebody asks for the first frame, and given a crowd of what there is to see whenever that has
  * changed and somebody looks (run.c). Locks are taken in the order work, all->lock, the sessions' lock. */
 #include "base/clock.h"
+#include "playground/show.h"
 #include "server/playground/internal.h"
 #include "server/render/queue.h"
 
+/* Memory of what a picture shows: up to three crowds at once, on the way, shown and being made. */
+#define CROWD_BYTES (3 * ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
 #define ASKED_MS 1000. /* for which who asked for a frame may be on the way back for another */
 
 /* These run with the lock. */
 
 bool kd_play_looked_at(const struct kd_play *play) { return play->picture && kd_session_watched(play->picture); }
+
+unsigned kd_play_viewers(const struct kd_play *play) { return play->picture ? kd_session_viewers(play->picture) : 0; }
 
 struct kd_session *kd_play_shown(const struct kd_play *play, double now)
 {
@@ -24,6 +29,16 @@ void kd_play_hide(struct kd_play *play)
         return;
     kd_session_end(picture);
     kd_session_release(picture);
+    kd_bytes_give(play->all->bytes, play->turns.client, play->crowd_bytes);
+    play->crowd_bytes = 0;
+}
+
+static enum kd_status take_bytes(struct kd_play *play, bool *quota, struct kd_error *error)
+{
+    if (kd_bytes_take(play->all->bytes, play->turns.client, CROWD_BYTES, CROWD_BYTES, quota))
+        return kd_error_set(error, KD_EBUSY, "a picture of a playground takes %zu MiB, more than is left %s", CROWD_BYTES >> 20, *quota ? "of your share" : "on this server");
+    play->crowd_bytes = CROWD_BYTES;
+    return KD_OK;
 }
 
 /* These take the lock themselves. */
@@ -88,6 +103,9 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
         kd_play_hide(play);
+        status = take_bytes(play, quota, error);
+    }
+    if (fresh && !status) {
         play->picture = fresh;
         play->unshown = true;
     }
@@ -95,5 +113,10 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
     play->looked_at_ms = kd_clock_ms();
     kd_play_call(play);
     pthread_mutex_unlock(&play->all->lock);
+    if (status) {
+        kd_session_end(fresh);
+        kd_session_release(fresh);
+        return status;
+    }
     return *out ? KD_OK : kd_error_set(error, KD_EBUSY, "the playground is ending");
 }

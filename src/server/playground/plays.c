@@ -49,8 +49,8 @@ void kd_play_let_go(struct kd_play *play)
 {
     if (--play->references)
         return;
-    kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
     kd_play_hide(play);
+    kd_bytes_give(play->all->bytes, play->turns.client, play->bytes);
     kd_play_tick_release(play->tick);
     kd_playground_destroy(play->p);
     pthread_mutex_destroy(&play->work);
@@ -89,7 +89,7 @@ static unsigned watchers_of(const struct kd_play *play)
     unsigned n = 0;
     for (const struct kd_play_watcher *w = play->watchers; w; w = w->next)
         n++;
-    return n;
+    return n + kd_play_viewers(play);
 }
 
 /* From here on functions take the lock themselves. */

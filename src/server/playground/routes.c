@@ -378,6 +378,8 @@ static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result
         struct kd_problem problem = kd_problem_from(&error);
         if (quota)
             problem.type = KD_PROBLEM_QUOTA;
+        if (error.status == KD_EBUSY)
+            problem.retry_after = 10;
         *refused = kd_reply_problem(request, &problem);
     }
     kd_play_release(play);

@@ -162,7 +162,7 @@ static double show(struct kd_play *play, const struct order *order, double now)
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
-        return now + LEAST_MS; /* a crowd for each frame: more would be time that nobody sees */
+        return now + TICK_MS; /* a crowd for each frame: more would be time that nobody sees */
     if (kd_playground_show(play->p, &crowd, NULL))
         return now + MOST_MS; /* there may be memory then */
     play->shown = generation;

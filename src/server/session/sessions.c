@@ -256,13 +256,15 @@ void kd_session_show(struct kd_session *s, struct kd_crowd *crowd)
     kd_crowd_release(old);
 }
 
-bool kd_session_watched(struct kd_session *s)
+unsigned kd_session_viewers(struct kd_session *s)
 {
     pthread_mutex_lock(&s->all->lock);
-    const bool watched = s->viewers;
+    const unsigned n = viewers_of(s);
     pthread_mutex_unlock(&s->all->lock);
-    return watched;
+    return n;
 }
+
+bool kd_session_watched(struct kd_session *s) { return kd_session_viewers(s) > 0; }
 
 bool kd_session_over(struct kd_session *s)
 {

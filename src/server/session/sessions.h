@@ -42,6 +42,7 @@ void kd_session_show(struct kd_session *session, struct kd_crowd *crowd);
 /* Puts a scene in the place of the present one, resolved and valid. */
 enum kd_status kd_session_put(struct kd_session *session, const struct kd_scene *scene, struct kd_error *error);
 bool kd_session_watched(struct kd_session *session); /* somebody waits, or reads a stream */
+unsigned kd_session_viewers(struct kd_session *session); /* how many do */
 bool kd_session_hungry(struct kd_session *session);  /* a frame has taken the crowd that was shown last */
 bool kd_session_over(struct kd_session *session);    /* or failed: it shows nothing more */
 /* The frames of a session that has shown none are numbered behind those of the other. */
