@@ -99,13 +99,15 @@ enum kd_status kd_play_picture(struct kd_play *play, bool *quota, struct kd_sess
     if (status)
         return status;
     pthread_mutex_lock(&play->all->lock);
-    if (fresh) {
+    if (fresh && !play->crowd_bytes)
+        status = take_bytes(play, quota, error);
+    if (fresh && !status) {
+        const size_t held = play->crowd_bytes; /* the new one's from now on */
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
+        play->crowd_bytes = 0;
         kd_play_hide(play);
-        status = take_bytes(play, quota, error);
-    }
-    if (fresh && !status) {
+        play->crowd_bytes = held;
         play->picture = fresh;
         play->unshown = true;
     }
