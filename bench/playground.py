@@ -55,7 +55,7 @@ def measure(n, pieces, folder):
 def main():
     print("| bodies | pieces of debris | ms a step | steps/s |\n|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
-        for n, pieces in [(8, 0), (400, 0), (1000, 0), (2000, 0), (4096, 0), (8, 100000), (8, 300000), (8, 1000000), (2000, 300000), (4095, 1000000)]:
+        for n, pieces in [(400, 0), (1000, 0), (2000, 0), (4096, 0), (8, 100000), (8, 300000), (8, 1000000), (2000, 300000), (4095, 1000000)]:
             ms = measure(n, pieces, folder)
             print(f"| {n} | {pieces} | {ms:.1f} | {1e3 / ms:.0f} |", flush=True)
 
