@@ -5,8 +5,8 @@
  * X = n/w; from a point c it lies along Z = n - w c, and X' is along e = n' w - n w', which stays finite at infinity and next to constant where space is
  * flat. So the ray is nearest to c where Z.e changes its sign, once a step at most.
  *
- * lavapipe skips work only by leaving a loop: the inner loops take steps, and go down the tree of balls, until something is near; the outer one looks
- * closer. Needs light/march.glsl. */
+ * lavapipe skips work only by leaving a loop: the inner ones take steps, and go down the tree of balls, until a body is near each ray of a group or none is
+ * left to come; the outer one looks closer. Needs light/march.glsl. */
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
@@ -121,53 +121,54 @@ kd_met kd_meet(uvec2 place)
     float out_ = emission.bodies.least, out2 = out_ * out_;
     bool goes = (ray.w >= out_ || ray.e * ray.e + out2 * (m.a2 + out_ * (2.0 * m.k - out_ * m.d)) > 0.0) &&
                 !(INGOING && !kd_from_outside(m, ray.e, cam.spin, cam.horizon)), first = true;
-    uint crossed = 0u, node = 0u, taken = 0u;
+    uint crossed = 0u, node = 0u, taken = 0u, top = emission.bodies.leaves > 1u ? 2u : 1u; /* below the ball round all of them */
     b = kd_met_end_of(m, ray, p, 1.0, INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(p.y.w, cam.spin, cam.root) : drag.chi);
     for (;;) {
-        while (goes && node == 0u) { /* steps, until one comes to where bodies are */
-            bool passed = q.y.z * side < 0.0;
-            side = passed ? -side : side;
-            crossed += passed ? 1u : 0u;
-            begun += h;
-            p = q;
-            float was = h;
-            h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
-            if (p.v.w > 0.0 && p.y.w < near_horizon) /* azimuths have no end there: not across it in one go, */
-                h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
-            else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon) /* and then by halves */
-                h = min(h, 0.5 * (cam.horizon - p.y.w) / p.v.w);
-            q = kd_path_step(m, p, h);
-            if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
-                q.v.w = kd_leaving(m, q.y.w, ray.e);
-            kd_stride s = kd_stride_of(m, ray, p, q, h, drag);
-            float chi = INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(q.y.w, cam.spin, cam.root) : drag.chi;
-            a = kd_met_end(b.p, (first ? h : h / was) * b.d);
-            b = kd_met_end_of(m, ray, q, h, chi);
-            first = false;
-            taken++;
-            bool outside = p.y.w < cam.horizon && q.y.w < cam.horizon && kd_is_finite(q.y.w);
-            bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
-            bool gone = q.v.w < 0.0 && q.y.w < out_ && (q.y.w <= 0.0 || kd_path_pull(m, q.y).w <= 0.0);
-            goes = !falls && !gone && kd_is_finite(q.y.w) && taken < 16u * STEPS;
-            node = outside && kd_met_near(a, b, all) ? 1u : 0u;
-        }
-        if (node == 0u)
-            break;
         uint leaf = 0u;
-        while (node != 0u && leaf == 0u) {
-            bool near = kd_met_near(a, b, kd_bodies_node(node)), one = node >= emission.bodies.leaves;
-            leaf = near && one ? node : 0u;
-            node = near && !one ? 2u * node : kd_met_next(node);
-        }
-        if (leaf != 0u) {
-            uint body = leaf - emission.bodies.leaves;
-            float cosine, t = kd_met_time(a, b, body, cosine), time = begun + t * h;
-            if (t <= 1.0 && time < met.time) {
-                kd_met_end e = kd_met_between(a, b, t);
-                float per = 1.0 / h;
-                met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12), e.p.z, -kd_atan2(e.p.y, e.p.x),
-                             per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
+        while (leaf == 0u && (goes || node != 0u)) {
+            while (goes && node == 0u) { /* steps, until one comes to where bodies are */
+                bool passed = q.y.z * side < 0.0;
+                side = passed ? -side : side;
+                crossed += passed ? 1u : 0u;
+                begun += h;
+                p = q;
+                float was = h;
+                h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
+                if (p.v.w > 0.0 && p.y.w < near_horizon) /* azimuths have no end there: not across it in one go, */
+                    h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
+                else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon) /* and then by halves */
+                    h = min(h, 0.5 * (cam.horizon - p.y.w) / p.v.w);
+                q = kd_path_step(m, p, h);
+                if (INGOING && q.y.w > cam.horizon && q.v.w < 0.0)
+                    q.v.w = kd_leaving(m, q.y.w, ray.e);
+                kd_stride s = kd_stride_of(m, ray, p, q, h, drag);
+                float chi = INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(q.y.w, cam.spin, cam.root) : drag.chi;
+                a = kd_met_end(b.p, (first ? h : h / was) * b.d);
+                b = kd_met_end_of(m, ray, q, h, chi);
+                first = false;
+                taken++;
+                bool outside = p.y.w < cam.horizon && q.y.w < cam.horizon && kd_is_finite(q.y.w);
+                bool falls = q.y.w >= cam.horizon && (!INGOING || q.v.w > 0.0);
+                bool gone = q.v.w < 0.0 && q.y.w < out_ && (q.y.w <= 0.0 || kd_path_pull(m, q.y).w <= 0.0);
+                goes = !falls && !gone && kd_is_finite(q.y.w) && taken < 16u * STEPS;
+                node = outside && kd_met_near(a, b, all) ? top : 0u;
             }
+            while (node != 0u && leaf == 0u) {
+                bool near = kd_met_near(a, b, kd_bodies_node(node)), one = node >= emission.bodies.leaves;
+                leaf = near && one ? node : 0u;
+                node = near && !one ? 2u * node : kd_met_next(node);
+            }
+            goes = goes && !(leaf == 0u && met.body != KD_NOBODY); /* later steps lie behind */
+        }
+        if (leaf == 0u)
+            break;
+        uint body = leaf - emission.bodies.leaves;
+        float cosine, t = kd_met_time(a, b, body, cosine), time = begun + t * h;
+        if (t <= 1.0 && time < met.time) {
+            kd_met_end e = kd_met_between(a, b, t);
+            float per = 1.0 / h;
+            met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12), e.p.z, -kd_atan2(e.p.y, e.p.x),
+                         per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
         }
         if (node == 0u && met.body != KD_NOBODY) /* later steps lie behind */
             break;
