@@ -3,6 +3,7 @@
 #include "render/output/format.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
+#include "server/openapi/answers.h"
 #include "server/openapi/assets.h"
 #include "server/openapi/jobs.h"
 #include "server/openapi/media.h"
@@ -281,6 +282,13 @@ static void add_formats(struct kd_json *json, enum kd_gives gives)
         kd_openapi_media(json, format.media_type, "", 0);
 }
 
+/* A media type of an answer, with the schema that the table of answers has where it is JSON. */
+static void add_known(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type)
+{
+    const char *known = strcmp(type, "application/json") ? NULL : kd_openapi_answer(route->path, method);
+    kd_openapi_media(json, type, known ? known : "", known ? strlen(known) : 0);
+}
+
 static void add_typed(struct kd_json *json, const struct kd_route *route, unsigned method)
 {
     char type[64];
@@ -290,11 +298,11 @@ static void add_typed(struct kd_json *json, const struct kd_route *route, unsign
     case KD_TAKES_ORBITS: kd_openapi_orbits_answer(json); break;
     case KD_TAKES_JOB: kd_openapi_jobs_answer(json); break;
     case KD_TAKES_ASSET: kd_openapi_asset_answer(json, method); break;
-    default: kd_openapi_media(json, type, "", 0);
+    default: add_known(json, route, method, type);
     }
     for (const char *also = route->also; also && *also; also += strspn(also, " ")) {
         snprintf(type, sizeof type, "%.*s", (int)strcspn(also, " "), also);
-        kd_openapi_media(json, type, "", 0);
+        add_known(json, route, method, type);
         also += strlen(type);
     }
 }

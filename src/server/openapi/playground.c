@@ -2,6 +2,7 @@
 
 #include "playground/preset.h"
 #include "server/openapi/media.h"
+#include "server/openapi/strict.h"
 #include "server/playground/plays.h"
 
 #include <string.h>
@@ -94,7 +95,7 @@ static void add_properties(struct kd_json *json, bool patch)
     if (patch) {
         add_raw(json, "add", BODIES("PlaygroundBody"));
         add_raw(json, "change", BODIES("PlaygroundBodyChange"));
-        add_raw(json, "remove", "{\"type\":\"array\",\"items\":{\"type\":\"integer\",\"minimum\":1}}");
+        add_raw(json, "remove", "{\"type\":\"array\",\"maxItems\":4096,\"items\":{\"type\":\"integer\",\"minimum\":1}}");
         return;
     }
     add_preset(json);
@@ -113,6 +114,123 @@ static void add_document(struct kd_json *json, const char *name, bool patch)
     kd_json_end(json);
 }
 
+#define N(table) (sizeof(table) / sizeof *(table))
+static const char *const kinds[] = { [KD_SETTING_REAL] = KD_SCHEMA_NUMBER, [KD_SETTING_WHOLE] = KD_SCHEMA_COUNT, [KD_SETTING_TRUTH] = KD_SCHEMA_TRUTH, [KD_SETTING_WORD] = KD_SCHEMA_TEXT };
+
+/* Members by the rows of a table, after those that are there. */
+static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_playground_setting *rows, size_t n_rows)
+{
+    for (size_t i = 0; i < n_rows; i++)
+        to[n++] = (struct kd_openapi_member) { rows[i].name, kinds[rows[i].kind], false };
+    return n;
+}
+
+/* A body as it stands: what has merged or flown away may have more than a document may give it. */
+static void add_body_state(struct kd_json *json)
+{
+    struct kd_openapi_member members[16] = { { "id", "{\"type\":\"integer\",\"minimum\":1}", false }, { "name", KD_SCHEMA_TEXT, false },
+                                             { "position", KD_SCHEMA_VECTOR, false }, { "velocity", KD_SCHEMA_VECTOR, false } };
+    kd_openapi_strict(json, "PlaygroundBodyState", members, add_members(members, 4, kd_playground_body_fields, kd_playground_n_body_fields));
+}
+
+static void add_settings_state(struct kd_json *json)
+{
+    struct kd_openapi_member members[40];
+    kd_openapi_strict(json, "PlaygroundSettings", members, add_members(members, 0, kd_playground_settings, kd_playground_n_settings));
+}
+
+static void add_state(struct kd_json *json)
+{
+    static const struct kd_openapi_member totals[] = {
+        { "mass", KD_SCHEMA_NUMBER, false }, { "energy", KD_SCHEMA_NUMBER_OR_NULL, false }, { "momentum", KD_SCHEMA_VECTOR, false }, { "angular_momentum", KD_SCHEMA_VECTOR, false },
+        { "separation", KD_SCHEMA_NUMBER_OR_NULL, false }, { "wave_frequency", KD_SCHEMA_NUMBER_OR_NULL, false },
+    };
+    static const struct kd_openapi_member spent[] = {
+        { "captured_mass", KD_SCHEMA_NUMBER, false }, { "captured_energy", KD_SCHEMA_NUMBER, false }, { "captured_angular_momentum", KD_SCHEMA_VECTOR, false },
+        { "merged_energy", KD_SCHEMA_NUMBER, false }, { "capped_energy", KD_SCHEMA_NUMBER, false }, { "radiated_energy", KD_SCHEMA_NUMBER, false },
+        { "torn_mass", KD_SCHEMA_NUMBER, false }, { "torn_energy", KD_SCHEMA_NUMBER, false },
+    };
+    static const struct kd_openapi_member source[] = {
+        { "number", KD_SCHEMA_COUNT, false }, { "name", KD_SCHEMA_TEXT, false }, { "t", KD_SCHEMA_NUMBER, false }, { "piece_mass", KD_SCHEMA_NUMBER, false },
+        { "energy_spread", KD_SCHEMA_NUMBER, false }, { "pieces", KD_SCHEMA_COUNT, false }, { "back", KD_SCHEMA_COUNT, false }, { "captured", KD_SCHEMA_COUNT, false },
+        { "lost", KD_SCHEMA_COUNT, false },
+    };
+    static const struct kd_openapi_member debris[] = {
+        { "t", KD_SCHEMA_NUMBER, false }, { "pieces", KD_SCHEMA_COUNT, false }, { "sources", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundSource")), false },
+    };
+    static const struct kd_openapi_member state[] = {
+        { "id", KD_SCHEMA_TEXT, false }, { "token", KD_SCHEMA_TEXT, true }, { "rate", KD_SCHEMA_NUMBER, false }, { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "paused", KD_SCHEMA_TRUTH, false }, { "slowed", KD_SCHEMA_TRUTH, false }, { "resting", KD_SCHEMA_TRUTH, false }, { "watchers", KD_SCHEMA_COUNT, false },
+        { "generation", KD_SCHEMA_COUNT, false }, { "asked", KD_SCHEMA_NUMBER, true }, { "done", KD_SCHEMA_NUMBER, true }, { "added", KD_SCHEMA_LIST(KD_SCHEMA_COUNT), true },
+        { "t", KD_SCHEMA_NUMBER, false }, { "steps", KD_SCHEMA_COUNT, false }, { "settings", KD_SCHEMA_REF("PlaygroundSettings"), false },
+        { "bodies", BODIES("PlaygroundBodyState"), false }, { "totals", KD_SCHEMA_REF("PlaygroundTotals"), false }, { "spent", KD_SCHEMA_REF("PlaygroundSpent"), false },
+        { "debris", KD_SCHEMA_REF("PlaygroundDebris"), false }, { "events", KD_SCHEMA_COUNT, false }, { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), false },
+        { "scene", KD_SCHEMA_REF("Scene"), false },
+    };
+    kd_openapi_strict(json, "PlaygroundTotals", totals, N(totals));
+    kd_openapi_strict(json, "PlaygroundSpent", spent, N(spent));
+    kd_openapi_strict(json, "PlaygroundSource", source, N(source));
+    kd_openapi_strict(json, "PlaygroundDebris", debris, N(debris));
+    kd_openapi_strict(json, "PlaygroundStatus", state, N(state));
+}
+
+static void add_catalogue(struct kd_json *json)
+{
+    static const struct kd_openapi_member preset[] = {
+        { "name", KD_SCHEMA_TEXT, false }, { "title", KD_SCHEMA_TEXT, false }, { "rate", KD_SCHEMA_NUMBER, false }, { "centre", KD_SCHEMA_VECTOR, false },
+        { "reach", KD_SCHEMA_NUMBER, false },
+    };
+    static const struct kd_openapi_member row[] = {
+        { "name", KD_SCHEMA_TEXT, false }, { "type", "{\"enum\":[\"number\",\"integer\",\"boolean\",\"string\"]}", false },
+        { "default", "{\"type\":[\"number\",\"boolean\",\"string\"]}", false }, { "least", KD_SCHEMA_NUMBER, true }, { "most", KD_SCHEMA_NUMBER, true },
+        { "words", KD_SCHEMA_LIST(KD_SCHEMA_TEXT), true }, { "fixed", KD_SCHEMA_TRUTH, true }, { "help", KD_SCHEMA_TEXT, false },
+    };
+    static const struct kd_openapi_member catalogue[] = {
+        { "presets", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundPresetTold")), false }, { "settings", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
+        { "pace", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false }, { "body", KD_SCHEMA_LIST(KD_SCHEMA_REF("PlaygroundRow")), false },
+    };
+    kd_openapi_strict(json, "PlaygroundPresetTold", preset, N(preset));
+    kd_openapi_strict(json, "PlaygroundRow", row, N(row));
+    kd_openapi_strict(json, "PlaygroundCatalogue", catalogue, N(catalogue));
+}
+
+static void add_series(struct kd_json *json)
+{
+    static const struct kd_openapi_member series[] = { { "columns", KD_SCHEMA_REF("PlaygroundColumns"), false } };
+    struct kd_openapi_member columns[KD_SERIES_N];
+    for (int i = 0; i < KD_SERIES_N; i++)
+        columns[i] = (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_LIST(KD_SCHEMA_NUMBER_OR_NULL), false };
+    kd_openapi_strict(json, "PlaygroundColumns", columns, KD_SERIES_N);
+    kd_openapi_strict(json, "PlaygroundSeries", series, N(series));
+}
+
+/* Data of the stream of events, to which its media type gives no place for a schema. */
+static void add_happened(struct kd_json *json)
+{
+    static const struct kd_openapi_member happened[] = {
+        { "number", KD_SCHEMA_COUNT, false }, { "t", KD_SCHEMA_NUMBER, false },
+        { "kind", "{\"enum\":[\"merger\",\"shedding\",\"disruption\",\"capture\",\"inspiral\",\"escape\"]}", false }, { "body", KD_SCHEMA_COUNT, false },
+        { "name", KD_SCHEMA_TEXT, false }, { "mass", KD_SCHEMA_NUMBER, false }, { "other", KD_SCHEMA_COUNT, true }, { "other_name", KD_SCHEMA_TEXT, true },
+        { "other_mass", KD_SCHEMA_NUMBER, true }, { "mass_left", KD_SCHEMA_NUMBER, true }, { "r", KD_SCHEMA_NUMBER, false }, { "energy", KD_SCHEMA_NUMBER_OR_NULL, false },
+        { "tidal_radius", KD_SCHEMA_NUMBER, true }, { "energy_spread", KD_SCHEMA_NUMBER, true },
+    };
+    kd_openapi_strict(json, "PlaygroundHappened", happened, N(happened));
+}
+
+static void add_tick(struct kd_json *json)
+{
+    struct kd_openapi_member members[12 + KD_SERIES_N] = {
+        { "generation", KD_SCHEMA_COUNT, false }, { "rate", KD_SCHEMA_NUMBER, false }, { "rate_reached", KD_SCHEMA_NUMBER_OR_NULL, false }, { "paused", KD_SCHEMA_TRUTH, false },
+        { "slowed", KD_SCHEMA_TRUTH, false }, { "resting", KD_SCHEMA_TRUTH, false }, { "watchers", KD_SCHEMA_COUNT, false }, { "debris_lost", KD_SCHEMA_COUNT, false },
+        { "fallback_rate", KD_SCHEMA_NUMBER_OR_NULL, false }, { "event", KD_SCHEMA_COUNT, false }, { "angular_momentum", KD_SCHEMA_VECTOR, false },
+    };
+    size_t n = 11;
+    for (int i = 0; i < KD_SERIES_N; i++)
+        if (i < KD_SERIES_angular_momentum_x || i > KD_SERIES_angular_momentum_z)
+            members[n++] = (struct kd_openapi_member) { kd_series_column(i), KD_SCHEMA_NUMBER_OR_NULL, false };
+    kd_openapi_strict(json, "PlaygroundTick", members, n);
+}
+
 void kd_openapi_playground_schemas(struct kd_json *json)
 {
     _Static_assert(KD_PLAYGROUND_BODIES_MAX == 4096, "BODIES says so");
@@ -120,6 +238,13 @@ void kd_openapi_playground_schemas(struct kd_json *json)
     add_body(json, "PlaygroundBodyChange", true);
     add_document(json, "Playground", false);
     add_document(json, "PlaygroundChange", true);
+    add_settings_state(json);
+    add_body_state(json);
+    add_state(json);
+    add_catalogue(json);
+    add_series(json);
+    add_happened(json);
+    add_tick(json);
 }
 
 void kd_openapi_playground_body(struct kd_json *json, bool patch, const char *other)
