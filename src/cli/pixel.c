@@ -7,21 +7,29 @@
 
 #include <string.h>
 
-enum { KEY_AT = 256 };
+enum { KEY_AT = 256, KEY_TRACE };
 
 struct arguments {
     struct kd_scene_options scene;
     const char *device, *at, *output, *format;
     uint64_t memory;
+    bool trace;
 };
 
 static const struct argp_option table[] = {
     { "at", KEY_AT, "X,Y", 0, "the pixel: a place in the picture, in pixels from its upper left corner (required)", 0 },
+    { "trace", KEY_TRACE, 0, 0, "tell the engine's own steps along the ray, too (in JSON)", 0 },
     { "output", 'o', "FILE", 0, "where to write; a name that ends in .json chooses that format (default: - for standard output)", 0 },
     { "format", 'f', "FORMAT", 0, "text or json, whatever the name of the output", 0 },
     KD_CLI_MEMORY,
     { 0 },
 };
+
+static bool wants_json(const struct arguments *arguments)
+{
+    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
+    return arguments->format ? !strcmp(arguments->format, "json") : dot && !strcmp(dot, ".json");
+}
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
@@ -32,6 +40,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[1] = &arguments->device;
         return 0;
     case KEY_AT: arguments->at = text; return 0;
+    case KEY_TRACE: arguments->trace = true; return 0;
     case 'o': arguments->output = text; return 0;
     case 'f':
         if (strcmp(text, "text") && strcmp(text, "json"))
@@ -42,15 +51,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->at)
             argp_error(state, "--at X,Y is missing: which pixel?");
+        if (arguments->trace && !wants_json(arguments))
+            argp_error(state, "--trace goes with JSON: --format json, or a name that ends in .json");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
-}
-
-static bool wants_json(const struct arguments *arguments)
-{
-    const char *dot = arguments->output ? strrchr(arguments->output, '.') : NULL;
-    return arguments->format ? !strcmp(arguments->format, "json") : dot && !strcmp(dot, ".json");
 }
 
 static enum kd_status draw(const struct arguments *arguments, struct kd_renderer *renderer, struct kd_scene *scene, struct kd_plan *plan,
@@ -62,6 +67,8 @@ static enum kd_status draw(const struct arguments *arguments, struct kd_renderer
     kd_renderer_capacity(renderer, &capacity);
     KD_TRY(kd_format_plan(&kd_format_pixel, scene, &capacity, plan, error));
     KD_TRY(kd_explain_at(arguments->at, plan, error));
+    if (arguments->trace)
+        KD_TRY(kd_explain_trace("steps", plan, error));
     kd_progress_init(&progress);
     kd_progress_catch_signals();
     status = kd_render(renderer, scene, plan, kd_progress_update, &progress, frame, error);

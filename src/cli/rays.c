@@ -238,7 +238,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     if (arguments->output && strcmp(arguments->output, "-"))
         KD_TRY(kd_file_check(arguments->output, error));
     KD_TRY(settle(arguments, &request, &renderer, error));
-    status = kd_rays_steps(renderer, &request.params, request.alpha_beta[0], request.alpha_beta[1], &steps, error);
+    status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, NULL, 1 }, &steps, error);
     if (status == KD_EDEVICE && !*error->pointer) /* as in trace() */
         kd_cli_device_lost(error);
     KD_TRY(status);

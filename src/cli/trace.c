@@ -2,35 +2,11 @@
 
 #include "base/decimal.h"
 #include "physics/angle.h"
+#include "render/explain/steps.h"
 #include "render/rays/closed.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
-
-struct column { const char *name; size_t at; };
-#define C(name) { #name, offsetof(struct kd_rays_step, name) }
-static const struct column mino[] = { C(time), C(r), C(w), C(dw), C(u), C(du), C(n_x), C(n_y), C(phi), C(delay), C(res_w), C(res_u),
-                                      C(res_n), C(res_dn), C(res_l), { 0 } };
-static const struct column kerr_schild[] = { C(time), C(r), C(u), C(phi), C(x), C(y), C(z), C(p_x), C(p_y), C(p_z), C(res_null),
-                                             C(res_l), { 0 } };
-#undef C
-
-static const struct column *columns_of(const struct kd_rays_steps *steps)
-{
-    return steps->params.engine >= KD_ENGINE_KS_EULER ? kerr_schild : mino;
-}
-
-static double value(const struct kd_rays_step *step, const struct column *column)
-{
-    return *(const double *)((const char *)step + column->at);
-}
-
-static const char *stage_name(const struct kd_rays_step *step)
-{
-    static const char *const names[] = { "start", "step", "crossing", "end" };
-    return names[step->stage];
-}
 
 static const char *const fates[] = { [KD_RAY_CAPTURED] = "captured", [KD_RAY_ESCAPED] = "escaped", [KD_RAY_UNDECIDED] = "undecided" };
 
@@ -58,7 +34,7 @@ done:
 void kd_trace_finish(struct kd_told_steps *trace) { kd_ray_path_finish(&trace->path); }
 
 /* Prints residuals by their size, and all else to as many digits as the precision has. */
-static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct column *column, double x, struct kd_buffer *out)
+static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x, struct kd_buffer *out)
 {
     bool wide = steps->params.precision == KD_PRECISION_F64, residual = column->name[0] == 'r' && column->name[1] == 'e';
     if (!isfinite(x))
@@ -69,9 +45,9 @@ static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct c
 static enum kd_status put_text_row(const struct kd_rays_steps *steps, const struct kd_rays_step *step, struct kd_buffer *out)
 {
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%6u %-8s %5u", step->number, stage_name(step), step->order));
-    for (const struct column *c = columns_of(steps); c->name; c++)
-        KD_TRY(put_cell(steps, c, value(step, c), out));
+    KD_TRY(kd_buffer_printf(out, "%6u %-8s %5u", step->number, kd_steps_stage(step), step->order));
+    for (const struct kd_steps_column *c = kd_steps_columns(steps); c->name; c++)
+        KD_TRY(put_cell(steps, c, kd_steps_value(step, c), out));
     KD_TRY(kd_buffer_printf(out, "\n"));
 done:
     return status;
@@ -99,7 +75,7 @@ static enum kd_status put_steps(const struct kd_rays_steps *steps, struct kd_buf
     const bool wide = steps->params.precision == KD_PRECISION_F64;
     enum kd_status status;
     KD_TRY(kd_buffer_printf(out, "%6s %-8s %5s", "number", "stage", "order"));
-    for (const struct column *c = columns_of(steps); c->name; c++)
+    for (const struct kd_steps_column *c = kd_steps_columns(steps); c->name; c++)
         KD_TRY(kd_buffer_printf(out, " %*s", c->name[0] == 'r' && c->name[1] == 'e' ? 8 : wide ? 18 : 14, c->name));
     KD_TRY(kd_buffer_printf(out, "\n"));
     for (size_t i = 0; i < steps->n; i++)
@@ -152,10 +128,10 @@ static void put_json_step(struct kd_json *json, const struct kd_rays_steps *step
 {
     kd_json_object(json, NULL);
     kd_json_number(json, "number", step->number);
-    kd_json_string(json, "stage", stage_name(step));
+    kd_json_string(json, "stage", kd_steps_stage(step));
     kd_json_number(json, "order", step->order);
-    for (const struct column *c = columns_of(steps); c->name; c++)
-        put_member(json, c->name, value(step, c));
+    for (const struct kd_steps_column *c = kd_steps_columns(steps); c->name; c++)
+        put_member(json, c->name, kd_steps_value(step, c));
     kd_json_end(json);
 }
 
@@ -194,9 +170,9 @@ static enum kd_status put_csv_row(const struct kd_rays_steps *steps, const struc
 {
     char text[KD_DECIMAL_SIZE];
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "%u,%s,%u", step->number, stage_name(step), step->order));
-    for (const struct column *c = columns_of(steps); c->name; c++) {
-        double x = value(step, c);
+    KD_TRY(kd_buffer_printf(out, "%u,%s,%u", step->number, kd_steps_stage(step), step->order));
+    for (const struct kd_steps_column *c = kd_steps_columns(steps); c->name; c++) {
+        double x = kd_steps_value(step, c);
         text[0] = '\0';
         if (isfinite(x))
             kd_decimal_print(text, x);
@@ -231,7 +207,7 @@ enum kd_status kd_trace_csv(const struct kd_told_steps *trace, struct kd_buffer 
     if (trace->points)
         return put_csv_points(&trace->path, out);
     KD_TRY(kd_buffer_printf(out, "number,stage,order"));
-    for (const struct column *c = columns_of(steps); c->name; c++)
+    for (const struct kd_steps_column *c = kd_steps_columns(steps); c->name; c++)
         KD_TRY(kd_buffer_printf(out, ",%s", c->name));
     KD_TRY(kd_buffer_printf(out, "\n"));
     for (size_t i = 0; i < steps->n; i++)

@@ -85,8 +85,8 @@ const struct kd_route kd_routes[] = {
       "of a sweep asked for as a cube one array a layer, as application/fits, or with format=npz; of a light curve its rows, as application/json or text/csv",
       .gives = KD_GIVES_RESULT },
     { "/v1/pixel", KD_GET | KD_POST, kd_handle_pixel, JSON,
-      "What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it ends and why", KD_TAKES_SCENE,
-      .status = { 200, 304 }, .own = "at" },
+      "What one pixel of a scene's picture shows: its ray, what that crosses, what each emitter gives it, where it ends and why; with trace=steps the engine's steps along it", KD_TAKES_SCENE,
+      .status = { 200, 304 }, .own = { "at", "trace" } },
     { "/v1/render", KD_GET | KD_POST, kd_handle_render, NULL, "The picture of a scene", KD_TAKES_SCENE, .gives = KD_GIVES_PICTURE, .status = { 200, 304 } },
 };
 const size_t kd_n_routes = sizeof kd_routes / sizeof *kd_routes;

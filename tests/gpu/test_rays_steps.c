@@ -20,7 +20,7 @@ static struct kd_rays_steps steps_of(const struct ray *ray, enum kd_engine engin
         .engine = engine, .precision = precision,
     };
     struct kd_rays_steps steps;
-    OK(kd_rays_steps(renderer, &params, ray->alpha, ray->beta, &steps, &error));
+    OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { ray->alpha, ray->beta }, NULL, 1 }, &steps, &error));
     assert_true(steps.n > 1 && steps.lost == 0 && steps.same);
     assert_int_equal(steps.steps[0].stage, KD_STAGE_START);
     return steps;
@@ -124,7 +124,7 @@ static void test_refined(void **state)
                 .spin = rays[i].spin, .r = INFINITY, .inclination_deg = rays[i].inclination, .orders = 1,
                 .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F32, .steps = 16u << k,
             };
-            OK(kd_rays_steps(renderer, &params, rays[i].alpha, rays[i].beta, &steps[k], &error));
+            OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { rays[i].alpha, rays[i].beta }, NULL, 1 }, &steps[k], &error));
         }
         for (size_t k = 1; k <= 16; k++) {
             assert_true(fabs(steps[0].steps[k].time - steps[1].steps[2 * k].time) < 1e-5);
@@ -146,7 +146,7 @@ static void test_time(void **state)
             .engine = KD_ENGINE_MINO_RKN6, .precision = KD_PRECISION_F32, .steps = 64,
         };
         struct kd_rays_steps steps;
-        OK(kd_rays_steps(renderer, &params, rays[i].alpha, rays[i].beta, &steps, &error));
+        OK(kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { rays[i].alpha, rays[i].beta }, NULL, 1 }, &steps, &error));
         const struct kd_rays_step *kept = &steps.steps[0];
         for (size_t k = 1; k < steps.n; k++) {
             const struct kd_rays_step *b = &steps.steps[k], *a = b - 1;
@@ -184,11 +184,11 @@ static void test_refused(void **state)
     struct kd_rays_params params = { .spin = 0.5, .r = INFINITY, .inclination_deg = 60, .orders = 1, .engine = KD_ENGINE_CLOSED,
                                      .precision = KD_PRECISION_F64 };
     struct kd_rays_steps steps;
-    FAILS(KD_EINVAL, "no steps", kd_rays_steps(renderer, &params, 1, 2, &steps, &error));
+    FAILS(KD_EINVAL, "no steps", kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { 1, 2 }, NULL, 1 }, &steps, &error));
     kd_rays_steps_finish(&steps);
     params.engine = KD_ENGINE_MINO_RKN6;
     params.spin = 1;
-    FAILS(KD_EINVAL, "spin", kd_rays_steps(renderer, &params, 1, 2, &steps, &error));
+    FAILS(KD_EINVAL, "spin", kd_rays_steps(renderer, &params, &(struct kd_ray_labels) { (double[]) { 1, 2 }, NULL, 1 }, &steps, &error));
     kd_rays_steps_finish(&steps);
 }
 

@@ -121,7 +121,7 @@ static enum kd_status mishap(double time, struct kd_error *error)
 static struct kd_told *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->side;
-    struct kd_told *told = plan->told.on ? malloc(sizeof *told) : NULL;
+    struct kd_told *told = plan->told.on ? calloc(1, sizeof *told) : NULL;
     if (!told)
         return NULL;
     *told = (struct kd_told) { .x = plan->told.x, .y = plan->told.y, .rays = side * side, .radiance = { 0.25f, 0.25f, 0.25f } };
@@ -131,6 +131,10 @@ static struct kd_told *tell(const struct kd_plan *plan)
             .steps_a_pixel = side, .x = told->x * side + i % side, .y = told->y * side + i / side, .light = { 0.25f, 0.25f, 0.25f },
         };
     told->rays = told->each ? told->rays : 0;
+    if (plan->told.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing behind it */
+        *told->steps = (struct kd_rays_steps) { .params = { .engine = plan->setting.engine, .steps = plan->setting.steps }, .n = 1, .steps = calloc(1, sizeof *told->steps->steps), .same = true };
+        told->steps->n = told->steps->steps != NULL;
+    }
     told->middle = told->each ? told->each[0] : (struct kd_told_ray) { .steps_a_pixel = side };
     return told;
 }

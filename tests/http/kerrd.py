@@ -499,6 +499,26 @@ class Kerrd(unittest.TestCase):
             self.assertLess(found['accuracy']['picture'] or 0, 1e-4)
         self.assertEqual(fates, {'captured', 'escaped'})
 
+    def test_the_steps_of_a_pixel(self):
+        """Those that `kerrd rays --trace` tells of the same ray, to the bit."""
+        for spin, r, precision in ((0.9, 'infinity', 'f32'), (-0.5, 30, 'f64')):
+            scene = {'spacetime': {'spin': spin}, 'camera': {'inclination_deg': 75, 'r': r}, 'image': {'width': 64, 'height': 36},
+                     'accuracy': {'engine': 'mino-rkn6', 'precision': precision}}
+            found = self.daemon.post('/v1/pixel?at=25,20&trace=steps', scene).json()
+            trace, constants = found['trace'], found['constants']
+            asked = {'spin': spin, 'observer': {'r': r, 'inclination_deg': 75}, 'rays': [[constants['alpha'], constants['beta']]],
+                     'accuracy': {'engine': 'mino-rkn6', 'precision': precision, 'steps': trace['steps_a_half_period']}}
+            alone = json.loads(subprocess.run([daemon.COMMAND[0], 'rays', '--trace', '--format', 'json', '-'], input=json.dumps(asked), capture_output=True,
+                                              text=True, check=True, timeout=100).stdout)
+            rows = [{name: number for name, number in zip(trace['columns'], row, strict=True) if number is not None} for row in trace['steps']]
+            self.assertGreater(len(rows), 8)
+            self.assertEqual(rows, alone['steps'])
+            self.assertEqual([trace[name] for name in ('engine', 'precision', 'fate', 'crossings', 'same_without_trace')],
+                             [alone[name] for name in ('engine', 'precision', 'fate', 'crossings', 'same_without_trace')])
+            self.assertEqual([found['radial']['case'], found['polar']['case']], [alone['radial']['case'], alone['polar']['case']])
+        closed = self.daemon.post('/v1/pixel?at=25,20&trace=steps', {**scene, 'accuracy': {'engine': 'closed'}}).json()['trace']
+        self.assertIn('takes no steps', closed['none'])
+
     def test_a_sweep_of_style_and_disk_traces_one_lens_map(self):
         """A hundred scenes; and the file is the one that the command line makes."""
         scene = {'image': {'width': 64, 'height': 36, 'layers': ['rgb', 'r']}}

@@ -39,6 +39,22 @@ class Pixel(daemon.Case):
         self.assertEqual(len({first.header('ETag'), *(answer.header('ETag') for answer in others)}), 4)
         self.assertEqual(self.daemon.get(PIXEL.replace('20.5,11', '20,11.9')).header('ETag'), first.header('ETag'))
 
+    def test_steps_on_demand(self):
+        """What they are is judged by kerrd.py; the fake's engine starts and does not go on."""
+        plain = self.daemon.get(PIXEL + '&accuracy.engine=mino-rkn6')
+        self.assertNotIn('trace', plain.json())
+        told = self.daemon.get(PIXEL + '&accuracy.engine=mino-rkn6&trace=steps')
+        trace = told.json().pop('trace')
+        self.assertEqual((trace['engine'], trace['columns'][:3], [row[:3] for row in trace['steps']]), ('mino-rkn6', ['number', 'stage', 'order'], [[0, 'start', 0]]))
+        self.assertEqual(len(trace['columns']), len(trace['steps'][0]))
+        self.assertNotEqual(told.header('ETag'), plain.header('ETag'))
+        again = self.daemon.post('/v1/pixel?at=20.5,11&trace=steps', {**SCENE, 'accuracy': {'engine': 'mino-rkn6'}})
+        self.assertEqual((again.json()['trace'], again.header('ETag')), (trace, told.header('ETag')))
+        for query, pointer in (('trace=path', '/trace'), ('trace=', '/trace'), ('trace=steps&trace=steps', '/trace')):
+            self.assertProblem(self.daemon.get(f'{PIXEL}&{query}'), 422, pointer=pointer)
+        self.assertProblem(self.daemon.post('/v1/render?trace=steps', SCENE), 422, pointer='/trace')
+        self.assertIn('preset, at and trace, not time', self.daemon.post('/v1/pixel?at=1,1&time=3', SCENE).json()['detail'])
+
     def test_layers_do_not_matter(self):
         self.assertEqual(self.daemon.get(PIXEL + '&image.layers=r,g').status, 200)
 
@@ -66,6 +82,7 @@ class Pixel(daemon.Case):
         for method in 'get', 'post':
             parameters = {p['name']: p for p in self.daemon.get('/openapi.json').json()['paths']['/v1/pixel'][method]['parameters']}
             self.assertIn('at', parameters)
+            self.assertEqual(parameters['trace']['schema'], {'const': 'steps'})
             self.assertIn('preset', parameters)
 
 

@@ -1,6 +1,7 @@
 /* This writes what is explained of a pixel as JSON. */
 #include "base/json.h"
 #include "render/explain/explain.h"
+#include "render/explain/steps.h"
 #include "render/emit/emitter.h"
 
 #include <math.h>
@@ -295,6 +296,20 @@ static enum kd_status put_each(struct kd_json *json, const struct kd_picture *pi
     return status;
 }
 
+/* The engine's own steps, or why there are none; nothing, if nobody has asked. */
+static void put_trace(struct kd_json *json, const struct kd_picture *picture, const struct kd_told *told)
+{
+    if (!picture->plan->told.steps)
+        return;
+    if (told->steps) {
+        kd_steps_json(json, told->steps);
+        return;
+    }
+    kd_json_object(json, "trace");
+    kd_json_string(json, "none", told->no_steps);
+    kd_json_end(json);
+}
+
 static enum kd_status write(const struct kd_picture *picture, const struct kd_explained *x, struct kd_buffer *out, struct kd_error *error)
 {
     struct kd_json json = kd_json_begin(out);
@@ -308,6 +323,7 @@ static enum kd_status write(const struct kd_picture *picture, const struct kd_ex
     put_met(&json, x);
     put_end(&json, x);
     kd_ray_path_json(&json, &x->path);
+    put_trace(&json, picture, x->pixel);
     put_accuracy(&json, picture, x);
     kd_json_number(&json, "lost", (double)x->told->lost);
     kd_json_number(&json, "weight", x->weight);

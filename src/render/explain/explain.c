@@ -206,3 +206,13 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
     plan->told.y = (uint32_t)y;
     return KD_OK;
 }
+
+enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error)
+{
+    char shown[64];
+    kd_text_clip(shown, sizeof shown, text);
+    if (strcmp(text, "steps"))
+        return kd_error_field(error, "/trace", "trace is \"%s\", allowed is \"steps\": those of the engine along the ray", shown);
+    plan->told.steps = true;
+    return KD_OK;
+}

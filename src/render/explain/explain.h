@@ -52,5 +52,7 @@ enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffe
 extern const struct kd_format kd_format_pixel;
 /* Names the pixel at a place "X,Y" of the picture, in pixels from its upper left corner, in a plan of it. KD_EINVAL for what is no place of it. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
+/* What else is told, by a word: "steps", those of the engine along the middle ray. KD_EINVAL for another. */
+enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);
 
 #endif

@@ -36,6 +36,15 @@ void kd_frame_drop_layers(struct kd_frame *frame)
     frame->n_layers = 0;
 }
 
+void kd_told_destroy(struct kd_told *told)
+{
+    if (told && told->steps)
+        kd_rays_steps_finish(told->steps);
+    if (told)
+        free(told->steps), free(told->each);
+    free(told);
+}
+
 void kd_frame_finish(struct kd_frame *frame)
 {
     kd_frame_drop_layers(frame);

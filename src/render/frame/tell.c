@@ -1,7 +1,11 @@
 /* This part of a frame tells the light of one pixel, ray by ray. */
+#include "physics/kerr.h"
 #include "render/frame/lens.h"
 #include "render/frame/tell.h"
+#include "render/lens/label.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,13 +102,6 @@ static void take(struct kd_told_ray *told, const struct record *r)
         told->through = r->a[3], told->steps = (uint32_t)r->b[0], told->samples = (uint32_t)r->b[1];
     else if (r->of == (float)KD_TELL_WHOLE)
         memcpy(told->light, r->a, sizeof told->light);
-}
-
-void kd_told_destroy(struct kd_told *told)
-{
-    if (told)
-        free(told->each);
-    free(told);
 }
 
 /* Where rays are, and what reads them. */
@@ -230,6 +227,46 @@ done:
     return status;
 }
 
+static enum kd_status say_no_steps(struct kd_told *told, const char *why)
+{
+    snprintf(told->no_steps, sizeof told->no_steps, "%.199s", why);
+    return KD_OK;
+}
+
+/* The engine's own steps along the middle ray, whose labels lists of rays have. */
+static enum kd_status tell_steps(struct kd_frame_job *j)
+{
+    struct kd_told *told = j->frame->told;
+    const struct kd_setting *by = &j->plan->setting;
+    const struct kd_scene *scene = j->scene, counted = told->middle.steps_a_pixel == j->plan->side ? *scene : kd_critical_camera(scene, told->middle.steps_a_pixel);
+    const struct kd_rays_params params = {
+        .spin = scene->spacetime.spin, .r = scene->camera.r, .inclination_deg = scene->camera.inclination_deg, .orders = (uint32_t)scene->accuracy.orders,
+        .engine = by->engine, .precision = by->precision, .steps = by->steps,
+    };
+    struct kd_camera_label label;
+    struct kd_error error = { 0 };
+    if (by->engine == KD_ENGINE_CLOSED)
+        return say_no_steps(told, "the picture's engine is the closed form, which takes no steps: accuracy.engine chooses another");
+    if (scene->camera.r <= kd_kerr_horizon(scene->spacetime.spin))
+        return say_no_steps(told, "the observer is within the horizon, where lists of rays have no labels: the path has its own steps");
+    kd_lens_label(&counted, j->plan, told->middle.x, told->middle.y, &label);
+    const double alpha_beta[] = { label.alpha, label.beta };
+    const bool outward = label.outward && isfinite(scene->camera.r);
+    if (!(told->steps = calloc(1, sizeof *told->steps)))
+        return kd_error_set(j->error, KD_ENOMEM, "out of memory for the steps of a ray");
+    enum kd_status status = kd_rays_steps(j->r, &params, &(struct kd_ray_labels) { alpha_beta, &outward, 1 }, told->steps, &error);
+    if (!status)
+        return KD_OK;
+    kd_rays_steps_finish(told->steps);
+    free(told->steps);
+    told->steps = NULL;
+    if (status == KD_EINVAL) /* labels that rounding has put beyond those that light can have */
+        return say_no_steps(told, error.message);
+    if (j->error)
+        *j->error = error;
+    return status;
+}
+
 enum kd_status kd_frame_tell_pixel(struct kd_frame_job *j)
 {
     struct kd_told *told = j->frame->told;
@@ -245,6 +282,8 @@ enum kd_status kd_frame_tell_pixel(struct kd_frame_job *j)
     KD_TRY(kd_vk_submit(j->r->vk, NULL, j->error));
     KD_TRY(kd_vk_wait(j->r->vk, 0, j->error));
     memcpy(told->radiance, kd_vk_buffer_map(host), sizeof told->radiance);
+    if (j->plan->told.steps)
+        KD_TRY(tell_steps(j));
 done:
     kd_vk_buffer_destroy(j->r->vk, host);
     return status;

@@ -4,6 +4,7 @@
 #define KD_RENDER_FRAME_TELL_H
 
 #include "render/plan/plan.h"
+#include "render/rays/steps.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -78,6 +79,8 @@ struct kd_told {
     struct kd_told_ray middle; /* of the square grid of image.samples, or the one before the middle, as layers have it; not among `each` where the pixel has other rays */
     struct kd_told_ray *each;  /* malloc'd: those that the pixel's light is the mean of */
     uint32_t rays;
+    struct kd_rays_steps *steps; /* malloc'd: of the middle ray, by the engine of the picture; NULL: not asked for, or there are none: */
+    char no_steps[200];          /* why, a sentence */
     bool whole;                /* what is made from now on is not this picture */
     float radiance[3];  /* of the pixel, before glare, beam and tone curve */
 };

@@ -93,7 +93,7 @@ struct kd_plan {
     /* Not of the scene, for whoever shows frames one after the other: where style.exposure is "auto", only this share of the way
      * from there to what the picture alone would have. 0, as kd_plan_make leaves it: all of it. */
     double exposure_from, exposure_share;
-    struct { bool on; uint32_t x, y; } told; /* nor is this: the light of the middle ray of that pixel is told (frame/tell.h) */
+    struct { bool on, steps; uint32_t x, y; } told; /* nor is this: the light of the middle ray of that pixel is told (frame/tell.h), and with `steps` the engine's own */
     bool measured, accuracy_measured; /* as in the capacity */
     const char *approximations[KD_PLAN_MAX_APPROXIMATIONS]; /* sentences, static strings */
     size_t n_approximations;

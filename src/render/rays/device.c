@@ -310,7 +310,7 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
     return device(renderer, params, rays, crossings, ends, progress, user, NULL, error);
 }
 
-enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const double alpha_beta[2],
+enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray,
                                    struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
                                    struct kd_error *error)
 {
@@ -319,7 +319,7 @@ enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd
     struct kd_vk_buffer *buffer = NULL;
     enum kd_status status;
     KD_TRY(kd_vk_buffer_create(renderer->vk, size, KD_VK_READBACK, "steps of a ray", &buffer, error));
-    KD_TRY(device(renderer, params, &(struct kd_ray_labels) { alpha_beta, NULL, 1 }, crossings, end, NULL, NULL, buffer, error));
+    KD_TRY(device(renderer, params, ray, crossings, end, NULL, NULL, buffer, error));
     const void *from = kd_vk_buffer_map(buffer);
     for (size_t i = 0; i < numbers; i++)
         told[i] = wide ? ((const double *)from)[i] : (double)((const float *)from)[i];

@@ -10,7 +10,7 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 /* One ray, and the records that trace.glsl describes, as doubles: room for `numbers` of them. */
-enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const double alpha_beta[2],
+enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray,
                                    struct kd_ray_crossing *crossings, struct kd_ray_end *end, double *told, size_t numbers,
                                    struct kd_error *error);
 

@@ -111,7 +111,7 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
 {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
-    const struct kd_ray_labels ray = { (double[]) { out->alpha, out->beta }, NULL, 1 };
+    const struct kd_ray_labels ray = { (double[]) { out->alpha, out->beta }, &out->outward, 1 };
     enum kd_status status = kd_rays_device(renderer, &out->params, &ray, crossings, &end, NULL, NULL, error);
     out->same = !status && kd_ray_ends_equal(&end, &out->end) &&
                 !memcmp(crossings, out->crossings, out->params.orders * sizeof *crossings);
@@ -121,14 +121,13 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
 /* Room for twice the records of the longest ray, whatever the method. */
 static size_t room(const struct kd_rays_params *p) { return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64); }
 
-enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, double alpha, double beta,
-                             struct kd_rays_steps *out, struct kd_error *error)
+enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray, struct kd_rays_steps *out,
+                             struct kd_error *error)
 {
-    *out = (struct kd_rays_steps) { .params = *params, .alpha = alpha, .beta = beta };
-    const double ray[] = { alpha, beta };
+    *out = (struct kd_rays_steps) { .params = *params, .alpha = ray->alpha_beta[0], .beta = ray->alpha_beta[1], .outward = ray->outward && *ray->outward };
     double *numbers = NULL;
     enum kd_status status;
-    KD_TRY(kd_rays_check(params, ray, 1, error));
+    KD_TRY(kd_rays_check(params, ray->alpha_beta, 1, error));
     if (params->engine == KD_ENGINE_CLOSED)
         return kd_error_field(error, "/accuracy/engine", "the closed form takes no steps: choose an engine of the device");
     out->params.steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
@@ -147,10 +146,4 @@ enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_
 done:
     free(numbers);
     return status;
-}
-
-void kd_rays_steps_finish(struct kd_rays_steps *steps)
-{
-    free(steps->steps);
-    *steps = (struct kd_rays_steps) { 0 };
 }

@@ -1,9 +1,11 @@
 /* This tells one ray step by step, as the device takes them: the kernels of device.c are compiled with KD_TRACE, and write what they have after each
- * step. For `kerrd rays --trace`. Render thread. */
+ * step. For `kerrd rays --trace` and for a pixel. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 
 #include "render/rays/rays.h"
+
+#include <stdlib.h>
 
 enum kd_rays_stage {
     KD_STAGE_START,    /* at the observer, or where a Cartesian ray starts */
@@ -33,6 +35,7 @@ struct kd_rays_step {
 struct kd_rays_steps {
     struct kd_rays_params params; /* steps and the rest as they were in force */
     double alpha, beta;
+    bool outward;   /* it starts away from the hole */
     size_t n, lost; /* records; further ones that had no room */
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
@@ -40,9 +43,13 @@ struct kd_rays_steps {
     bool same; /* the kernel that does not tell gives the same end, bit for bit */
 };
 
-/* The ray's steps; params as for kd_rays_trace, an engine that takes steps. Finish *out in any case. */
-enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, double alpha, double beta,
-                             struct kd_rays_steps *out, struct kd_error *error);
-void kd_rays_steps_finish(struct kd_rays_steps *steps);
+/* The steps of one ray; params as for kd_rays_trace, an engine that takes steps. Finish *out in any case. */
+enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_params *params, const struct kd_ray_labels *ray, struct kd_rays_steps *out,
+                             struct kd_error *error);
+static inline void kd_rays_steps_finish(struct kd_rays_steps *steps)
+{
+    free(steps->steps);
+    *steps = (struct kd_rays_steps) { 0 };
+}
 
 #endif

@@ -73,7 +73,7 @@ static enum MHD_Result plan_sweep(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (kd_scene_query_check(&request->target, false, NULL, &error))
+    if (kd_scene_query_check(&request->target, false, request->route->own, &error))
         return refuse(request, &error);
     if (!kd_task_admit(request, request->server->turns, "plans of sweeps", &refused))
         return refused;

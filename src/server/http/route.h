@@ -46,7 +46,7 @@ struct kd_route {
     enum kd_gives gives;
     const char *also;   /* other media types of answers, "a/b c/d"; NULL: none */
     unsigned status[2]; /* of an answer that is no problem; { 0 }: 200; DELETE answers 204 */
-    const char *own;    /* a parameter of the query that is no field of the scene, beside which it stands; NULL: none */
+    const char *own[2]; /* parameters of the query that are no fields of the scene, beside which they stand; NULL: none */
 };
 
 /* The table: server/routes.c. */

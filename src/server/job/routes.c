@@ -160,7 +160,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     enum MHD_Result refused;
     if (request->task)
         return deliver(request);
-    if (kd_scene_query_check(&request->target, false, NULL, &error))
+    if (kd_scene_query_check(&request->target, false, request->route->own, &error))
         return refuse(request, &error, false);
     if (!kd_task_admit(request, workers, "jobs", &refused))
         return refused;

@@ -228,9 +228,9 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_scene 
 
 static enum kd_status tag(struct kd_request *request, const struct kd_scene *scene, const struct kd_plan *plan)
 {
-    char hash[65], at[28] = "";
+    char hash[65], at[36] = "";
     if (plan->told.on)
-        snprintf(at, sizeof at, "-%u-%u", plan->told.x, plan->told.y);
+        snprintf(at, sizeof at, "-%u-%u%s", plan->told.x, plan->told.y, plan->told.steps ? "-steps" : "");
     const char *name = request->format == kd_formats[0] ? "" : request->format->name;
     enum kd_status status = kd_scene_hash(scene, hash);
     if (!status)
@@ -241,10 +241,11 @@ static enum kd_status tag(struct kd_request *request, const struct kd_scene *sce
 /* The plan tells of the pixel that the query names. */
 static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
 {
-    const char *at = kd_target_value(&request->target, request->route->own);
+    const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");
     if (!at)
         return kd_error_field(error, "/at", "at is missing: it names the pixel, as in at=320,180");
-    return kd_explain_at(at, plan, error);
+    enum kd_status status = kd_explain_at(at, plan, error);
+    return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
 enum MHD_Result kd_handle_render(struct kd_request *request)

@@ -23,10 +23,10 @@ static void pointer_of(const char *name, char *out, size_t size)
     out[n] = 0;
 }
 
-/* The route's own parameter is no field. */
-static bool is_own(const char *name, const char *own) { return own && !strcmp(name, own); }
+/* The route's own parameters are no fields. */
+static bool is_own(const char *name, const char *const own[2]) { return (own[0] && !strcmp(name, own[0])) || (own[1] && !strcmp(name, own[1])); }
 
-enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *own, struct kd_error *error)
+enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const char *const own[2], struct kd_error *error)
 {
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
@@ -36,7 +36,8 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
             if (fields ? kd_scene_same_path(target->pairs[k].name, name) : !strcmp(target->pairs[k].name, name))
                 return kd_error_field(error, pointer, "the query gives %.100s twice", name);
         if (!fields && strcmp(name, "preset") && !is_own(name, own))
-            return kd_error_field(error, pointer, "the query of a POST may hold preset%s%s, not %.100s", own ? " and " : "", own ? own : "", name);
+            return kd_error_field(error, pointer, "the query of a POST may hold preset%s%s%s%s, not %.100s", own[1] ? ", " : own[0] ? " and " : "",
+                                  own[0] ? own[0] : "", own[1] ? " and " : "", own[1] ? own[1] : "", name);
     }
     return KD_OK;
 }
@@ -56,7 +57,7 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
 }
 
 /* The style first: a query is one document, whatever its order. */
-static enum kd_status apply_fields(const struct kd_target *target, const char *own, struct kd_scene *scene,
+static enum kd_status apply_fields(const struct kd_target *target, const char *const own[2], struct kd_scene *scene,
                                    struct kd_error *error)
 {
     for (size_t i = 0; i < 2 * target->n_pairs; i++) {
@@ -76,7 +77,7 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
                          struct kd_error *error)
 {
     bool post = !strcmp(request->method, "POST"), malformed = false;
-    const char *own = request->route->own;
+    const char *const *own = request->route->own;
 
     kd_scene_defaults(scene);
     enum kd_status status;

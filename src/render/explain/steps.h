@@ -1,0 +1,19 @@
+/* Steps that the device takes along a ray (rays/steps.h), as names, columns and numbers for whoever writes them. Pure, any thread. */
+#ifndef KD_RENDER_EXPLAIN_STEPS_H
+#define KD_RENDER_EXPLAIN_STEPS_H
+
+#include "base/json.h"
+#include "render/rays/steps.h"
+
+#include <stddef.h>
+
+struct kd_steps_column { const char *name; size_t at; };
+/* Those of its engine; behind the last one without a name. */
+const struct kd_steps_column *kd_steps_columns(const struct kd_rays_steps *steps);
+double kd_steps_value(const struct kd_rays_step *step, const struct kd_steps_column *column);
+const char *kd_steps_stage(const struct kd_rays_step *step); /* "start", "step", "crossing", "end" */
+
+/* Writes the member `trace`: who took the steps, and a row of each by the names in `columns`. */
+void kd_steps_json(struct kd_json *json, const struct kd_rays_steps *steps);
+
+#endif
